@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Activation_h
+#define isodiamond_Activation_h
+
+#include "DiamondSet.h"
+#include "ErrorCode.h"
+
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The activation thresholds of a closed set of diamonds.
+ *
+ * The paper refines top-down: a diamond of the front is subdivided if its own error exceeds the
+ * tolerance t, or if a diamond that must be subdivided needs it (closure over all parents). The
+ * sets R(t) that this reaches are nested, so every diamond has a *threshold* theta with
+ * R(t) = {theta > t}. They come from running that very walk once with falling t, with a bucket
+ * queue over the error codes: linear in the number of diamonds. (Paper, sections 4.2 and 7.3;
+ * theta keeps the relevant diamonds' part in closure when MI drops them.)
+ *
+ * @param members a set that holds all ancestors of each of its diamonds (below scale N)
+ * @param triggers by rank, the code of a diamond's own error; 0 where only closure subdivides it
+ * @return by rank, the threshold's code; 0 for what is never reached (nothing, if the members are
+ *         the ancestors of diamonds with a trigger)
+ */
+std::vector<ErrorCode::Type> ActivationThresholds(
+  const Grid& grid, const DiamondSet& members, const std::vector<ErrorCode::Type>& triggers);
+
+}
+
+#endif

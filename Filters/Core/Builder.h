@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Builder_h
+#define isodiamond_Builder_h
+
+#include "IsodiamondHierarchy.h"
+#include "ScalarHierarchy.h"
+
+namespace isodiamond
+{
+
+/**
+ * Builds the RI or MI hierarchy of an isosurface from the samples, with the field metric:
+ * samples -> signs -> isodiamonds -> own errors -> activation thresholds -> encoding.
+ *
+ * @param model Model::Relevant or Model::Minimal
+ */
+Encoding BuildIsodiamonds(
+  Model model, const AnySamples& samples, double isovalue, const ParallelFor& parallelFor);
+
+/** The same from an HD, which has the errors already; the result is the same to the bit. */
+Encoding BuildIsodiamonds(
+  Model model, const ScalarHierarchy& hierarchy, double isovalue, const ParallelFor& parallelFor);
+
+/**
+ * One HD query: the subdivided diamonds at a tolerance, encoded as an RI whose every diamond is
+ * always subdivided. Extracting it, at any tolerance, gives the query's mesh. The set is closed,
+ * so all vertices of its diamonds are centres of diamonds of the set.
+ */
+Encoding EncodeQuery(const ScalarHierarchy& hierarchy, double isovalue, double tolerance,
+  const ParallelFor& parallelFor);
+
+}
+
+#endif

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DiamondSet_h
+#define isodiamond_DiamondSet_h
+
+#include "DiamondTables.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+/**
+ * @file DiamondSet.h
+ * Sets of diamonds as bits in bricks.
+ *
+ * The positions of one scale are cut into *bricks* of 8x8x8; a brick is a mask of 512 bits, one
+ * 64-bit word for every z, bit 8 y + x in it. Only bricks with a bit set are kept. A diamond
+ * needs no coordinates then: its bit says where it is, and the number of bits before it is its
+ * *rank*, the index of its data in plain arrays.
+ */
+namespace isodiamond
+{
+
+using BrickMask = std::array<std::uint64_t, 8>;
+
+inline int PopCount(std::uint64_t word)
+{
+  return __builtin_popcountll(word);
+}
+
+inline int LowestBit(std::uint64_t word)
+{
+  return __builtin_ctzll(word);
+}
+
+/** Calls body(bit) for every set bit, lowest first. */
+template <typename Body>
+void ForEachBit(std::uint64_t word, Body&& body)
+{
+  for (; word != 0; word &= word - 1)
+  {
+    body(LowestBit(word));
+  }
+}
+
+/** The bricks of one scale as a box: how many, and where a position's brick and bit are. */
+struct BrickBox
+{
+  std::array<int, 3> Count{};
+
+  BrickBox() = default;
+  explicit BrickBox(const std::array<int, 3>& positions)
+    : Count{ (positions[0] + 7) / 8, (positions[1] + 7) / 8, (positions[2] + 7) / 8 }
+  {
+  }
+
+  std::int64_t Size() const
+  {
+    return std::int64_t{ 1 } * this->Count[0] * this->Count[1] * this->Count[2];
+  }
+
+  /** Linear index of the brick at brick coordinates, -1 outside of the box. */
+  std::int64_t Index(const Point& brick) const
+  {
+    const bool inside = brick[0] >= 0 && brick[1] >= 0 && brick[2] >= 0 &&
+      brick[0] < this->Count[0] && brick[1] < this->Count[1] && brick[2] < this->Count[2];
+    return inside
+      ? (std::int64_t{ brick[2] } * this->Count[1] + brick[1]) * this->Count[0] + brick[0]
+      : -1;
+  }
+
+  /** Position of the brick's first corner. */
+  Point Origin(std::int64_t index) const
+  {
+    const std::int64_t row = index / this->Count[0];
+    return { 8 * static_cast<int>(index % this->Count[0]),
+      8 * static_cast<int>(row % this->Count[1]), 8 * static_cast<int>(row / this->Count[1]) };
+  }
+};
+
+inline Point BrickOf(const Point& position)
+{
+  return { position[0] >> 3, position[1] >> 3, position[2] >> 3 };
+}
+
+inline int BitOf(const Point& position)
+{
+  return 8 * (position[1] & 7) + (position[0] & 7);
+}
+
+/** The position of a bit of a brick's word z. */
+inline Point PositionOf(const Point& origin, int z, int bit)
+{
+  return { origin[0] + (bit & 7), origin[1] + (bit >> 3), origin[2] + z };
+}
+
+/** A set of diamonds that grows, without ranks. */
+class DiamondMask
+{
+public:
+  DiamondMask() = default;
+  explicit DiamondMask(const Grid& grid);
+
+  bool Contains(const Place& place) const
+  {
+    const Level& level = this->Levels[place.Scale];
+    const std::int64_t index = level.Box.Index(BrickOf(place.Position));
+    if (index < 0 || level.Lookup[index] < 0)
+    {
+      return false;
+    }
+    const std::uint64_t word = level.Masks[level.Lookup[index]][place.Position[2] & 7];
+    return ((word >> BitOf(place.Position)) & 1U) != 0;
+  }
+
+  /** Adds a diamond. @return whether it was not in the set before. */
+  bool Insert(const Place& place);
+
+  /** Adds the bits of one brick. */
+  void Insert(int scale, std::int64_t brickIndex, const BrickMask& mask);
+
+  /** The mask of a brick, null if it is empty. */
+  const BrickMask* Find(int scale, std::int64_t brickIndex) const
+  {
+    const Level& level = this->Levels[scale];
+    return level.Lookup[brickIndex] < 0 ? nullptr : &level.Masks[level.Lookup[brickIndex]];
+  }
+
+  const BrickBox& Box(int scale) const { return this->Levels[scale].Box; }
+  int ScaleCount() const { return static_cast<int>(this->Levels.size()); }
+
+  /** Calls body(place) for every diamond, coarse to fine, in the order of the ranks. */
+  template <typename Body>
+  void ForEach(Body&& body) const
+  {
+    for (int scale = this->ScaleCount() - 1; scale >= 0; --scale)
+    {
+      this->ForEachOfScale(scale, body);
+    }
+  }
+
+  /** Calls body(place) for every diamond of one scale. The set may grow at other scales. */
+  template <typename Body>
+  void ForEachOfScale(int scale, Body&& body) const
+  {
+    const Level& level = this->Levels[scale];
+    for (std::int64_t index = 0; index < level.Box.Size(); ++index)
+    {
+      if (level.Lookup[index] < 0)
+      {
+        continue;
+      }
+      const Point origin = level.Box.Origin(index);
+      const BrickMask mask = level.Masks[level.Lookup[index]];
+      for (int z = 0; z < 8; ++z)
+      {
+        ForEachBit(mask[z], [&](int bit) { body(Place{ scale, PositionOf(origin, z, bit) }); });
+      }
+    }
+  }
+
+private:
+  struct Level
+  {
+    BrickBox Box;
+    std::vector<std::int32_t> Lookup;
+    std::vector<BrickMask> Masks;
+  };
+
+  BrickMask& BrickAt(Level& level, std::int64_t brickIndex);
+
+  std::vector<Level> Levels;
+};
+
+/** A brick of a ranked set. */
+struct Brick
+{
+  BrickMask Occupancy{};
+  std::array<std::uint16_t, 8> Before{}; ///< diamonds of this brick before each word
+  std::uint32_t First = 0;               ///< rank of the brick's first diamond
+  std::uint32_t BoxIndex = 0;            ///< linear index of the brick in its scale's box
+
+  bool Contains(int z, int bit) const { return ((this->Occupancy[z] >> bit) & 1U) != 0; }
+
+  std::uint32_t Rank(int z, int bit) const
+  {
+    const std::uint64_t below = this->Occupancy[z] & ((std::uint64_t{ 1 } << bit) - 1);
+    return this->First + this->Before[z] + static_cast<std::uint32_t>(PopCount(below));
+  }
+
+  std::uint32_t Size() const
+  {
+    return this->Before[7] + static_cast<std::uint32_t>(PopCount(this->Occupancy[7]));
+  }
+};
+
+/** The ranked bricks of one scale. */
+struct BrickLevel
+{
+  BrickBox Box;
+  std::vector<std::int32_t> Lookup; ///< box index -> index in Bricks, -1 where there is none
+  std::vector<Brick> Bricks;        ///< in the order of their box indices
+
+  const Brick* Find(const Point& position) const
+  {
+    const std::int64_t index = this->Box.Index(BrickOf(position));
+    return index < 0 || this->Lookup[index] < 0 ? nullptr : &this->Bricks[this->Lookup[index]];
+  }
+};
+
+/**
+ * A set of diamonds with ranks: coarse scales first (from N, the base cube's corners, to 0), then
+ * by brick, word and bit.
+ */
+class DiamondSet
+{
+public:
+  static constexpr std::int64_t None = -1;
+
+  DiamondSet() = default;
+  explicit DiamondSet(const Grid& grid);
+  DiamondSet(const Grid& grid, const DiamondMask& mask);
+
+  /** Appends a brick; scales must come from coarse to fine and bricks of a scale in order.
+   *  @throws std::length_error at more than 2^32 - 1 diamonds. */
+  void Append(int scale, std::int64_t brickIndex, const BrickMask& mask);
+
+  std::int64_t Size() const { return this->Count; }
+  int ScaleCount() const { return static_cast<int>(this->Levels.size()); }
+  const BrickLevel& Level(int scale) const { return this->Levels[scale]; }
+
+  /** Rank of the diamond at a place, None if it is not in the set. */
+  std::int64_t Rank(const Place& place) const
+  {
+    const Brick* brick = this->Levels[place.Scale].Find(place.Position);
+    const int z = place.Position[2] & 7;
+    const int bit = BitOf(place.Position);
+    return brick != nullptr && brick->Contains(z, bit) ? std::int64_t{ brick->Rank(z, bit) } : None;
+  }
+
+  bool Contains(const Place& place) const { return this->Rank(place) != None; }
+
+  /** Calls body(place, rank) for every diamond of one brick, in order. */
+  template <typename Body>
+  void ForEachInBrick(int scale, const Brick& brick, Body&& body) const
+  {
+    const Point origin = this->Levels[scale].Box.Origin(brick.BoxIndex);
+    std::uint32_t rank = brick.First;
+    for (int z = 0; z < 8; ++z)
+    {
+      ForEachBit(brick.Occupancy[z],
+        [&](int bit) {
+          body(Place{ scale, PositionOf(origin, z, bit) }, rank++);
+        });
+    }
+  }
+
+  /** Calls body(place, rank) for every diamond, in order. */
+  template <typename Body>
+  void ForEach(Body&& body) const
+  {
+    for (int scale = this->ScaleCount() - 1; scale >= 0; --scale)
+    {
+      for (const Brick& brick : this->Levels[scale].Bricks)
+      {
+        this->ForEachInBrick(scale, brick, body);
+      }
+    }
+  }
+
+private:
+  std::vector<BrickLevel> Levels;
+  std::int64_t Count = 0;
+};
+
+}
+
+#endif

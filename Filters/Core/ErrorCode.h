@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_ErrorCode_h
+#define isodiamond_ErrorCode_h
+
+#include <cmath>
+#include <cstdint>
+
+namespace isodiamond
+{
+
+/**
+ * Errors in 14 bits: a floating-point code, monotone, relative precision 2^-9, rounded up.
+ *
+ * With `code = 512 e + m` the value is `scale * (1 + m / 512) * 2^(e - 31)`, where the scale is
+ * the largest error that the volume and the metric allow. Decode(Encode(x)) >= x, so a test with
+ * the code can subdivide too much (by 0.2 %), never too little. Code 0 means "no error of its
+ * own" and is never stored; the top code decodes to infinity: always subdivided.
+ */
+class ErrorCode
+{
+public:
+  using Type = std::uint16_t;
+
+  static constexpr Type Always = 0x3fff;
+  static constexpr Type Least = 1;
+
+  /** @param scale the largest possible error, in the metric's units; 1 if that is not positive. */
+  explicit ErrorCode(double scale = 1.0)
+    : ScaleValue(scale > 0.0 && std::isfinite(scale) ? scale : 1.0)
+  {
+  }
+
+  double Scale() const { return this->ScaleValue; }
+
+  /** The error that a code stands for. */
+  double Decode(Type code) const
+  {
+    if (code >= Always)
+    {
+      return HUGE_VAL;
+    }
+    const int exponent = code >> 9;
+    const double mantissa = 1.0 + (code & 511) / 512.0;
+    return std::ldexp(this->ScaleValue * mantissa, exponent - 31);
+  }
+
+  /** The smallest code >= Least whose value is not below the error; Always for NaN and beyond. */
+  Type Encode(double error) const
+  {
+    const double relative = error / this->ScaleValue;
+    if (!(relative <= 1.5)) // also NaN; errors beyond the scale come from overflow only
+    {
+      return Always;
+    }
+    if (!(relative > std::ldexp(1.0, -31)))
+    {
+      return Least;
+    }
+    int exponent = 0;
+    const double mantissa = 2.0 * std::frexp(relative, &exponent); // in [1, 2)
+    const int steps = static_cast<int>(std::ceil((mantissa - 1.0) * 512.0));
+    int code = 512 * (exponent - 1 + 31) + steps;
+    while (code < Always && this->Decode(static_cast<Type>(code)) < error)
+    {
+      ++code; // the division may have rounded down
+    }
+    return code < Least ? Least : static_cast<Type>(code);
+  }
+
+  /**
+   * The largest code that a tolerance accepts: a diamond is subdivided iff its code is greater.
+   * Always - 1 for an infinite tolerance; 0 for tolerance 0 (and for anything not positive).
+   */
+  Type Accepted(double tolerance) const
+  {
+    int low = 0;
+    int high = Always - 1;
+    while (low < high)
+    {
+      const int middle = (low + high + 1) / 2;
+      if (this->Decode(static_cast<Type>(middle)) <= tolerance)
+      {
+        low = middle;
+      }
+      else
+      {
+        high = middle - 1;
+      }
+    }
+    return static_cast<Type>(low);
+  }
+
+private:
+  double ScaleValue;
+};
+
+}
+
+#endif

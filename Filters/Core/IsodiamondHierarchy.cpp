@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IsodiamondHierarchy.h"
+
+#include <limits>
+#include <stdexcept>
+
+namespace isodiamond
+{
+namespace
+{
+
+void Require(bool condition, const char* message)
+{
+  if (!condition)
+  {
+    throw std::invalid_argument(message);
+  }
+}
+
+/** The positions of a brick that can hold a diamond of its scale. */
+BrickMask AllowedBits(const Grid& grid, int scale, const Point& origin)
+{
+  if (scale == grid.Depth())
+  {
+    return CornerBrick();
+  }
+  const std::array<int, 3> count = grid.Positions(scale);
+  BrickMask mask{};
+  for (int z = 0; z < 8; ++z)
+  {
+    for (int bit = 0; bit < 64; ++bit)
+    {
+      const Point position = PositionOf(origin, z, bit);
+      const bool inside =
+        position[0] < count[0] && position[1] < count[1] && position[2] < count[2];
+      mask[z] |= static_cast<std::uint64_t>(inside && Parity(position) != 0) << bit;
+    }
+  }
+  return mask;
+}
+
+}
+
+std::int64_t EncodingView::StorageSize() const
+{
+  return 4 * this->Arrays.BrickCounts.Size + 4 * this->Arrays.BrickIndices.Size +
+    8 * this->Arrays.BrickMasks.Size + 2 * this->Arrays.Records.Size +
+    this->Arrays.Isovertices.Size;
+}
+
+IsodiamondHierarchy::IsodiamondHierarchy(
+  const EncodingView& encoding, const ParallelFor& parallelFor)
+  : View(encoding)
+  , TheGrid(encoding.Header.Dimensions)
+  , Set(this->TheGrid)
+  , Code(encoding.Header.ErrorScale)
+{
+  Require(encoding.Header.Kind == Model::Relevant || encoding.Header.Kind == Model::Minimal,
+    "the encoding is not that of a relevant or minimal isodiamond hierarchy");
+  Require(encoding.Header.ErrorScale > 0.0 && std::isfinite(encoding.Header.ErrorScale),
+    "the error scale is not a positive number");
+  this->ReadBricks();
+  this->CheckRecords();
+
+  this->EdgesAndKinds.resize(this->Set.Size());
+  for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    const std::vector<Brick>& bricks = this->Set.Level(scale).Bricks;
+    parallelFor(static_cast<std::int64_t>(bricks.size()), 16,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          this->DeriveEdges(scale, bricks[i]);
+        }
+      });
+  }
+
+  // Where each diamond's isovertices begin, and the counts by kind.
+  this->FirstIsovertex.resize(this->Set.Size());
+  std::int64_t isovertices = 0;
+  for (std::int64_t rank = 0; rank < this->Set.Size(); ++rank)
+  {
+    this->FirstIsovertex[rank] = static_cast<std::uint32_t>(isovertices);
+    isovertices += PopCount(this->Edges(rank));
+    this->Counts[static_cast<int>(this->KindOf(rank))] += rank < 8 ? 0 : 1;
+  }
+  Require(isovertices == encoding.Arrays.Isovertices.Size,
+    "the number of isovertices does not match the signs");
+}
+
+std::int64_t IsodiamondHierarchy::DerivedSize() const
+{
+  std::int64_t size =
+    static_cast<std::int64_t>(2 * this->EdgesAndKinds.size() + 4 * this->FirstIsovertex.size());
+  for (int scale = 0; scale < this->Set.ScaleCount(); ++scale)
+  {
+    const BrickLevel& level = this->Set.Level(scale);
+    size +=
+      static_cast<std::int64_t>(4 * level.Lookup.size() + sizeof(Brick) * level.Bricks.size());
+  }
+  return size;
+}
+
+void IsodiamondHierarchy::ReadBricks()
+{
+  const EncodingArrays<ArrayView>& arrays = this->View.Arrays;
+  Require(arrays.BrickCounts.Size == this->TheGrid.Depth() + 1,
+    "the number of scales does not match the dimensions");
+  Require(arrays.BrickMasks.Size == 8 * arrays.BrickIndices.Size,
+    "the numbers of brick masks and of brick indices do not match");
+  std::int64_t brick = 0;
+  for (int scale = this->TheGrid.Depth(); scale >= 0; --scale)
+  {
+    const BrickBox& box = this->Set.Level(scale).Box;
+    const std::int64_t end = brick + arrays.BrickCounts[this->TheGrid.Depth() - scale];
+    Require(end <= arrays.BrickIndices.Size, "there are fewer bricks than the scales need");
+    for (std::int64_t previous = -1; brick < end; ++brick)
+    {
+      const std::int64_t index = arrays.BrickIndices[brick];
+      Require(index > previous && index < box.Size(), "a brick's index is out of order or range");
+      previous = index;
+      const BrickMask allowed = AllowedBits(this->TheGrid, scale, box.Origin(index));
+      BrickMask mask{};
+      std::uint64_t any = 0;
+      for (int z = 0; z < 8; ++z)
+      {
+        mask[z] = arrays.BrickMasks[8 * brick + z];
+        any |= mask[z];
+        Require((mask[z] & ~allowed[z]) == 0, "a brick has a diamond where none can be");
+      }
+      Require(any != 0, "a brick is empty");
+      this->Set.Append(scale, index, mask);
+    }
+  }
+  Require(brick == arrays.BrickIndices.Size, "there are more bricks than the scales need");
+  const std::vector<Brick>& corners = this->Set.Level(this->TheGrid.Depth()).Bricks;
+  Require(corners.size() == 1 && corners[0].Occupancy == CornerBrick(),
+    "the corners of the base cube are missing");
+}
+
+void IsodiamondHierarchy::CheckRecords() const
+{
+  const ArrayView<std::uint16_t>& records = this->View.Arrays.Records;
+  Require(records.Size == this->Set.Size(), "the number of records does not match the bricks");
+  Require(this->View.Arrays.Isovertices.Size <= std::numeric_limits<std::uint32_t>::max(),
+    "more than 2^32 - 1 isovertices");
+  bool valid = true;
+  for (std::int64_t rank = 0; rank < records.Size; ++rank)
+  {
+    valid =
+      valid && Record::Code(records[rank]) >= ErrorCode::Least && Record::Sign(records[rank]) <= 1;
+  }
+  Require(valid, "a record has an invalid error code or sign");
+  for (std::int64_t i = 0; i < this->View.Arrays.Isovertices.Size; ++i)
+  {
+    valid = valid && this->View.Arrays.Isovertices[i] != 0;
+  }
+  Require(valid, "an isovertex has the coefficient 0");
+}
+
+int IsodiamondHierarchy::SignAt(const Place& place) const
+{
+  // A diamond that is not stored has one sign, that of each of its vertices (theorem 7.1). Its
+  // vertex with the lowest bit cleared on every axis is sampled where its centre is; the corners
+  // of the base cube end the chain.
+  Point position = place.Position;
+  int scale = place.Scale;
+  while (true)
+  {
+    while (scale < this->TheGrid.Depth() && Parity(position) == 0)
+    {
+      position = { position[0] >> 1, position[1] >> 1, position[2] >> 1 };
+      ++scale;
+    }
+    const std::int64_t rank = this->Set.Rank({ scale, position });
+    if (rank != DiamondSet::None)
+    {
+      return this->Sign(rank);
+    }
+    position = { position[0] & ~1, position[1] & ~1, position[2] & ~1 };
+  }
+}
+
+void IsodiamondHierarchy::DeriveEdges(int scale, const Brick& brick)
+{
+  this->Set.ForEachInBrick(scale, brick,
+    [&](const Place& place, std::uint32_t rank)
+    { this->EdgesAndKinds[rank] = this->DeriveDiamond(place, rank); });
+}
+
+std::uint16_t IsodiamondHierarchy::DeriveDiamond(const Place& place, std::int64_t rank) const
+{
+  const ParityTable& shape = tables::Parities[Parity(place.Position)];
+  std::uint32_t above = 0;
+  std::uint32_t below = 0;
+  for (int i = 0; i < shape.VertexCount; ++i)
+  {
+    const Point vertex = place.Position + shape.Offsets[i];
+    if (this->TheGrid.IsSampled((1 << place.Scale) * vertex))
+    {
+      const bool isAbove = this->SignAt({ place.Scale, vertex }) != 0;
+      (isAbove ? above : below) |= 1U << i;
+    }
+  }
+  std::uint32_t edges = 0;
+  if (this->TheGrid.IsSampled((1 << place.Scale) * place.Position))
+  {
+    edges = this->Sign(rank) != 0 ? below : above;
+  }
+  const Kind kind =
+    above != 0 && below != 0 ? Kind::Active : (edges != 0 ? Kind::Creation : Kind::Relevant);
+  return static_cast<std::uint16_t>(edges | (static_cast<std::uint32_t>(kind) << 12));
+}
+
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Parallel_h
+#define isodiamond_Parallel_h
+
+#include <cstdint>
+#include <functional>
+
+/**
+ * @file Parallel.h
+ * The core starts no threads of its own: it is given its parallel-for.
+ *
+ * Every use in the core is a loop over independent ranges that write to places of their own
+ * (count -> prefix sum -> write), so results do not depend on how the ranges are cut or run.
+ */
+namespace isodiamond
+{
+
+/** Runs body(begin, end) over ranges that cover [0, count) once. @param grain least range size. */
+using ParallelFor = std::function<void(std::int64_t count, std::int64_t grain,
+  const std::function<void(std::int64_t begin, std::int64_t end)>& body)>;
+
+/** The parallel-for of one thread. */
+inline void SerialFor(std::int64_t count, std::int64_t /*grain*/,
+  const std::function<void(std::int64_t, std::int64_t)>& body)
+{
+  if (count > 0)
+  {
+    body(0, count);
+  }
+}
+
+}
+
+#endif

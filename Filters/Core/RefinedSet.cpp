@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefinedSet.h"
+
+namespace isodiamond
+{
+
+std::vector<BrickPlace> AllBricks(const DiamondSet& set)
+{
+  std::vector<BrickPlace> all;
+  for (int scale = set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    const std::int64_t count = static_cast<std::int64_t>(set.Level(scale).Bricks.size());
+    for (std::int64_t index = 0; index < count; ++index)
+    {
+      all.push_back({ scale, index });
+    }
+  }
+  return all;
+}
+
+RefinedSet::RefinedSet(
+  const IsodiamondHierarchy& hierarchy, double tolerance, const ParallelFor& parallelFor)
+  : Source(hierarchy)
+  , Masks(hierarchy.Diamonds().ScaleCount())
+{
+  const ErrorCode::Type accepted = hierarchy.Codes().Accepted(tolerance);
+  for (int scale = 0; scale < hierarchy.Diamonds().ScaleCount(); ++scale)
+  {
+    const std::vector<Brick>& bricks = hierarchy.Diamonds().Level(scale).Bricks;
+    this->Masks[scale].resize(bricks.size());
+    parallelFor(static_cast<std::int64_t>(bricks.size()), 64,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          BrickMask& mask = this->Masks[scale][i];
+          mask = bricks[i].Occupancy;
+          if (accepted < ErrorCode::Least)
+          {
+            continue; // full resolution: all of them
+          }
+          std::uint32_t rank = bricks[i].First;
+          for (std::uint64_t& word : mask)
+          {
+            std::uint64_t kept = 0;
+            ForEachBit(word,
+              [&](int bit)
+              {
+                const bool above = hierarchy.Threshold(rank++) > accepted;
+                kept |= static_cast<std::uint64_t>(above) << bit;
+              });
+            word = kept;
+          }
+        }
+      });
+  }
+}
+
+std::int64_t RefinedSet::Count() const
+{
+  std::int64_t count = 0;
+  for (int scale = 0; scale < this->Source.Domain().Depth(); ++scale)
+  {
+    for (const BrickMask& mask : this->Masks[scale])
+    {
+      for (const std::uint64_t word : mask)
+      {
+        count += PopCount(word);
+      }
+    }
+  }
+  return count;
+}
+
+}

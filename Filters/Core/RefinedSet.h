@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_RefinedSet_h
+#define isodiamond_RefinedSet_h
+
+#include "IsodiamondHierarchy.h"
+
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The subdivided diamonds of a query: R(t) = {threshold > t}, a mask for every brick.
+ *
+ * No front, no closure: the thresholds have them (see Activation.h). The corners of the base cube
+ * always count as subdivided. Leaves of the current mesh are the half-tetrahedra of refined
+ * diamonds whose child is not refined.
+ */
+class RefinedSet
+{
+public:
+  /** @param tolerance in the units of the hierarchy's metric; 0 is full resolution, infinity
+   *         leaves only what must always be subdivided; negative and NaN count as 0. */
+  RefinedSet(
+    const IsodiamondHierarchy& hierarchy, double tolerance, const ParallelFor& parallelFor);
+
+  const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
+
+  /** The refined diamonds of a brick. */
+  const BrickMask& Mask(int scale, std::int64_t brick) const { return this->Masks[scale][brick]; }
+
+  /** Whether a diamond is refined; those that are not stored are not. */
+  bool Contains(const Place& place) const
+  {
+    const BrickLevel& level = this->Source.Diamonds().Level(place.Scale);
+    const std::int64_t index = level.Box.Index(BrickOf(place.Position));
+    if (index < 0 || level.Lookup[index] < 0)
+    {
+      return false;
+    }
+    const BrickMask& mask = this->Masks[place.Scale][level.Lookup[index]];
+    return ((mask[place.Position[2] & 7] >> BitOf(place.Position)) & 1U) != 0;
+  }
+
+  /** Number of refined diamonds, corners of the base cube not counted. */
+  std::int64_t Count() const;
+
+private:
+  const IsodiamondHierarchy& Source;
+  std::vector<std::vector<BrickMask>> Masks;
+};
+
+/** Every brick of a hierarchy, coarse to fine: the unit of work of the extraction's passes. */
+struct BrickPlace
+{
+  int Scale = 0;
+  std::int64_t Index = 0; ///< in its level's list
+};
+std::vector<BrickPlace> AllBricks(const DiamondSet& set);
+
+/** The vertices of a diamond that have a sample, as an edge mask. */
+inline std::uint32_t SampledVertices(const Grid& grid, const Place& place, const TypeTable& shape)
+{
+  std::uint32_t mask = 0;
+  for (int i = 0; i < shape.VertexCount; ++i)
+  {
+    const Point vertex = (1 << place.Scale) * (place.Position + shape.Offsets[i]);
+    mask |= static_cast<std::uint32_t>(grid.IsSampled(vertex)) << i;
+  }
+  return mask;
+}
+
+/** A leaf of the current mesh: a half-tetrahedron whose vertices all have samples. */
+struct Leaf
+{
+  Place Parent;           ///< the refined diamond, whose centre is the leaf's youngest vertex
+  std::uint32_t Rank = 0; ///< of the parent
+  const TypeTable& Shape; ///< of the parent
+  const HalfTetrahedron& Half;
+  int Scale = 0; ///< scale of the diamond that the leaf lies in; -1 at full resolution
+};
+
+/**
+ * Calls body(leaf) for the leaves of one brick's refined diamonds.
+ *
+ * @param crossed(rank) mask of the subdivision edges that make a half-tetrahedron wanted: it is
+ *        visited if it has one of them
+ */
+template <typename Crossed, typename Body>
+void ForEachLeaf(
+  const RefinedSet& refined, const BrickPlace& brickPlace, Crossed&& crossed, Body&& body)
+{
+  const IsodiamondHierarchy& hierarchy = refined.Hierarchy();
+  const Grid& grid = hierarchy.Domain();
+  const BrickLevel& level = hierarchy.Diamonds().Level(brickPlace.Scale);
+  const Brick& brick = level.Bricks[brickPlace.Index];
+  const BrickMask& mask = refined.Mask(brickPlace.Scale, brickPlace.Index);
+  const Point origin = level.Box.Origin(brick.BoxIndex);
+  const bool interior = origin[0] > 0 && origin[1] > 0 && origin[2] > 0 &&
+    grid.IsSampled((1 << brickPlace.Scale) * (origin + Point{ 8, 8, 8 }));
+  for (int z = 0; z < 8; ++z)
+  {
+    ForEachBit(mask[z],
+      [&](int bit)
+      {
+        const Place place{ brickPlace.Scale, PositionOf(origin, z, bit) };
+        const std::uint32_t rank = brick.Rank(z, bit);
+        const std::uint32_t wanted = crossed(rank);
+        if (wanted == 0)
+        {
+          return;
+        }
+        const TypeTable& shape = ShapeOf(place.Position);
+        const std::uint32_t sampled = interior ? 0x3ffU : SampledVertices(grid, place, shape);
+        for (int child = 0; child < shape.ChildCount; ++child)
+        {
+          if ((shape.ChildMasks[child] & wanted) == 0)
+          {
+            continue;
+          }
+          const Place childPlace = ChildPlace(shape, place, child);
+          if (childPlace.Scale >= 0 && refined.Contains(childPlace))
+          {
+            continue;
+          }
+          const HalfTetrahedron* half = &shape.HalfTetrahedra[child * shape.HalfTetrahedraPerChild];
+          for (int i = 0; i < shape.HalfTetrahedraPerChild; ++i, ++half)
+          {
+            if ((half->Mask & wanted) != 0 && (half->Mask & ~sampled) == 0)
+            {
+              body(Leaf{ place, rank, shape, *half, childPlace.Scale });
+            }
+          }
+        }
+      });
+  }
+}
+
+}
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Samples.h"
+
+#include <limits>
+
+namespace isodiamond
+{
+
+ValueRange FiniteRange(const AnySamples& samples)
+{
+  return std::visit(
+    [](const auto& view)
+    {
+      using T = typename std::decay_t<decltype(view)>::Value;
+      T low = std::numeric_limits<T>::max();
+      T high = std::numeric_limits<T>::lowest();
+      const T* data = view.Pointer();
+      for (std::int64_t i = 0; i < view.Size(); ++i)
+      {
+        // x - x is 0 exactly for finite values
+        if (std::is_integral_v<T> || data[i] - data[i] == T{ 0 })
+        {
+          low = data[i] < low ? data[i] : low;
+          high = data[i] > high ? data[i] : high;
+        }
+      }
+      return low <= high ? ValueRange{ static_cast<double>(low), static_cast<double>(high) }
+                         : ValueRange{};
+    },
+    samples);
+}
+
+}

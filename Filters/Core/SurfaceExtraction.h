@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_SurfaceExtraction_h
+#define isodiamond_SurfaceExtraction_h
+
+#include "RefinedSet.h"
+
+#include <vector>
+
+namespace isodiamond
+{
+
+/** An affine map from index space: world = Matrix * (x, y, z, 1), row by row. */
+struct AffineMap
+{
+  std::array<std::array<double, 4>, 3> Rows = { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 },
+    { 0, 0, 1, 0 } } };
+
+  std::array<double, 3> operator()(double x, double y, double z) const
+  {
+    std::array<double, 3> world{};
+    for (int i = 0; i < 3; ++i)
+    {
+      world[i] =
+        this->Rows[i][0] * x + this->Rows[i][1] * y + this->Rows[i][2] * z + this->Rows[i][3];
+    }
+    return world;
+  }
+
+  /** Whether the map turns orientation around; triangles then wind the other way in index space. */
+  bool Mirrors() const
+  {
+    const auto& r = this->Rows;
+    return r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
+      r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
+      r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]) <
+      0.0;
+  }
+};
+
+/**
+ * The isosurface of a refined set: marching tetrahedra over the leaves of the current mesh.
+ *
+ * Point ids need no locator: an isovertex belongs to the diamond that owns its edge, is alive
+ * while that diamond is refined and the one centred at the edge's midpoint is not, and ids are a
+ * prefix sum over owners. The constructor counts; the caller allocates and has the arrays
+ * written. Order and values of the output do not depend on threads. Paper, section 6.
+ */
+class SurfaceExtraction
+{
+public:
+  /** The refined set must outlive the extraction. @throws std::length_error beyond 2^32 - 1
+   *  points. */
+  SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
+
+  std::int64_t PointCount() const { return this->FirstPoint.back(); }
+  std::int64_t TriangleCount() const { return this->FirstTriangle.back(); }
+
+  /** Writes 3 coordinates a point. */
+  void WritePoints(const AffineMap& world, float* points) const;
+
+  /** Writes 3 point ids a triangle; normals point to lower values. @param mirrored of the map
+   *  that places the points. */
+  template <typename Id>
+  void WriteTriangles(bool mirrored, Id* connectivity) const;
+
+  /** Writes the level of the diamond that each triangle lies in: 0 for the root, N at full
+   *  resolution. */
+  void WriteLevels(std::uint8_t* levels) const;
+
+private:
+  /** The points of one refined diamond: its alive isovertices have consecutive ids. */
+  struct Slot
+  {
+    std::uint32_t First = 0;
+    std::uint32_t Alive = 0;
+
+    std::uint32_t Id(int edge) const
+    {
+      return this->First + static_cast<std::uint32_t>(PopCount(this->Alive & ((1U << edge) - 1U)));
+    }
+  };
+
+  std::uint32_t AliveEdges(const Place& place, std::uint32_t edges) const;
+  void CountBrick(std::int64_t brick);
+  template <typename Id>
+  Id* WriteLeaf(const Leaf& leaf, bool mirrored, Id* next) const;
+
+  template <typename Body>
+  void ForEachBrick(std::int64_t grain, Body&& body) const;
+
+  const RefinedSet& Refined;
+  const IsodiamondHierarchy& Source;
+  ParallelFor Parallel;
+  std::vector<BrickPlace> Bricks;
+  std::vector<Slot> Slots;                 ///< by rank
+  std::vector<std::int64_t> FirstPoint;    ///< by brick, and the total
+  std::vector<std::int64_t> FirstTriangle; ///< by brick, and the total
+};
+
+}
+
+#endif
