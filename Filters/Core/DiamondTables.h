@@ -409,6 +409,12 @@ struct Place
   Point Position{};
 };
 
+/** A diamond's central vertex. */
+inline constexpr Point Centre(const Place& place)
+{
+  return (1 << place.Scale) * place.Position;
+}
+
 /** The place of a child; Scale -1 for those below full resolution. */
 inline constexpr Place ChildPlace(const TypeTable& shape, const Place& parent, int child)
 {

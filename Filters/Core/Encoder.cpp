@@ -44,7 +44,7 @@ public:
   template <typename Body>
   void ForEachIsovertex(const Place& place, Body&& body) const
   {
-    const Point centre = (1 << place.Scale) * place.Position;
+    const Point centre = Centre(place);
     if (!this->Domain.IsSampled(centre))
     {
       return;
@@ -68,7 +68,7 @@ public:
 
   int Sign(const Place& place) const
   {
-    const Point centre = (1 << place.Scale) * place.Position;
+    const Point centre = Centre(place);
     return this->Domain.IsSampled(centre) ? SignOf(this->Samples(centre), this->Isovalue) : 0;
   }
 

@@ -204,7 +204,7 @@ std::uint16_t IsodiamondHierarchy::DeriveDiamond(const Place& place, std::int64_
     }
   }
   std::uint32_t edges = 0;
-  if (this->TheGrid.IsSampled((1 << place.Scale) * place.Position))
+  if (this->TheGrid.IsSampled(Centre(place)))
   {
     edges = this->Sign(rank) != 0 ? below : above;
   }

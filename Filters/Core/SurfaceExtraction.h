@@ -2,40 +2,13 @@
 #ifndef isodiamond_SurfaceExtraction_h
 #define isodiamond_SurfaceExtraction_h
 
+#include "AffineMap.h"
 #include "RefinedSet.h"
 
 #include <vector>
 
 namespace isodiamond
 {
-
-/** An affine map from index space: world = Matrix * (x, y, z, 1), row by row. */
-struct AffineMap
-{
-  std::array<std::array<double, 4>, 3> Rows = { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 },
-    { 0, 0, 1, 0 } } };
-
-  std::array<double, 3> operator()(double x, double y, double z) const
-  {
-    std::array<double, 3> world{};
-    for (int i = 0; i < 3; ++i)
-    {
-      world[i] =
-        this->Rows[i][0] * x + this->Rows[i][1] * y + this->Rows[i][2] * z + this->Rows[i][3];
-    }
-    return world;
-  }
-
-  /** Whether the map turns orientation around; triangles then wind the other way in index space. */
-  bool Mirrors() const
-  {
-    const auto& r = this->Rows;
-    return r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
-      r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
-      r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]) <
-      0.0;
-  }
-};
 
 /**
  * The isosurface of a refined set: marching tetrahedra over the leaves of the current mesh.

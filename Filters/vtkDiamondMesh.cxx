@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDiamondMesh.h"
+
+#include "DiamondMesh.h"
+#include "vtkIsodiamondInput.h"
+#include "vtkIsodiamondQuery.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <utility>
+
+vtkStandardNewMacro(vtkDiamondMesh);
+
+namespace
+{
+
+void AddArray(
+  vtkUnstructuredGrid* output, const char* name, const std::vector<std::uint8_t>& values)
+{
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  output->GetCellData()->AddArray(array);
+}
+
+void WriteMesh(const isodiamond::DiamondMesh& mesh, const isodiamond::AffineMap& world,
+  vtkUnstructuredGrid* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.Points.size()));
+  for (std::size_t i = 0; i < mesh.Points.size(); ++i)
+  {
+    const isodiamond::Point& p = mesh.Points[i];
+    points->SetPoint(static_cast<vtkIdType>(i), world(p[0], p[1], p[2]).data());
+  }
+  vtkNew<vtkCellArray> cells;
+  for (const std::array<std::int64_t, 4>& tetrahedron : mesh.Tetrahedra)
+  {
+    vtkIdType ids[4] = { tetrahedron[0], tetrahedron[1], tetrahedron[2], tetrahedron[3] };
+    if (world.Mirrors())
+    {
+      std::swap(ids[2], ids[3]);
+    }
+    cells->InsertNextCell(4, ids);
+  }
+  output->SetPoints(points);
+  output->SetCells(VTK_TETRA, cells);
+  AddArray(output, "Level", mesh.Levels);
+  AddArray(output, "Class", mesh.Classes);
+}
+
+}
+
+//------------------------------------------------------------------------------
+vtkDiamondMesh::vtkDiamondMesh() = default;
+
+//------------------------------------------------------------------------------
+void vtkDiamondMesh::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
+
+//------------------------------------------------------------------------------
+int vtkDiamondMesh::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  if (!vtkIsodiamond::IsFirstPiece(outputVector->GetInformationObject(0)))
+  {
+    return 1; // the first piece has all of it
+  }
+  try
+  {
+    const vtkIsodiamond::Query query{ this->ErrorTolerance, this->UseIsovalue, this->Isovalue };
+    vtkIsodiamond::RunQuery(this, vtkPolyData::GetData(inputVector[0]), query,
+      this->NumberOfThreads,
+      [&](const vtkIsodiamond::State& state, const isodiamond::IsodiamondHierarchy& hierarchy)
+      {
+        const isodiamond::RefinedSet refined(
+          hierarchy, this->ErrorTolerance, vtkIsodiamond::SMPFor());
+        WriteMesh(isodiamond::ExtractDiamondMesh(refined), state.World, output);
+      });
+  }
+  catch (const std::exception& problem)
+  {
+    output->Initialize();
+    vtkErrorMacro(<< problem.what());
+  }
+  return 1;
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDiamondMesh
+ * @brief   the tetrahedra of the current diamond mesh of a query
+ *
+ * Input: a hierarchy; properties: those of vtkIsodiamondExtractor. Output: the tetrahedra under
+ * the front at that tolerance, with the cell arrays `Level` and `Class` of the diamond that each
+ * lies in (the paper's figure 14). From HD and RI they tile the domain, from MI they are only
+ * those that carry the surface. Tetrahedra that stick out of the image are left out.
+ *
+ * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010, section 6.
+ */
+
+#ifndef vtkDiamondMesh_h
+#define vtkDiamondMesh_h
+
+#include "vtkIsodiamondExtractor.h"
+#include "vtkIsodiamondFiltersModule.h" // for export macro
+
+class VTKISODIAMONDFILTERS_EXPORT vtkDiamondMesh : public vtkIsodiamondExtractor
+{
+public:
+  static vtkDiamondMesh* New();
+  vtkTypeMacro(vtkDiamondMesh, vtkIsodiamondExtractor);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+protected:
+  vtkDiamondMesh();
+  ~vtkDiamondMesh() override = default;
+
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkDiamondMesh(const vtkDiamondMesh&) = delete;
+  void operator=(const vtkDiamondMesh&) = delete;
+};
+
+#endif

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondBuilder.h"
+
+#include "Builder.h"
+#include "vtkIsodiamondInput.h"
+#include "vtkIsodiamondState.h"
+#include "vtkIsodiamondThreads.h"
+
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+
+#include <cmath>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkIsodiamondBuilder);
+
+//------------------------------------------------------------------------------
+vtkIsodiamondBuilder::vtkIsodiamondBuilder() = default;
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondBuilder::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Model: " << this->Model << "\n";
+  os << indent << "Isovalue: " << this->Isovalue << "\n";
+  os << indent << "CloseBoundary: " << (this->CloseBoundary ? "On" : "Off") << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamondHierarchy* vtkIsodiamondBuilder::GetHierarchy()
+{
+  return vtkIsodiamondHierarchy::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondBuilder::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkIsodiamondBuilder::ProcessRequest(vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    vtkInformation* info = outputVector->GetInformationObject(0);
+    if (!vtkIsodiamondHierarchy::SafeDownCast(info->Get(vtkDataObject::DATA_OBJECT())))
+    {
+      vtkNew<vtkIsodiamondHierarchy> output;
+      info->Set(vtkDataObject::DATA_OBJECT(), output);
+    }
+    return 1;
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondBuilder::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  vtkIsodiamond::RequestWholeExtent(inputVector[0]->GetInformationObject(0));
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondBuilder::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  if (!vtkIsodiamond::IsFirstPiece(outputVector->GetInformationObject(0)))
+  {
+    return 1;
+  }
+  try
+  {
+    if (!std::isfinite(this->Isovalue))
+    {
+      throw std::invalid_argument("The isovalue is not a finite number.");
+    }
+    if (vtkPolyData* hierarchy = vtkPolyData::GetData(inputVector[0]))
+    {
+      this->BuildFromHierarchy(hierarchy, output);
+    }
+    else
+    {
+      this->BuildFromImage(inputVector, output);
+    }
+  }
+  catch (const std::exception& problem)
+  {
+    output->Initialize();
+    vtkErrorMacro(<< problem.what());
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondBuilder::BuildFromImage(
+  vtkInformationVector** inputVector, vtkPolyData* output)
+{
+  int association = -1;
+  vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
+  const vtkIsodiamond::Volume volume = vtkIsodiamond::ReadVolume(
+    vtkImageData::GetData(inputVector[0]), array, association, this->CloseBoundary);
+  if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
+  {
+    isodiamond::ScalarEncoding encoding;
+    vtkIsodiamond::RunThreaded(this->NumberOfThreads,
+      [&]
+      { encoding = isodiamond::BuildScalarHierarchy(volume.Samples, vtkIsodiamond::SMPFor()); });
+    vtkIsodiamond::WriteScalars(encoding, volume, this->Isovalue, output);
+    return;
+  }
+  isodiamond::Encoding encoding;
+  vtkIsodiamond::RunThreaded(this->NumberOfThreads,
+    [&]
+    {
+      encoding = isodiamond::BuildIsodiamonds(static_cast<isodiamond::Model>(this->Model),
+        volume.Samples, this->Isovalue, vtkIsodiamond::SMPFor());
+    });
+  vtkIsodiamond::WriteIsodiamonds(encoding, volume.World, volume.ArrayName, output);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondBuilder::BuildFromHierarchy(vtkPolyData* input, vtkPolyData* output)
+{
+  const std::shared_ptr<const vtkIsodiamond::State> state =
+    vtkIsodiamondHierarchy::ReadState(input);
+  if (!state->Scalars)
+  {
+    throw std::invalid_argument("The input hierarchy is relevant or minimal: those are made for "
+                                "one isovalue, others come from an HD or from the image.");
+  }
+  if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
+  {
+    output->ShallowCopy(input);
+    return;
+  }
+  isodiamond::Encoding encoding;
+  vtkIsodiamond::RunThreaded(this->NumberOfThreads,
+    [&]
+    {
+      encoding = isodiamond::BuildIsodiamonds(static_cast<isodiamond::Model>(this->Model),
+        *state->Scalars, this->Isovalue, vtkIsodiamond::SMPFor());
+    });
+  vtkIsodiamond::WriteIsodiamonds(encoding, state->World, state->ArrayName, output);
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkIsodiamondBuilder
+ * @brief   build a multiresolution hierarchy of an isosurface from a volume
+ *
+ * Input: a vtkImageData with a one-component point array of any scalar type (chosen with
+ * SetInputArrayToProcess(0, port, connection, association, name); the point scalars by default)
+ * and at least two samples on every axis; or a hierarchy of diamonds (HD) that another builder
+ * made, from which RI and MI come without the image. Output: a vtkIsodiamondHierarchy.
+ *
+ * The surface is that of the samples' values above the isovalue; NaN counts as below. Errors are
+ * in field units (the paper's metric): the largest difference between the field and its linear
+ * interpolant at the lattice points of a diamond.
+ *
+ * The whole extent of the input is requested. In parallel the first piece holds the hierarchy,
+ * the others are empty.
+ *
+ * @warning A sample that equals the isovalue counts as below it; surfaces that only touch samples
+ * are empty.
+ * @warning 64-bit integers beyond 2^53 are compared after rounding to double.
+ *
+ * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010, sections 4, 5 and 7.
+ */
+
+#ifndef vtkIsodiamondBuilder_h
+#define vtkIsodiamondBuilder_h
+
+#include "vtkIsodiamondFiltersModule.h" // for export macro
+#include "vtkIsodiamondHierarchy.h"     // for the models
+#include "vtkPolyDataAlgorithm.h"
+
+class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondBuilder : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkIsodiamondBuilder* New();
+  vtkTypeMacro(vtkIsodiamondBuilder, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Which hierarchy: of diamonds (HD: any isovalue later, about 3 bytes a voxel beyond the
+   * samples), relevant (RI) or minimal (MI, the smallest). Default: minimal.
+   */
+  vtkSetClampMacro(Model, int, vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS,
+    vtkIsodiamondHierarchy::MINIMAL);
+  vtkGetMacro(Model, int);
+  void SetModelToHierarchyOfDiamonds()
+  {
+    this->SetModel(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  }
+  void SetModelToRelevant() { this->SetModel(vtkIsodiamondHierarchy::RELEVANT); }
+  void SetModelToMinimal() { this->SetModel(vtkIsodiamondHierarchy::MINIMAL); }
+  ///@}
+
+  ///@{
+  /**
+   * The isovalue, in field units; for HD the default of later queries. Outside of the data's
+   * range the surface is empty. Default: 0.
+   */
+  vtkSetMacro(Isovalue, double);
+  vtkGetMacro(Isovalue, double);
+  ///@}
+
+  ///@{
+  /**
+   * Close every surface above the data's minimum: the volume counts as padded on all six sides by
+   * a layer of that minimum, so caps lie less than a voxel outside of the image. Off, the surface
+   * ends at the image's boundary as with any contour filter. No effect on an HD input. Default:
+   * off.
+   */
+  vtkSetMacro(CloseBoundary, bool);
+  vtkGetMacro(CloseBoundary, bool);
+  vtkBooleanMacro(CloseBoundary, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to use; 0 for all cores. The result does not depend on it. Default: 0.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  /** The output, with its type. */
+  vtkIsodiamondHierarchy* GetHierarchy();
+
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+protected:
+  vtkIsodiamondBuilder();
+  ~vtkIsodiamondBuilder() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  int Model = vtkIsodiamondHierarchy::MINIMAL;
+  double Isovalue = 0.0;
+  bool CloseBoundary = false;
+  int NumberOfThreads = 0;
+
+private:
+  vtkIsodiamondBuilder(const vtkIsodiamondBuilder&) = delete;
+  void operator=(const vtkIsodiamondBuilder&) = delete;
+
+  void BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output);
+  void BuildFromHierarchy(vtkPolyData* input, vtkPolyData* output);
+};
+
+#endif

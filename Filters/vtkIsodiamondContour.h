@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkIsodiamondContour
+ * @brief   isosurfaces of an image at an error tolerance, in one step
+ *
+ * A drop-in for a contour filter: vtkImageData in, vtkPolyData of triangles out, with an error
+ * tolerance in addition. The filter keeps one minimal isodiamond hierarchy per isovalue; a new
+ * tolerance only extracts again. A new input, array, boundary option or isovalue builds what is
+ * missing.
+ *
+ * Point data: the isovalue under the input array's name (ComputeScalars), "Normals" toward lower
+ * values from the full-resolution gradient (ComputeNormals). Cell data: "Level", see
+ * vtkIsodiamondExtractor.
+ *
+ * The whole extent of the input is requested. In parallel the first piece holds the surface, the
+ * others are empty.
+ *
+ * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010.
+ *
+ * @sa vtkIsodiamondBuilder vtkIsodiamondExtractor vtkContourFilter
+ */
+
+#ifndef vtkIsodiamondContour_h
+#define vtkIsodiamondContour_h
+
+#include "vtkContourValues.h"           // for the inline methods
+#include "vtkIsodiamondFiltersModule.h" // for export macro
+#include "vtkNew.h"                     // for the contour values
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for the result of a helper
+
+#include <memory> // for the cache
+
+namespace vtkIsodiamond
+{
+struct Volume;
+}
+
+class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondContour : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkIsodiamondContour* New();
+  vtkTypeMacro(vtkIsodiamondContour, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The isovalues, in field units, as in vtkContourFilter. Default: none, so that the output is
+   * empty until one is set.
+   */
+  void SetValue(int i, double value) { this->ContourValues->SetValue(i, value); }
+  double GetValue(int i) { return this->ContourValues->GetValue(i); }
+  double* GetValues() { return this->ContourValues->GetValues(); }
+  void GetValues(double* values) { this->ContourValues->GetValues(values); }
+  void SetNumberOfContours(int number) { this->ContourValues->SetNumberOfContours(number); }
+  vtkIdType GetNumberOfContours() { return this->ContourValues->GetNumberOfContours(); }
+  void GenerateValues(int number, double range[2])
+  {
+    this->ContourValues->GenerateValues(number, range);
+  }
+  void GenerateValues(int number, double first, double last)
+  {
+    this->ContourValues->GenerateValues(number, first, last);
+  }
+  ///@}
+
+  ///@{
+  /**
+   * The error that is tolerated, in field units; 0 is full resolution. Negative values and NaN
+   * are errors. Default: 0.
+   */
+  vtkSetMacro(ErrorTolerance, double);
+  vtkGetMacro(ErrorTolerance, double);
+  ///@}
+
+  /** From 0 to the extent of the array's values, beyond which a tolerance changes nothing; {0, 1}
+   *  while there is no array. */
+  double* GetErrorToleranceRange() VTK_SIZEHINT(2);
+
+  ///@{
+  /**
+   * Point normals from the gradient of the full-resolution field. Default: on.
+   */
+  vtkSetMacro(ComputeNormals, vtkTypeBool);
+  vtkGetMacro(ComputeNormals, vtkTypeBool);
+  vtkBooleanMacro(ComputeNormals, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The isovalue as point scalars. Default: on.
+   */
+  vtkSetMacro(ComputeScalars, vtkTypeBool);
+  vtkGetMacro(ComputeScalars, vtkTypeBool);
+  vtkBooleanMacro(ComputeScalars, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Close surfaces at the image's boundary, see vtkIsodiamondBuilder. Default: off.
+   */
+  vtkSetMacro(CloseBoundary, bool);
+  vtkGetMacro(CloseBoundary, bool);
+  vtkBooleanMacro(CloseBoundary, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to use; 0 for all cores. The result does not depend on it. Default: 0.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  /** How many hierarchies this filter has built so far. */
+  vtkGetMacro(NumberOfBuilds, vtkIdType);
+
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkIsodiamondContour();
+  ~vtkIsodiamondContour() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  vtkNew<vtkContourValues> ContourValues;
+  double ErrorTolerance = 0.0;
+  vtkTypeBool ComputeNormals = 1;
+  vtkTypeBool ComputeScalars = 1;
+  bool CloseBoundary = false;
+  int NumberOfThreads = 0;
+  vtkIdType NumberOfBuilds = 0;
+  double ErrorToleranceRange[2] = { 0.0, 1.0 };
+
+private:
+  vtkIsodiamondContour(const vtkIsodiamondContour&) = delete;
+  void operator=(const vtkIsodiamondContour&) = delete;
+
+  /** The surface of one isovalue; builds its hierarchy if there is none yet. */
+  vtkSmartPointer<vtkPolyData> ExtractContour(
+    const vtkIsodiamond::Volume& volume, double isovalue);
+
+  class Cache;
+  std::unique_ptr<Cache> Hierarchies;
+};
+
+#endif

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondHierarchy.h"
+
+#include "vtkIsodiamondState.h"
+
+#include "vtkFieldData.h"
+#include "vtkObjectFactory.h"
+
+#include <exception>
+
+vtkStandardNewMacro(vtkIsodiamondHierarchy);
+
+//------------------------------------------------------------------------------
+vtkIsodiamondHierarchy::vtkIsodiamondHierarchy() = default;
+
+//------------------------------------------------------------------------------
+vtkIsodiamondHierarchy::~vtkIsodiamondHierarchy() = default;
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondHierarchy::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  if (!vtkIsodiamond::HasHierarchy(this->GetFieldData()))
+  {
+    os << indent << "Model: (none)\n";
+    return;
+  }
+  os << indent << "Model: " << this->GetModel() << "\n";
+  os << indent << "Shape: " << this->GetShape() << "\n";
+  os << indent << "ArrayName: " << this->GetArrayName() << "\n";
+  os << indent << "Isovalue: " << this->GetIsovalue() << "\n";
+  os << indent << "NumberOfActiveIsodiamonds: " << this->GetNumberOfActiveIsodiamonds() << "\n";
+  os << indent << "NumberOfRelevantIsodiamonds: " << this->GetNumberOfRelevantIsodiamonds()
+     << "\n";
+  os << indent << "NumberOfCreationIsodiamonds: " << this->GetNumberOfCreationIsodiamonds()
+     << "\n";
+  os << indent << "NumberOfIsovertices: " << this->GetNumberOfIsovertices() << "\n";
+  os << indent << "StorageSize: " << this->GetStorageSize() << "\n";
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const vtkIsodiamond::State> vtkIsodiamondHierarchy::ReadState(
+  vtkPolyData* polyData)
+{
+  vtkIsodiamondHierarchy* hierarchy = vtkIsodiamondHierarchy::SafeDownCast(polyData);
+  if (!hierarchy)
+  {
+    return vtkIsodiamond::ReadState(polyData->GetFieldData());
+  }
+  if (!hierarchy->State || !vtkIsodiamond::IsCurrent(*hierarchy->State, polyData->GetFieldData()))
+  {
+    hierarchy->State = vtkIsodiamond::ReadState(polyData->GetFieldData());
+  }
+  return hierarchy->State;
+}
+
+//------------------------------------------------------------------------------
+const vtkIsodiamond::State* vtkIsodiamondHierarchy::GetState()
+{
+  try
+  {
+    return vtkIsodiamondHierarchy::ReadState(this).get();
+  }
+  catch (const std::exception& problem)
+  {
+    vtkErrorMacro(<< problem.what());
+    return nullptr;
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondHierarchy::GetModel()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state ? state->Model : -1;
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondHierarchy::GetShape()
+{
+  return this->GetState() ? ISOSURFACE : -1;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkIsodiamondHierarchy::GetArrayName()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state ? state->ArrayName : std::string();
+}
+
+//------------------------------------------------------------------------------
+double vtkIsodiamondHierarchy::GetIsovalue()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state ? state->Isovalue : 0.0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondHierarchy::GetNumberOfActiveIsodiamonds()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state && state->Isodiamonds ? state->Isodiamonds->Count(isodiamond::Kind::Active) : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondHierarchy::GetNumberOfRelevantIsodiamonds()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state && state->Isodiamonds ? state->Isodiamonds->Count(isodiamond::Kind::Relevant) +
+      state->Isodiamonds->Count(isodiamond::Kind::Creation)
+                                     : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondHierarchy::GetNumberOfCreationIsodiamonds()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state && state->Isodiamonds ? state->Isodiamonds->Count(isodiamond::Kind::Creation) : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondHierarchy::GetNumberOfIsovertices()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state && state->Isodiamonds ? state->Isodiamonds->IsovertexCount() : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondHierarchy::GetStorageSize()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state ? state->StorageSize : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamondHierarchy* vtkIsodiamondHierarchy::FromPolyData(vtkPolyData* polyData)
+{
+  if (!polyData || !vtkIsodiamond::HasHierarchy(polyData->GetFieldData()))
+  {
+    return nullptr;
+  }
+  vtkIsodiamondHierarchy* hierarchy = vtkIsodiamondHierarchy::New();
+  hierarchy->ShallowCopy(polyData);
+  return hierarchy;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondHierarchy::Initialize()
+{
+  this->Superclass::Initialize();
+  this->State.reset();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondHierarchy::CopyState(vtkDataObject* source)
+{
+  vtkIsodiamondHierarchy* hierarchy = vtkIsodiamondHierarchy::SafeDownCast(source);
+  this->State = hierarchy ? hierarchy->State : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondHierarchy::ShallowCopy(vtkDataObject* source)
+{
+  this->Superclass::ShallowCopy(source);
+  this->CopyState(source);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondHierarchy::DeepCopy(vtkDataObject* source)
+{
+  this->Superclass::DeepCopy(source);
+  this->CopyState(nullptr); // the copied arrays are others; read again when needed
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkIsodiamondHierarchy
+ * @brief   a multiresolution hierarchy of an isosurface, carried as a vtkPolyData
+ *
+ * What vtkIsodiamondBuilder makes and vtkIsodiamondExtractor reads. The geometry is the outline
+ * of the volume; all content sits in field-data arrays, so any pipeline moves it, any standard
+ * writer (.vtp) saves it, and the plain vtkPolyData that a reader gives back is as good as this:
+ * filters accept both, FromPolyData() restores the type.
+ *
+ * Contents are read and checked on the first use and kept; copies share them.
+ *
+ * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010, sections 5 to 7.
+ */
+
+#ifndef vtkIsodiamondHierarchy_h
+#define vtkIsodiamondHierarchy_h
+
+#include "vtkIsodiamondFiltersModule.h" // for export macro
+#include "vtkPolyData.h"
+
+#include <memory> // for the shared state
+
+namespace vtkIsodiamond
+{
+struct State;
+}
+
+class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondHierarchy : public vtkPolyData
+{
+public:
+  static vtkIsodiamondHierarchy* New();
+  vtkTypeMacro(vtkIsodiamondHierarchy, vtkPolyData);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** The three models of the paper. */
+  enum Models
+  {
+    HIERARCHY_OF_DIAMONDS = 0, ///< HD: the scalar field, any isovalue later
+    RELEVANT = 1,              ///< RI: active, creation and relevant isodiamonds
+    MINIMAL = 2                ///< MI: active and creation isodiamonds
+  };
+
+  /** What is extracted. */
+  enum Shapes
+  {
+    ISOSURFACE = 0
+  };
+
+  ///@{
+  /**
+   * What the hierarchy is of. -1 if the arrays are missing or damaged (one error says why).
+   */
+  int GetModel();
+  int GetShape();
+  ///@}
+
+  /** Name of the array that the hierarchy was built from. */
+  std::string GetArrayName();
+
+  /** The isovalue: of RI and MI the surface's, of HD the default of queries. */
+  double GetIsovalue();
+
+  ///@{
+  /**
+   * The paper's counts m_a, m_r (creation diamonds included, as in the paper; RI only, an MI
+   * knows just its creation diamonds) and m_c. All 0 for an HD.
+   */
+  vtkIdType GetNumberOfActiveIsodiamonds();
+  vtkIdType GetNumberOfRelevantIsodiamonds();
+  vtkIdType GetNumberOfCreationIsodiamonds();
+  ///@}
+
+  /** The number of stored isovertices, v_i. */
+  vtkIdType GetNumberOfIsovertices();
+
+  /** Bytes of the encoding: the sum of the sizes of its arrays. What is derived from them for
+   *  queries and lives beside them is not counted. */
+  vtkIdType GetStorageSize();
+
+  /**
+   * The hierarchy in a data set, for instance one that a reader gave back; null if it holds none.
+   * Arrays are shared, not copied.
+   */
+  VTK_NEWINSTANCE static vtkIsodiamondHierarchy* FromPolyData(vtkPolyData* polyData);
+
+  void Initialize() override;
+  void ShallowCopy(vtkDataObject* source) override;
+  void DeepCopy(vtkDataObject* source) override;
+
+#ifndef __VTK_WRAP__
+  /**
+   * The checked contents of a data set that holds a hierarchy; those of a vtkIsodiamondHierarchy
+   * are kept by it. For filters. @throws std::exception that says what is wrong.
+   */
+  static std::shared_ptr<const vtkIsodiamond::State> ReadState(vtkPolyData* polyData);
+#endif
+
+protected:
+  vtkIsodiamondHierarchy();
+  ~vtkIsodiamondHierarchy() override;
+
+private:
+  vtkIsodiamondHierarchy(const vtkIsodiamondHierarchy&) = delete;
+  void operator=(const vtkIsodiamondHierarchy&) = delete;
+
+  const vtkIsodiamond::State* GetState();
+  void CopyState(vtkDataObject* source);
+
+  std::shared_ptr<const vtkIsodiamond::State> State;
+};
+
+#endif

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondInput.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkMatrix3x3.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <stdexcept>
+
+namespace vtkIsodiamond
+{
+namespace
+{
+
+template <typename From, typename To>
+isodiamond::AnySamples View(vtkDataArray* array, const std::array<int, 3>& dimensions)
+{
+  static_assert(sizeof(From) == sizeof(To), "one type under two names");
+  return isodiamond::SampleView<To>(
+    static_cast<const To*>(array->GetVoidPointer(0)), dimensions);
+}
+
+/** Integers by their size: VTK has several names for each. */
+template <typename From>
+isodiamond::AnySamples ViewInteger(vtkDataArray* array, const std::array<int, 3>& dimensions)
+{
+  if constexpr (sizeof(From) == 1)
+  {
+    return std::is_signed_v<From> ? View<From, std::int8_t>(array, dimensions)
+                                  : View<From, std::uint8_t>(array, dimensions);
+  }
+  else if constexpr (sizeof(From) == 2)
+  {
+    return std::is_signed_v<From> ? View<From, std::int16_t>(array, dimensions)
+                                  : View<From, std::uint16_t>(array, dimensions);
+  }
+  else if constexpr (sizeof(From) == 4)
+  {
+    return std::is_signed_v<From> ? View<From, std::int32_t>(array, dimensions)
+                                  : View<From, std::uint32_t>(array, dimensions);
+  }
+  else
+  {
+    return std::is_signed_v<From> ? View<From, std::int64_t>(array, dimensions)
+                                  : View<From, std::uint64_t>(array, dimensions);
+  }
+}
+
+isodiamond::AffineMap IndexToWorld(vtkImageData* image, int shift)
+{
+  isodiamond::AffineMap map;
+  int extent[6];
+  double spacing[3];
+  double origin[3];
+  image->GetExtent(extent);
+  image->GetSpacing(spacing);
+  image->GetOrigin(origin);
+  for (int i = 0; i < 3; ++i)
+  {
+    map.Rows[i][3] = origin[i];
+    for (int j = 0; j < 3; ++j)
+    {
+      map.Rows[i][j] = image->GetDirectionMatrix()->GetElement(i, j) * spacing[j];
+      map.Rows[i][3] += map.Rows[i][j] * (extent[2 * j] - shift);
+    }
+  }
+  return map;
+}
+
+/** A copy with one layer of the finite minimum on all six sides. */
+vtkSmartPointer<vtkDataArray> PaddedCopy(
+  vtkDataArray* array, const std::array<int, 3>& dimensions, double minimum)
+{
+  const std::array<int, 3> padded = { dimensions[0] + 2, dimensions[1] + 2, dimensions[2] + 2 };
+  auto copy = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+  copy->SetNumberOfComponents(1);
+  copy->SetNumberOfTuples(vtkIdType{ 1 } * padded[0] * padded[1] * padded[2]);
+  copy->Fill(minimum);
+  for (int z = 0; z < dimensions[2]; ++z)
+  {
+    for (int y = 0; y < dimensions[1]; ++y)
+    {
+      const vtkIdType from = (vtkIdType{ z } * dimensions[1] + y) * dimensions[0];
+      const vtkIdType to = (vtkIdType{ z + 1 } * padded[1] + y + 1) * padded[0] + 1;
+      copy->InsertTuples(to, dimensions[0], from, array);
+    }
+  }
+  return copy;
+}
+
+void CheckArray(vtkDataArray* array, int association, vtkImageData* image)
+{
+  if (!array)
+  {
+    throw std::invalid_argument(
+      "There is no array to contour: the input has no such point data array.");
+  }
+  const std::string name =
+    "Array \"" + std::string(array->GetName() ? array->GetName() : "") + "\" ";
+  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
+  {
+    throw std::invalid_argument(
+      name + "is not point data; convert cell data to point data first.");
+  }
+  if (array->GetNumberOfComponents() != 1)
+  {
+    throw std::invalid_argument(name + "has " + std::to_string(array->GetNumberOfComponents()) +
+      " components; one is needed.");
+  }
+  if (array->GetNumberOfTuples() != image->GetNumberOfPoints())
+  {
+    throw std::invalid_argument(name + "does not have one value for each point.");
+  }
+}
+
+void CheckDimensions(const std::array<int, 3>& dimensions)
+{
+  constexpr int most = (1 << isodiamond::Grid::MaximumDepth) - 1; // room for a closed boundary
+  for (const int samples : dimensions)
+  {
+    if (samples < 2 || samples > most)
+    {
+      throw std::invalid_argument("The image needs 2 to " + std::to_string(most) +
+        " samples on every axis; its dimensions are " + std::to_string(dimensions[0]) + " x " +
+        std::to_string(dimensions[1]) + " x " + std::to_string(dimensions[2]) + ".");
+    }
+  }
+}
+
+}
+
+bool ViewSamples(
+  vtkDataArray* array, const std::array<int, 3>& dimensions, isodiamond::AnySamples& samples)
+{
+  switch (array->GetDataType())
+  {
+    case VTK_FLOAT:
+      samples = View<float, float>(array, dimensions);
+      return true;
+    case VTK_DOUBLE:
+      samples = View<double, double>(array, dimensions);
+      return true;
+    case VTK_CHAR:
+      samples = ViewInteger<char>(array, dimensions);
+      return true;
+    case VTK_SIGNED_CHAR:
+      samples = ViewInteger<signed char>(array, dimensions);
+      return true;
+    case VTK_UNSIGNED_CHAR:
+      samples = ViewInteger<unsigned char>(array, dimensions);
+      return true;
+    case VTK_SHORT:
+      samples = ViewInteger<short>(array, dimensions);
+      return true;
+    case VTK_UNSIGNED_SHORT:
+      samples = ViewInteger<unsigned short>(array, dimensions);
+      return true;
+    case VTK_INT:
+      samples = ViewInteger<int>(array, dimensions);
+      return true;
+    case VTK_UNSIGNED_INT:
+      samples = ViewInteger<unsigned int>(array, dimensions);
+      return true;
+    case VTK_LONG:
+      samples = ViewInteger<long>(array, dimensions);
+      return true;
+    case VTK_UNSIGNED_LONG:
+      samples = ViewInteger<unsigned long>(array, dimensions);
+      return true;
+    case VTK_LONG_LONG:
+    case VTK_ID_TYPE:
+      samples = ViewInteger<long long>(array, dimensions);
+      return true;
+    case VTK_UNSIGNED_LONG_LONG:
+      samples = ViewInteger<unsigned long long>(array, dimensions);
+      return true;
+    default:
+      return false;
+  }
+}
+
+Volume ReadVolume(vtkImageData* image, vtkDataArray* array, int association, bool closeBoundary)
+{
+  if (!image || image->GetNumberOfPoints() == 0)
+  {
+    throw std::invalid_argument("The input is not an image or is empty.");
+  }
+  std::array<int, 3> dimensions{};
+  image->GetDimensions(dimensions.data());
+  CheckArray(array, association, image);
+  CheckDimensions(dimensions);
+  Volume volume;
+  volume.Array = array;
+  volume.ArrayName = array->GetName() ? array->GetName() : "";
+  if (!array->HasStandardMemoryLayout())
+  {
+    volume.Array =
+      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array->GetDataType()));
+    volume.Array->DeepCopy(array);
+  }
+  if (!ViewSamples(volume.Array, dimensions, volume.Samples))
+  {
+    throw std::invalid_argument(
+      "Arrays of type " + std::string(array->GetDataTypeAsString()) + " are not supported.");
+  }
+  if (closeBoundary)
+  {
+    const double minimum = isodiamond::FiniteRange(volume.Samples).Minimum;
+    volume.Array = PaddedCopy(volume.Array, dimensions, minimum);
+    dimensions = { dimensions[0] + 2, dimensions[1] + 2, dimensions[2] + 2 };
+    ViewSamples(volume.Array, dimensions, volume.Samples);
+  }
+  volume.World = IndexToWorld(image, closeBoundary ? 1 : 0);
+  return volume;
+}
+
+void RequestWholeExtent(vtkInformation* inputInformation)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (inputInformation && inputInformation->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    int extent[6];
+    inputInformation->Get(Pipeline::WHOLE_EXTENT(), extent);
+    inputInformation->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+    inputInformation->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+}
+
+bool IsFirstPiece(vtkInformation* outputInformation)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  return !outputInformation->Has(Pipeline::UPDATE_PIECE_NUMBER()) ||
+    outputInformation->Get(Pipeline::UPDATE_PIECE_NUMBER()) == 0;
+}
+
+}

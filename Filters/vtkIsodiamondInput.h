@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamondInput_h
+#define vtkIsodiamondInput_h
+
+#include "AffineMap.h"
+#include "Samples.h"
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+class vtkDataArray;
+class vtkImageData;
+class vtkInformation;
+
+namespace vtkIsodiamond
+{
+
+/** The volume that a filter works on: samples in index space, and where they are in the world. */
+struct Volume
+{
+  vtkSmartPointer<vtkDataArray> Array; ///< holds the samples, one component
+  isodiamond::AnySamples Samples;
+  isodiamond::AffineMap World; ///< of the lattice; includes extent, origin, spacing, direction
+  std::string ArrayName;
+};
+
+/**
+ * An image's array as samples.
+ *
+ * @param array,association as vtkAlgorithm::GetInputArrayToProcess gives them
+ * @param closeBoundary pad by one layer of the data's minimum on all six sides
+ * @throws std::invalid_argument saying why the image or the array cannot be used
+ */
+Volume ReadVolume(
+  vtkImageData* image, vtkDataArray* array, int association, bool closeBoundary);
+
+/** The samples of an array as volume of given dimensions. @return false for an unknown type. */
+bool ViewSamples(
+  vtkDataArray* array, const std::array<int, 3>& dimensions, isodiamond::AnySamples& samples);
+
+/** Asks for the whole image: a hierarchy of a part of it is another hierarchy. */
+void RequestWholeExtent(vtkInformation* inputInformation);
+
+/** Whether this process makes the output: in parallel the first piece does, the others are empty. */
+bool IsFirstPiece(vtkInformation* outputInformation);
+
+}
+
+#endif

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondState.h"
+
+#include "vtkIsodiamondThreads.h"
+
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeUInt16Array.h"
+#include "vtkTypeUInt32Array.h"
+#include "vtkTypeUInt64Array.h"
+#include "vtkTypeUInt8Array.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace vtkIsodiamond
+{
+namespace
+{
+
+constexpr int FormatVersion = 1;
+constexpr int IsosurfaceShape = 0;
+constexpr int ParameterCount = 14;
+constexpr const char* HeaderName = "IsodiamondHeader";
+
+template <typename Array, typename T>
+void AddArray(vtkFieldData* fieldData, const char* name, const std::vector<T>& values)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  fieldData->AddArray(array);
+}
+
+/** The outline box of the grid: 8 corners and 12 edges. */
+void WriteOutline(
+  const std::array<int, 3>& dimensions, const isodiamond::AffineMap& world, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const std::array<double, 3> point = world((corner & 1) != 0 ? dimensions[0] - 1 : 0,
+      (corner & 2) != 0 ? dimensions[1] - 1 : 0, (corner & 4) != 0 ? dimensions[2] - 1 : 0);
+    points->InsertNextPoint(point.data());
+    for (int axis = 1; axis < 8; axis *= 2)
+    {
+      if ((corner & axis) == 0)
+      {
+        const vtkIdType ends[2] = { corner, corner + axis };
+        lines->InsertNextCell(2, ends);
+      }
+    }
+  }
+  output->SetPoints(points);
+  output->SetLines(lines);
+}
+
+void WriteHeader(isodiamond::Model model, const std::array<int, 3>& dimensions, double isovalue,
+  double errorScale, const isodiamond::AffineMap& world, const std::string& arrayName,
+  vtkFieldData* fieldData)
+{
+  AddArray<vtkTypeInt32Array>(fieldData, HeaderName,
+    std::vector<std::int32_t>{ FormatVersion, static_cast<int>(model), IsosurfaceShape,
+      dimensions[0], dimensions[1], dimensions[2] });
+  std::vector<double> parameters = { isovalue, errorScale };
+  for (const std::array<double, 4>& row : world.Rows)
+  {
+    parameters.insert(parameters.end(), row.begin(), row.end());
+  }
+  AddArray<vtkDoubleArray>(fieldData, "IsodiamondParameters", parameters);
+  vtkNew<vtkStringArray> name;
+  name->SetName("IsodiamondArrayName");
+  name->InsertNextValue(arrayName.c_str());
+  fieldData->AddArray(name);
+}
+
+/** Reads arrays by name, checks their types and keeps them alive. */
+class Reader
+{
+public:
+  Reader(vtkFieldData* fieldData, State& state)
+    : FieldData(fieldData)
+    , Target(state)
+  {
+  }
+
+  vtkDataArray* Array(const char* name)
+  {
+    vtkDataArray* array =
+      vtkDataArray::SafeDownCast(this->FieldData->GetAbstractArray(name));
+    if (!array || array->GetNumberOfComponents() != 1 || !array->HasStandardMemoryLayout())
+    {
+      throw std::invalid_argument(
+        "the field data array \"" + std::string(name) + "\" is missing or malformed");
+    }
+    this->Target.Arrays.emplace_back(array);
+    return array;
+  }
+
+  /** An array of one of the fixed types; names of integer types may differ, sizes may not. */
+  template <typename T>
+  isodiamond::ArrayView<T> Values(const char* name)
+  {
+    vtkDataArray* array = this->Array(name);
+    const int type = array->GetDataType();
+    const bool floating = type == VTK_FLOAT || type == VTK_DOUBLE;
+    if (array->GetDataTypeSize() != static_cast<int>(sizeof(T)) ||
+      floating != std::is_floating_point_v<T>)
+    {
+      throw std::invalid_argument(
+        "the field data array \"" + std::string(name) + "\" has the wrong type");
+    }
+    return { static_cast<const T*>(array->GetVoidPointer(0)), array->GetNumberOfTuples() };
+  }
+
+  /** An array that counts as part of the encoding. */
+  template <typename T>
+  isodiamond::ArrayView<T> Stored(const char* name)
+  {
+    const isodiamond::ArrayView<T> view = this->Values<T>(name);
+    this->Target.StorageSize += static_cast<std::int64_t>(sizeof(T)) * view.Size;
+    return view;
+  }
+
+  isodiamond::AnySamples Samples(const char* name, std::array<int, 3> dimensions)
+  {
+    vtkDataArray* array = this->Array(name);
+    const std::int64_t size = array->GetNumberOfTuples();
+    if (dimensions[0] == 0) // a plain row
+    {
+      if (size > std::numeric_limits<int>::max())
+      {
+        throw std::invalid_argument("the ranges are too many");
+      }
+      dimensions = { static_cast<int>(size), 1, 1 };
+    }
+    isodiamond::AnySamples samples;
+    if (std::int64_t{ 1 } * dimensions[0] * dimensions[1] * dimensions[2] != size ||
+      !ViewSamples(array, dimensions, samples))
+    {
+      throw std::invalid_argument("the samples do not match the dimensions");
+    }
+    this->Target.StorageSize += size * array->GetDataTypeSize();
+    return samples;
+  }
+
+private:
+  vtkFieldData* FieldData;
+  State& Target;
+};
+
+void ReadIsodiamonds(Reader& reader, const isodiamond::EncodingHeader& header, State& state)
+{
+  isodiamond::EncodingView view;
+  view.Header = header;
+  view.Arrays.BrickCounts = reader.Stored<std::uint32_t>("IsodiamondBrickCounts");
+  view.Arrays.BrickIndices = reader.Stored<std::uint32_t>("IsodiamondBrickIndices");
+  view.Arrays.BrickMasks = reader.Stored<std::uint64_t>("IsodiamondBrickMasks");
+  view.Arrays.Records = reader.Stored<std::uint16_t>("IsodiamondRecords");
+  view.Arrays.Isovertices = reader.Stored<std::uint8_t>("IsodiamondIsovertices");
+  RunThreaded(0,
+    [&]
+    {
+      state.Isodiamonds =
+        std::make_unique<isodiamond::IsodiamondHierarchy>(view, SMPFor());
+    });
+}
+
+void ReadScalars(Reader& reader, const isodiamond::EncodingHeader& header, State& state)
+{
+  const isodiamond::AnySamples samples = reader.Samples("IsodiamondSamples", header.Dimensions);
+  const isodiamond::ArrayView<std::uint16_t> errors =
+    reader.Stored<std::uint16_t>("IsodiamondErrors");
+  const isodiamond::AnySamples minima = reader.Samples("IsodiamondMinima", { 0, 1, 1 });
+  const isodiamond::AnySamples maxima = reader.Samples("IsodiamondMaxima", { 0, 1, 1 });
+  state.Scalars = std::make_unique<isodiamond::ScalarHierarchy>(
+    samples, header.ErrorScale, errors.Data, errors.Size, minima, maxima);
+}
+
+}
+
+bool HasHierarchy(vtkFieldData* fieldData)
+{
+  return fieldData && fieldData->GetAbstractArray(HeaderName) != nullptr;
+}
+
+double ErrorScale(vtkFieldData* fieldData)
+{
+  vtkDataArray* parameters =
+    fieldData ? fieldData->GetArray("IsodiamondParameters") : nullptr;
+  const bool valid = parameters && parameters->GetNumberOfTuples() == ParameterCount &&
+    parameters->GetNumberOfComponents() == 1;
+  return isodiamond::ErrorCode(valid ? parameters->GetTuple1(1) : 1.0).Scale();
+}
+
+std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
+{
+  if (!HasHierarchy(fieldData))
+  {
+    throw std::invalid_argument(
+      "the input is not an isodiamond hierarchy: it has no field data array \"IsodiamondHeader\"");
+  }
+  auto state = std::make_shared<State>();
+  Reader reader(fieldData, *state);
+  const isodiamond::ArrayView<std::int32_t> header = reader.Values<std::int32_t>(HeaderName);
+  if (header.Size != 6 || header[0] != FormatVersion)
+  {
+    throw std::invalid_argument("the hierarchy has an unknown format version");
+  }
+  if (header[1] < 0 || header[1] > 2 || header[2] != IsosurfaceShape)
+  {
+    throw std::invalid_argument("the hierarchy is of an unknown model or shape");
+  }
+  const isodiamond::ArrayView<double> parameters =
+    reader.Values<double>("IsodiamondParameters");
+  if (parameters.Size != ParameterCount ||
+    !std::all_of(parameters.Data, parameters.Data + parameters.Size,
+      [](double value) { return std::isfinite(value); }))
+  {
+    throw std::invalid_argument("the hierarchy's parameters are malformed");
+  }
+  vtkStringArray* name =
+    vtkStringArray::SafeDownCast(fieldData->GetAbstractArray("IsodiamondArrayName"));
+  if (name && name->GetNumberOfValues() == 1)
+  {
+    state->ArrayName = name->GetValue(0);
+  }
+  state->Model = header[1];
+  state->Isovalue = parameters[0];
+  for (int i = 0; i < 12; ++i)
+  {
+    state->World.Rows[i / 4][i % 4] = parameters[2 + i];
+  }
+  const isodiamond::EncodingHeader core{ static_cast<isodiamond::Model>(header[1]),
+    { header[3], header[4], header[5] }, parameters[0], parameters[1] };
+  if (core.Kind == isodiamond::Model::HierarchyOfDiamonds)
+  {
+    ReadScalars(reader, core, *state);
+  }
+  else
+  {
+    ReadIsodiamonds(reader, core, *state);
+  }
+  return state;
+}
+
+bool IsCurrent(const State& state, vtkFieldData* fieldData)
+{
+  return std::all_of(state.Arrays.begin(), state.Arrays.end(),
+    [&](const vtkSmartPointer<vtkAbstractArray>& array)
+    { return fieldData->GetAbstractArray(array->GetName()) == array; });
+}
+
+void WriteIsodiamonds(const isodiamond::Encoding& encoding, const isodiamond::AffineMap& world,
+  const std::string& arrayName, vtkPolyData* output)
+{
+  WriteOutline(encoding.Header.Dimensions, world, output);
+  vtkFieldData* fieldData = output->GetFieldData();
+  WriteHeader(encoding.Header.Kind, encoding.Header.Dimensions, encoding.Header.Isovalue,
+    encoding.Header.ErrorScale, world, arrayName, fieldData);
+  AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickCounts", encoding.Arrays.BrickCounts);
+  AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickIndices", encoding.Arrays.BrickIndices);
+  AddArray<vtkTypeUInt64Array>(fieldData, "IsodiamondBrickMasks", encoding.Arrays.BrickMasks);
+  AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondRecords", encoding.Arrays.Records);
+  AddArray<vtkTypeUInt8Array>(fieldData, "IsodiamondIsovertices", encoding.Arrays.Isovertices);
+}
+
+void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volume,
+  double isovalue, vtkPolyData* output)
+{
+  const std::array<int, 3> dimensions =
+    std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
+  WriteOutline(dimensions, volume.World, output);
+  vtkFieldData* fieldData = output->GetFieldData();
+  WriteHeader(isodiamond::Model::HierarchyOfDiamonds, dimensions, isovalue, encoding.ErrorScale,
+    volume.World, volume.ArrayName, fieldData);
+  // The input's own array under another name: shared memory would rename it for the input too.
+  const auto addLike = [&](const char* name, const void* values, std::int64_t count)
+  {
+    auto array = vtkSmartPointer<vtkDataArray>::Take(
+      vtkDataArray::CreateDataArray(volume.Array->GetDataType()));
+    array->SetName(name);
+    array->SetNumberOfTuples(count);
+    const char* bytes = static_cast<const char*>(values);
+    std::copy(bytes, bytes + count * array->GetDataTypeSize(),
+      static_cast<char*>(array->GetVoidPointer(0)));
+    fieldData->AddArray(array);
+  };
+  addLike(
+    "IsodiamondSamples", volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());
+  AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondErrors", encoding.Codes);
+  const auto addRange = [&](const char* name, const isodiamond::AnyValues& values)
+  {
+    std::visit(
+      [&](const auto& array)
+      { addLike(name, array.data(), static_cast<std::int64_t>(array.size())); },
+      values);
+  };
+  addRange("IsodiamondMinima", encoding.Minima);
+  addRange("IsodiamondMaxima", encoding.Maxima);
+}
+
+}

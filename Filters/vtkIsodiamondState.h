@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamondState_h
+#define vtkIsodiamondState_h
+
+#include "AffineMap.h"
+#include "Builder.h"
+#include "vtkIsodiamondInput.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkSmartPointer.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkFieldData;
+class vtkPolyData;
+
+/**
+ * @file vtkIsodiamondState.h
+ * Between a hierarchy's field-data arrays and the core: writing, and checked reading.
+ *
+ * | array | values |
+ * |---|---|
+ * | IsodiamondHeader | int32: format version, model, shape, dimensions (3) |
+ * | IsodiamondParameters | float64: isovalue, error scale, index-to-world map (3 rows of 4) |
+ * | IsodiamondArrayName | string: name of the input's array |
+ * | IsodiamondBrickCounts, ...BrickIndices | uint32, see isodiamond::EncodingArrays |
+ * | IsodiamondBrickMasks | uint64 |
+ * | IsodiamondRecords | uint16 |
+ * | IsodiamondIsovertices | uint8 |
+ * | IsodiamondSamples (HD only) | the input's samples |
+ * | IsodiamondErrors (HD only) | uint16, see isodiamond::ScalarHierarchy |
+ * | IsodiamondMinima, IsodiamondMaxima (HD only) | of the samples' type |
+ */
+namespace vtkIsodiamond
+{
+
+/** A hierarchy read from field data, with the arrays that it views. */
+struct State
+{
+  int Model = 0; ///< as isodiamond::Model
+  double Isovalue = 0.0;
+  std::string ArrayName;
+  isodiamond::AffineMap World;
+  std::int64_t StorageSize = 0;
+  std::vector<vtkSmartPointer<vtkAbstractArray>> Arrays;
+  /** One of the two is set: RI and MI, or HD. */
+  std::unique_ptr<isodiamond::IsodiamondHierarchy> Isodiamonds;
+  std::unique_ptr<isodiamond::ScalarHierarchy> Scalars;
+};
+
+/** Whether the field data has the header of a hierarchy. */
+bool HasHierarchy(vtkFieldData* fieldData);
+
+/** The largest error that the hierarchy's codes can tell; 1 if there is no hierarchy. */
+double ErrorScale(vtkFieldData* fieldData);
+
+/** Reads and checks a hierarchy. @throws std::exception saying what is wrong with it. */
+std::shared_ptr<const State> ReadState(vtkFieldData* fieldData);
+
+/** Whether the state was read from just these arrays. */
+bool IsCurrent(const State& state, vtkFieldData* fieldData);
+
+/** Puts an RI or MI into a data set; its geometry becomes the outline of the grid. */
+void WriteIsodiamonds(const isodiamond::Encoding& encoding, const isodiamond::AffineMap& world,
+  const std::string& arrayName, vtkPolyData* output);
+
+/** Puts an HD into a data set. @param isovalue the default of queries */
+void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volume,
+  double isovalue, vtkPolyData* output);
+
+}
+
+#endif

@@ -1,0 +1,18 @@
+# The Python package isodiamonds: the wrapped VTK module.
+if(NOT VTK_WRAP_PYTHON)
+  message(FATAL_ERROR "This VTK has no Python wrapping; set ISODIAMONDS_WRAP_PYTHON to OFF.")
+endif()
+find_package(Python3 COMPONENTS Interpreter Development REQUIRED)
+set(python_destination "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
+# The target's name must not end in ::Python: that would install a header named Python.h.
+vtk_module_wrap_python(
+  MODULES ${isodiamond_modules}
+  TARGET IsodiamondsPython
+  PYTHON_PACKAGE isodiamonds
+  MODULE_DESTINATION "${python_destination}"
+  LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  INSTALL_HEADERS OFF
+  BUILD_STATIC OFF)
+set(python_init "${CMAKE_BINARY_DIR}/${python_destination}/isodiamonds/__init__.py")
+file(WRITE "${python_init}" "from .vtkIsodiamondFilters import *\n")
+install(FILES "${python_init}" DESTINATION "${python_destination}/isodiamonds" COMPONENT python)
