@@ -46,8 +46,8 @@ int vtkIsodiamondBuilder::FillInputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-vtkTypeBool vtkIsodiamondBuilder::ProcessRequest(vtkInformation* request,
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+vtkTypeBool vtkIsodiamondBuilder::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
   {
@@ -103,8 +103,7 @@ int vtkIsodiamondBuilder::RequestData(
 }
 
 //------------------------------------------------------------------------------
-void vtkIsodiamondBuilder::BuildFromImage(
-  vtkInformationVector** inputVector, vtkPolyData* output)
+void vtkIsodiamondBuilder::BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output)
 {
   int association = -1;
   vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);

@@ -41,8 +41,8 @@ public:
    * Which hierarchy: of diamonds (HD: any isovalue later, about 3 bytes a voxel beyond the
    * samples), relevant (RI) or minimal (MI, the smallest). Default: minimal.
    */
-  vtkSetClampMacro(Model, int, vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS,
-    vtkIsodiamondHierarchy::MINIMAL);
+  vtkSetClampMacro(
+    Model, int, vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS, vtkIsodiamondHierarchy::MINIMAL);
   vtkGetMacro(Model, int);
   void SetModelToHierarchyOfDiamonds()
   {

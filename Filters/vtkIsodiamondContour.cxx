@@ -55,8 +55,8 @@ public:
     const double* end = begin + values->GetNumberOfContours();
     for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
     {
-      entry = std::find(begin, end, entry->first) == end ? this->Entries.erase(entry)
-                                                         : std::next(entry);
+      entry =
+        std::find(begin, end, entry->first) == end ? this->Entries.erase(entry) : std::next(entry);
     }
   }
 
@@ -209,8 +209,8 @@ vtkSmartPointer<vtkPolyData> vtkIsodiamondContour::ExtractContour(
   {
     entry.Encoding = isodiamond::BuildIsodiamonds(
       isodiamond::Model::Minimal, volume.Samples, isovalue, vtkIsodiamond::SMPFor());
-    entry.Hierarchy = std::make_unique<isodiamond::IsodiamondHierarchy>(
-      entry.Encoding, vtkIsodiamond::SMPFor());
+    entry.Hierarchy =
+      std::make_unique<isodiamond::IsodiamondHierarchy>(entry.Encoding, vtkIsodiamond::SMPFor());
     ++this->NumberOfBuilds;
   }
   const vtkIsodiamond::Surface surface =

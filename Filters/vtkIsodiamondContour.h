@@ -141,8 +141,7 @@ private:
   void operator=(const vtkIsodiamondContour&) = delete;
 
   /** The surface of one isovalue; builds its hierarchy if there is none yet. */
-  vtkSmartPointer<vtkPolyData> ExtractContour(
-    const vtkIsodiamond::Volume& volume, double isovalue);
+  vtkSmartPointer<vtkPolyData> ExtractContour(const vtkIsodiamond::Volume& volume, double isovalue);
 
   class Cache;
   std::unique_ptr<Cache> Hierarchies;

@@ -48,8 +48,7 @@ double* vtkIsodiamondExtractor::GetErrorToleranceRange()
   vtkPolyData* input = this->GetNumberOfInputConnections(0) > 0
     ? vtkPolyData::SafeDownCast(this->GetInputDataObject(0, 0))
     : nullptr;
-  this->ErrorToleranceRange[1] =
-    input ? vtkIsodiamond::ErrorScale(input->GetFieldData()) : 1.0;
+  this->ErrorToleranceRange[1] = input ? vtkIsodiamond::ErrorScale(input->GetFieldData()) : 1.0;
   return this->ErrorToleranceRange;
 }
 
@@ -81,8 +80,8 @@ int vtkIsodiamondExtractor::RequestData(
         output->SetPoints(surface.Points);
         output->SetCells(VTK_TRIANGLE, surface.Triangles);
         output->GetCellData()->AddArray(surface.Levels);
-        output->GetPointData()->SetScalars(vtkIsodiamond::ConstantScalars(state.ArrayName,
-          surface.Points->GetNumberOfPoints(), hierarchy.Header().Isovalue));
+        output->GetPointData()->SetScalars(vtkIsodiamond::ConstantScalars(
+          state.ArrayName, surface.Points->GetNumberOfPoints(), hierarchy.Header().Isovalue));
       });
   }
   catch (const std::exception& problem)

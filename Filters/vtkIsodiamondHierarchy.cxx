@@ -30,17 +30,14 @@ void vtkIsodiamondHierarchy::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ArrayName: " << this->GetArrayName() << "\n";
   os << indent << "Isovalue: " << this->GetIsovalue() << "\n";
   os << indent << "NumberOfActiveIsodiamonds: " << this->GetNumberOfActiveIsodiamonds() << "\n";
-  os << indent << "NumberOfRelevantIsodiamonds: " << this->GetNumberOfRelevantIsodiamonds()
-     << "\n";
-  os << indent << "NumberOfCreationIsodiamonds: " << this->GetNumberOfCreationIsodiamonds()
-     << "\n";
+  os << indent << "NumberOfRelevantIsodiamonds: " << this->GetNumberOfRelevantIsodiamonds() << "\n";
+  os << indent << "NumberOfCreationIsodiamonds: " << this->GetNumberOfCreationIsodiamonds() << "\n";
   os << indent << "NumberOfIsovertices: " << this->GetNumberOfIsovertices() << "\n";
   os << indent << "StorageSize: " << this->GetStorageSize() << "\n";
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const vtkIsodiamond::State> vtkIsodiamondHierarchy::ReadState(
-  vtkPolyData* polyData)
+std::shared_ptr<const vtkIsodiamond::State> vtkIsodiamondHierarchy::ReadState(vtkPolyData* polyData)
 {
   vtkIsodiamondHierarchy* hierarchy = vtkIsodiamondHierarchy::SafeDownCast(polyData);
   if (!hierarchy)

@@ -19,8 +19,7 @@ template <typename From, typename To>
 isodiamond::AnySamples View(vtkDataArray* array, const std::array<int, 3>& dimensions)
 {
   static_assert(sizeof(From) == sizeof(To), "one type under two names");
-  return isodiamond::SampleView<To>(
-    static_cast<const To*>(array->GetVoidPointer(0)), dimensions);
+  return isodiamond::SampleView<To>(static_cast<const To*>(array->GetVoidPointer(0)), dimensions);
 }
 
 /** Integers by their size: VTK has several names for each. */
@@ -102,8 +101,7 @@ void CheckArray(vtkDataArray* array, int association, vtkImageData* image)
     "Array \"" + std::string(array->GetName() ? array->GetName() : "") + "\" ";
   if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
   {
-    throw std::invalid_argument(
-      name + "is not point data; convert cell data to point data first.");
+    throw std::invalid_argument(name + "is not point data; convert cell data to point data first.");
   }
   if (array->GetNumberOfComponents() != 1)
   {

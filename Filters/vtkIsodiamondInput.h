@@ -32,8 +32,7 @@ struct Volume
  * @param closeBoundary pad by one layer of the data's minimum on all six sides
  * @throws std::invalid_argument saying why the image or the array cannot be used
  */
-Volume ReadVolume(
-  vtkImageData* image, vtkDataArray* array, int association, bool closeBoundary);
+Volume ReadVolume(vtkImageData* image, vtkDataArray* array, int association, bool closeBoundary);
 
 /** The samples of an array as volume of given dimensions. @return false for an unknown type. */
 bool ViewSamples(
@@ -42,7 +41,8 @@ bool ViewSamples(
 /** Asks for the whole image: a hierarchy of a part of it is another hierarchy. */
 void RequestWholeExtent(vtkInformation* inputInformation);
 
-/** Whether this process makes the output: in parallel the first piece does, the others are empty. */
+/** Whether this process makes the output: in parallel the first piece does, the others are empty.
+ */
 bool IsFirstPiece(vtkInformation* outputInformation);
 
 }

@@ -28,8 +28,8 @@ inline void CheckTolerance(double tolerance)
 {
   if (!(tolerance >= 0.0))
   {
-    throw std::invalid_argument("The error tolerance must be 0 or greater; it is " +
-      std::to_string(tolerance) + ".");
+    throw std::invalid_argument(
+      "The error tolerance must be 0 or greater; it is " + std::to_string(tolerance) + ".");
   }
 }
 
@@ -51,9 +51,9 @@ void RunQuery(
   const std::shared_ptr<const State> state = vtkIsodiamondHierarchy::ReadState(input);
   if (state->Isodiamonds && query.UseIsovalue && query.Isovalue != state->Isovalue)
   {
-    vtkWarningWithObjectMacro(filter,
-      << "A relevant or minimal hierarchy is of one isovalue (" << state->Isovalue
-      << "); the isovalue " << query.Isovalue << " has no effect.");
+    vtkWarningWithObjectMacro(filter, << "A relevant or minimal hierarchy is of one isovalue ("
+                                      << state->Isovalue << "); the isovalue " << query.Isovalue
+                                      << " has no effect.");
   }
   const double isovalue = query.UseIsovalue ? query.Isovalue : state->Isovalue;
   if (!std::isfinite(isovalue))

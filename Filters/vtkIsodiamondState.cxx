@@ -95,8 +95,7 @@ public:
 
   vtkDataArray* Array(const char* name)
   {
-    vtkDataArray* array =
-      vtkDataArray::SafeDownCast(this->FieldData->GetAbstractArray(name));
+    vtkDataArray* array = vtkDataArray::SafeDownCast(this->FieldData->GetAbstractArray(name));
     if (!array || array->GetNumberOfComponents() != 1 || !array->HasStandardMemoryLayout())
     {
       throw std::invalid_argument(
@@ -168,11 +167,7 @@ void ReadIsodiamonds(Reader& reader, const isodiamond::EncodingHeader& header, S
   view.Arrays.Records = reader.Stored<std::uint16_t>("IsodiamondRecords");
   view.Arrays.Isovertices = reader.Stored<std::uint8_t>("IsodiamondIsovertices");
   RunThreaded(0,
-    [&]
-    {
-      state.Isodiamonds =
-        std::make_unique<isodiamond::IsodiamondHierarchy>(view, SMPFor());
-    });
+    [&] { state.Isodiamonds = std::make_unique<isodiamond::IsodiamondHierarchy>(view, SMPFor()); });
 }
 
 void ReadScalars(Reader& reader, const isodiamond::EncodingHeader& header, State& state)
@@ -195,8 +190,7 @@ bool HasHierarchy(vtkFieldData* fieldData)
 
 double ErrorScale(vtkFieldData* fieldData)
 {
-  vtkDataArray* parameters =
-    fieldData ? fieldData->GetArray("IsodiamondParameters") : nullptr;
+  vtkDataArray* parameters = fieldData ? fieldData->GetArray("IsodiamondParameters") : nullptr;
   const bool valid = parameters && parameters->GetNumberOfTuples() == ParameterCount &&
     parameters->GetNumberOfComponents() == 1;
   return isodiamond::ErrorCode(valid ? parameters->GetTuple1(1) : 1.0).Scale();
@@ -220,8 +214,7 @@ std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
   {
     throw std::invalid_argument("the hierarchy is of an unknown model or shape");
   }
-  const isodiamond::ArrayView<double> parameters =
-    reader.Values<double>("IsodiamondParameters");
+  const isodiamond::ArrayView<double> parameters = reader.Values<double>("IsodiamondParameters");
   if (parameters.Size != ParameterCount ||
     !std::all_of(parameters.Data, parameters.Data + parameters.Size,
       [](double value) { return std::isfinite(value); }))
@@ -274,8 +267,8 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const isodiamond::Af
   AddArray<vtkTypeUInt8Array>(fieldData, "IsodiamondIsovertices", encoding.Arrays.Isovertices);
 }
 
-void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volume,
-  double isovalue, vtkPolyData* output)
+void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volume, double isovalue,
+  vtkPolyData* output)
 {
   const std::array<int, 3> dimensions =
     std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
@@ -295,13 +288,11 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volu
       static_cast<char*>(array->GetVoidPointer(0)));
     fieldData->AddArray(array);
   };
-  addLike(
-    "IsodiamondSamples", volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());
+  addLike("IsodiamondSamples", volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());
   AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondErrors", encoding.Codes);
   const auto addRange = [&](const char* name, const isodiamond::AnyValues& values)
   {
-    std::visit(
-      [&](const auto& array)
+    std::visit([&](const auto& array)
       { addLike(name, array.data(), static_cast<std::int64_t>(array.size())); },
       values);
   };

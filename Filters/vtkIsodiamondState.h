@@ -67,8 +67,8 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const isodiamond::Af
   const std::string& arrayName, vtkPolyData* output);
 
 /** Puts an HD into a data set. @param isovalue the default of queries */
-void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volume,
-  double isovalue, vtkPolyData* output);
+void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volume, double isovalue,
+  vtkPolyData* output);
 
 }
 

@@ -20,8 +20,8 @@ namespace vtkIsodiamond
 /** An extracted isosurface as VTK arrays. */
 struct Surface
 {
-  vtkSmartPointer<vtkPoints> Points; ///< world positions, float
-  vtkSmartPointer<vtkCellArray> Triangles; ///< 32-bit storage where ids fit
+  vtkSmartPointer<vtkPoints> Points;            ///< world positions, float
+  vtkSmartPointer<vtkCellArray> Triangles;      ///< 32-bit storage where ids fit
   vtkSmartPointer<vtkUnsignedCharArray> Levels; ///< "Level", one a triangle
 };
 

@@ -96,8 +96,8 @@ void WriteGradientNormals(const AnySamples& samples, const AffineMap& world, con
           for (std::int64_t i = begin; i < end; ++i)
           {
             const float* p = points + 3 * i;
-            const Vector normal = ToNormal(
-              world, InterpolatedGradient(view, world.Inverse({ p[0], p[1], p[2] })));
+            const Vector normal =
+              ToNormal(world, InterpolatedGradient(view, world.Inverse({ p[0], p[1], p[2] })));
             std::copy(normal.begin(), normal.end(), normals + 3 * i);
           }
         });

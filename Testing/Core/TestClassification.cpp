@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Kinds and counts against the reference; the paper's table 1 and theorem 7.1 over all duets.
+#include "Classification.h"
+#include "CoreTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace isodiamond;
+using ReferenceKind = reference::Kind;
+
+TEST(Classification, KindsEqualTheReference)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    const Grid grid(field.Dims);
+    const reference::Hierarchy hierarchy(field.Dims);
+    const std::vector<ReferenceKind> kinds =
+      reference::Classify(hierarchy, field.Reference(), field.Isovalue);
+    const SignLattice signs(grid, field.View(), field.Isovalue, SerialFor);
+    const Classification found = Classify(grid, signs, test::ThreadedFor(2));
+    int members = 0;
+    for (int i = 0; i < hierarchy.Size(); ++i)
+    {
+      const Place place = test::PlaceOf(grid, hierarchy.At(i).Center);
+      EXPECT_EQ(found.Active.Contains(place), kinds[i] == ReferenceKind::Active);
+      EXPECT_EQ(found.Creation.Contains(place), kinds[i] == ReferenceKind::Creation);
+      EXPECT_EQ(found.Members.Contains(place), kinds[i] != ReferenceKind::Inactive);
+      members += kinds[i] != ReferenceKind::Inactive ? 1 : 0;
+    }
+    EXPECT_EQ(DiamondSet(grid, found.Members).Size(), members); // nothing outside of the lattice
+  }
+}
+
+TEST(Classification, HierarchiesKeepTheCountsAndKindsOfTheReference)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    const Grid grid(field.Dims);
+    const reference::Hierarchy hierarchy(field.Dims);
+    const reference::ScalarField samples = field.Reference();
+    const std::vector<ReferenceKind> kinds =
+      reference::Classify(hierarchy, samples, field.Isovalue);
+    const reference::Counts counts = reference::Count(hierarchy, samples, field.Isovalue, kinds);
+    const test::Built relevant = test::Build(Model::Relevant, field);
+    const test::Built minimal = test::Build(Model::Minimal, field);
+    EXPECT_EQ(relevant.Hierarchy->Count(Kind::Active), counts.Active);
+    EXPECT_EQ(relevant.Hierarchy->Count(Kind::Creation), counts.Creation);
+    EXPECT_EQ(relevant.Hierarchy->Count(Kind::Relevant), counts.Relevant - counts.Creation);
+    EXPECT_EQ(minimal.Hierarchy->Count(Kind::Active), counts.Active);
+    EXPECT_EQ(minimal.Hierarchy->Count(Kind::Creation), counts.Creation);
+    EXPECT_EQ(minimal.Hierarchy->Count(Kind::Relevant), 0);
+    // RI keeps exactly the relevant diamonds more.
+    EXPECT_EQ(relevant.Hierarchy->Diamonds().Size() - minimal.Hierarchy->Diamonds().Size(),
+      counts.Relevant - counts.Creation);
+    EXPECT_EQ(minimal.Hierarchy->IsovertexCount(), counts.Isovertices + counts.BaseIsovertices);
+    EXPECT_EQ(relevant.Encoding.Arrays.Isovertices, minimal.Encoding.Arrays.Isovertices);
+    for (int i = 0; i < hierarchy.Size(); ++i)
+    {
+      const std::int64_t rank =
+        relevant.Hierarchy->Diamonds().Rank(test::PlaceOf(grid, hierarchy.At(i).Center));
+      ASSERT_EQ(rank != DiamondSet::None, kinds[i] != ReferenceKind::Inactive);
+      if (rank != DiamondSet::None)
+      {
+        EXPECT_EQ(static_cast<int>(relevant.Hierarchy->KindOf(rank)), static_cast<int>(kinds[i]));
+      }
+    }
+  }
+}
+
+namespace
+{
+
+/** Signs of the sampled vertices of the tetrahedra that a parent and a child share. */
+std::set<int> DuetSigns(const reference::Hierarchy& hierarchy, const test::Field& field,
+  const reference::ScalarField& samples, int parent, int child)
+{
+  std::set<int> signs;
+  const reference::Diamond& diamond = hierarchy.At(child);
+  for (std::size_t t = 0; t < diamond.Tetrahedra.size(); ++t)
+  {
+    if (diamond.Origins[t] == parent)
+    {
+      for (const reference::Point& vertex : diamond.Tetrahedra[t].Vertices)
+      {
+        if (hierarchy.IsSampled(vertex))
+        {
+          signs.insert(reference::SignOf(samples.At(vertex), field.Isovalue));
+        }
+      }
+    }
+  }
+  return signs;
+}
+
+}
+
+TEST(Classification, Theorem71AndTable1HoldOverAllDuets)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    const reference::Hierarchy hierarchy(field.Dims);
+    const reference::ScalarField samples = field.Reference();
+    const std::vector<ReferenceKind> kinds =
+      reference::Classify(hierarchy, samples, field.Isovalue);
+    for (int child = 0; child < hierarchy.Size(); ++child)
+    {
+      for (const int parent : hierarchy.At(child).Parents)
+      {
+        const bool activeDuet = DuetSigns(hierarchy, field, samples, parent, child).size() == 2;
+        // Theorem 7.1: the parent of an active duet is active or creation.
+        if (activeDuet)
+        {
+          EXPECT_TRUE(
+            kinds[parent] == ReferenceKind::Active || kinds[parent] == ReferenceKind::Creation);
+          EXPECT_EQ(kinds[child], ReferenceKind::Active);
+        }
+        // Table 1: which arcs carry a patch.
+        if (kinds[parent] == ReferenceKind::Creation && !hierarchy.At(child).SticksOut)
+        {
+          EXPECT_EQ(kinds[child], ReferenceKind::Active);
+          EXPECT_TRUE(activeDuet);
+        }
+        if (kinds[parent] == ReferenceKind::Relevant || kinds[parent] == ReferenceKind::Inactive ||
+          kinds[child] == ReferenceKind::Creation || kinds[child] == ReferenceKind::Relevant)
+        {
+          EXPECT_FALSE(activeDuet);
+        }
+        // Ancestors of what is kept are kept: inactive diamonds have inactive descendants only.
+        if (kinds[parent] == ReferenceKind::Inactive)
+        {
+          EXPECT_EQ(kinds[child], ReferenceKind::Inactive);
+        }
+      }
+    }
+  }
+}

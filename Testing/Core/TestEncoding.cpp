@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The encoding: its size, and that damaged ones are refused.
+#include "CoreTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+using namespace isodiamond;
+
+TEST(Encoding, IsSmallerThanThePapersRecords)
+{
+  const test::Field field = test::SphereField({ 65, 65, 65 });
+  const test::Built built = test::Build(Model::Minimal, field);
+  const IsodiamondHierarchy& hierarchy = *built.Hierarchy;
+  const std::int64_t paper = 2 +
+    12 * (hierarchy.Count(Kind::Active) + hierarchy.Count(Kind::Creation)) +
+    hierarchy.IsovertexCount();
+  EXPECT_LT(2 * hierarchy.StorageSize(), paper);
+  const EncodingArrays<OwnedArray>& arrays = built.Encoding.Arrays;
+  EXPECT_EQ(hierarchy.StorageSize(),
+    static_cast<std::int64_t>(4 * arrays.BrickCounts.size() + 4 * arrays.BrickIndices.size() +
+      8 * arrays.BrickMasks.size() + 2 * arrays.Records.size() + arrays.Isovertices.size()));
+}
+
+TEST(Encoding, CoefficientsAreWithinAStepOfTheLinearCrossing)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-5.0, 5.0);
+  for (int i = 0; i < 10000; ++i)
+  {
+    const double a = uniform(random);
+    const double b = uniform(random);
+    const double k = a + (b - a) * (i / 10000.0);
+    if (a == b)
+    {
+      continue;
+    }
+    const int coefficient = IsovertexCoefficient(a, b, k);
+    EXPECT_GE(coefficient, 1);
+    EXPECT_LE(coefficient, 255);
+    EXPECT_NEAR(coefficient / 256.0, (k - a) / (b - a), 1.0 / 256.0);
+  }
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(IsovertexCoefficient(infinity, 0.0, 1.0), 128);
+  EXPECT_EQ(IsovertexCoefficient(0.0, std::numeric_limits<double>::quiet_NaN(), 1.0), 128);
+}
+
+TEST(Encoding, DamageIsRefused)
+{
+  const test::Field field = test::SphereField({ 17, 12, 9 });
+  const Encoding good = BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor);
+  EXPECT_NO_THROW(IsodiamondHierarchy(good, SerialFor));
+  const std::vector<std::function<void(Encoding&)>> damages = {
+    [](Encoding& e) {
+      e.Header.Dimensions = { 17, 12, 1 };
+    },
+    [](Encoding& e) {
+      e.Header.Dimensions = { 33, 12, 9 };
+    },
+    [](Encoding& e) {
+      e.Header.Dimensions = { 9, 12, 9 };
+    },
+    [](Encoding& e) { e.Header.Kind = Model::HierarchyOfDiamonds; },
+    [](Encoding& e) { e.Header.ErrorScale = 0.0; },
+    [](Encoding& e) { e.Header.ErrorScale = std::numeric_limits<double>::quiet_NaN(); },
+    [](Encoding& e) { e.Arrays.BrickCounts.pop_back(); },
+    [](Encoding& e) { ++e.Arrays.BrickCounts.back(); },
+    [](Encoding& e) { e.Arrays.BrickCounts.back() = 0xffffffffU; },
+    [](Encoding& e) { --e.Arrays.BrickCounts[1]; },
+    [](Encoding& e) { e.Arrays.BrickIndices.back() = 1000000; },
+    [](Encoding& e) { e.Arrays.BrickIndices.back() = e.Arrays.BrickIndices.end()[-2]; },
+    [](Encoding& e) { e.Arrays.BrickIndices.pop_back(); },
+    [](Encoding& e) { e.Arrays.BrickMasks.pop_back(); },
+    [](Encoding& e) { e.Arrays.BrickMasks[0] = 0; },
+    [](Encoding& e) { e.Arrays.BrickMasks.end()[-8] |= 1; }, // an even position
+    [](Encoding& e) { e.Arrays.BrickMasks.end()[-1] ^= 0x8000000000000000U; },
+    [](Encoding& e) { e.Arrays.Records.pop_back(); },
+    [](Encoding& e) { e.Arrays.Records.push_back(e.Arrays.Records.back()); },
+    [](Encoding& e) { e.Arrays.Records.back() |= 2; },
+    [](Encoding& e) { e.Arrays.Records.back() = 1; },
+    [](Encoding& e) { e.Arrays.Isovertices.pop_back(); },
+    [](Encoding& e) { e.Arrays.Isovertices.push_back(7); },
+    [](Encoding& e) { e.Arrays.Isovertices.front() = 0; },
+    [](Encoding& e) { e.Arrays = {}; },
+  };
+  for (std::size_t i = 0; i < damages.size(); ++i)
+  {
+    Encoding bad = good;
+    damages[i](bad);
+    EXPECT_THROW(IsodiamondHierarchy(bad, SerialFor), std::invalid_argument) << "damage " << i;
+  }
+}
+
+TEST(Encoding, RandomDamageNeverHarms)
+{
+  const test::Field field = test::NoiseField({ 9, 9, 9 }, 2);
+  const Encoding good = BuildIsodiamonds(Model::Relevant, field.View(), field.Isovalue, SerialFor);
+  std::mt19937 random(5);
+  int accepted = 0;
+  for (int i = 0; i < 3000; ++i)
+  {
+    Encoding bad = good;
+    const std::uint32_t value = random();
+    switch (random() % 4)
+    {
+      case 0:
+        bad.Arrays.BrickMasks[value % bad.Arrays.BrickMasks.size()] ^= std::uint64_t{ 1 }
+          << (random() % 64);
+        break;
+      case 1:
+        bad.Arrays.Records[value % bad.Arrays.Records.size()] =
+          static_cast<std::uint16_t>(random());
+        break;
+      case 2:
+        bad.Arrays.BrickIndices[value % bad.Arrays.BrickIndices.size()] ^= 1U << (random() % 8);
+        break;
+      default:
+        bad.Arrays.Isovertices[value % bad.Arrays.Isovertices.size()] =
+          static_cast<std::uint8_t>(random());
+    }
+    try
+    {
+      const IsodiamondHierarchy hierarchy(bad, SerialFor);
+      for (const double tolerance : { 0.0, 1.0, 4.0 })
+      {
+        const test::Mesh mesh = test::Extract(hierarchy, tolerance);
+        for (const std::array<std::int32_t, 3>& t : mesh.Triangles)
+        {
+          for (const std::int32_t id : t)
+          {
+            ASSERT_GE(id, 0);
+            ASSERT_LT(id, static_cast<std::int32_t>(mesh.Points.size()));
+          }
+        }
+      }
+      ++accepted;
+    }
+    catch (const std::invalid_argument&)
+    {
+    }
+  }
+  EXPECT_GT(accepted, 0); // other thresholds and coefficients are another hierarchy, not damage
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Errors and ranges of the HD against brute force over all lattice points of every diamond.
+#include "CoreTestTools.h"
+#include "FieldError.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace isodiamond;
+
+TEST(FieldError, EqualsBruteForce)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    const Grid grid(field.Dims);
+    const reference::Hierarchy hierarchy(field.Dims);
+    const reference::ScalarField samples = field.Reference();
+    const std::vector<double> errors = reference::OwnFieldErrors(hierarchy, samples);
+    const test::BuiltScalars scalars = test::BuildScalars(field);
+    const ErrorCode& code = scalars.Hierarchy->Codes();
+    for (int i = 0; i < hierarchy.Size(); ++i)
+    {
+      const Place place = test::PlaceOf(grid, hierarchy.At(i).Center);
+      const DomainSummary summary = SummarizeDomain(grid, field.View(), place);
+      if (std::isinf(errors[i]))
+      {
+        EXPECT_EQ(summary.Error, errors[i]);
+        EXPECT_EQ(scalars.Hierarchy->Error(place), ErrorCode::Always);
+      }
+      else
+      {
+        EXPECT_NEAR(summary.Error, errors[i], 1e-12 * code.Scale());
+        EXPECT_EQ(scalars.Hierarchy->Error(place), code.Encode(summary.Error));
+      }
+      const reference::ValueRange range = reference::DomainRange(hierarchy, samples, i);
+      EXPECT_EQ(scalars.Hierarchy->Range(place).Maximum, range.Maximum);
+      EXPECT_EQ(scalars.Hierarchy->Range(place).Crosses(field.Isovalue),
+        reference::IsCrossed(hierarchy, samples, field.Isovalue, i));
+      if (field.Name.rfind("broken", 0) != 0)
+      {
+        EXPECT_EQ(scalars.Hierarchy->Range(place).Minimum, range.Minimum);
+      }
+    }
+  }
+}
+
+TEST(FieldError, IsZeroForALinearField)
+{
+  test::Field field = test::WaveField({ 17, 17, 17 });
+  for (int i = 0; i < 17 * 17 * 17; ++i)
+  {
+    field.Samples[i] = static_cast<float>(3 * (i % 17) - 2 * (i / 17 % 17) + i / 289);
+  }
+  const Grid grid(field.Dims);
+  for (int scale = 0; scale < grid.Depth(); ++scale)
+  {
+    for (int diamondClass = 0; diamondClass < 3; ++diamondClass)
+    {
+      const Place place{ scale, { 1, diamondClass < 2 ? 1 : 0, diamondClass < 1 ? 1 : 0 } };
+      EXPECT_EQ(SummarizeDomain(grid, field.View(), place).Error, 0.0);
+    }
+  }
+}
+
+TEST(FieldError, AcceptsEveryScalarType)
+{
+  const std::array<int, 3> dims = { 9, 9, 9 };
+  const test::Field field = test::NoiseField(dims, 5);
+  const auto check = [&](auto zero)
+  {
+    using T = decltype(zero);
+    const std::vector<T> values(field.Samples.begin(), field.Samples.end());
+    const Encoding encoding = BuildIsodiamonds(
+      Model::Minimal, SampleView<T>(values.data(), dims), field.Isovalue, SerialFor);
+    const Encoding expected =
+      BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor);
+    EXPECT_EQ(encoding.Arrays.Records, expected.Arrays.Records);
+    EXPECT_EQ(encoding.Arrays.Isovertices, expected.Arrays.Isovertices);
+  };
+  check(std::int8_t{});
+  check(std::uint8_t{});
+  check(std::int16_t{});
+  check(std::uint16_t{});
+  check(std::int32_t{});
+  check(std::uint32_t{});
+  check(std::int64_t{});
+  check(std::uint64_t{});
+  check(double{});
+}

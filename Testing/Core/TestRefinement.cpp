@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Refined sets against the reference's walk and its smallest closed set, diamond by diamond.
+#include "Activation.h"
+#include "CoreTestTools.h"
+
+#include "ReferenceMinimal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace isodiamond;
+using ReferenceKind = reference::Kind;
+
+namespace
+{
+
+/** The reference's side of a field: its own errors, as the codes round them. */
+struct Oracle
+{
+  reference::Hierarchy Hierarchy;
+  reference::ScalarField Samples;
+  std::vector<ReferenceKind> Kinds;
+  std::vector<bool> Crossed;
+  std::vector<double> Errors;
+
+  Oracle(const test::Field& field, const ErrorCode& code)
+    : Hierarchy(field.Dims)
+    , Samples(field.Reference())
+    , Kinds(reference::Classify(this->Hierarchy, this->Samples, field.Isovalue))
+    , Crossed(reference::CrossedDomains(this->Hierarchy, this->Samples, field.Isovalue))
+    , Errors(reference::OwnFieldErrors(this->Hierarchy, this->Samples))
+  {
+    for (double& error : this->Errors)
+    {
+      // The top code stands for "always": above every tolerance, infinity too.
+      error = code.Encode(error);
+    }
+  }
+
+  reference::DiamondSet Refine(ErrorCode::Type accepted) const
+  {
+    return reference::Refine(
+      this->Hierarchy, reference::UniformCriterion(this->Errors, this->Crossed, accepted))
+      .Subdivided;
+  }
+};
+
+void ExpectSameSet(const Oracle& oracle, const reference::DiamondSet& expected,
+  const RefinedSet& refined, bool minimal)
+{
+  const Grid& grid = refined.Hierarchy().Domain();
+  for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
+  {
+    const bool stored = !minimal || oracle.Kinds[i] == ReferenceKind::Active ||
+      oracle.Kinds[i] == ReferenceKind::Creation;
+    const Place place = test::PlaceOf(grid, oracle.Hierarchy.At(i).Center);
+    ASSERT_EQ(refined.Contains(place), stored && expected[i]) << "diamond " << i;
+  }
+}
+
+}
+
+TEST(Refinement, EqualsTheReferenceWalkInAllModels)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    const test::Built relevant = test::Build(Model::Relevant, field);
+    const test::Built minimal = test::Build(Model::Minimal, field);
+    const test::BuiltScalars scalars = test::BuildScalars(field);
+    const ErrorCode& code = relevant.Hierarchy->Codes();
+    const Oracle oracle(field, code);
+    for (const double tolerance : test::Tolerances(code.Scale()))
+    {
+      SCOPED_TRACE(tolerance);
+      const ErrorCode::Type accepted = code.Accepted(tolerance);
+      const reference::DiamondSet expected = oracle.Refine(accepted);
+      ASSERT_EQ(expected,
+        reference::SmallestClosedSet(
+          oracle.Hierarchy, reference::UniformCriterion(oracle.Errors, oracle.Crossed, accepted)));
+      ExpectSameSet(oracle, expected, RefinedSet(*relevant.Hierarchy, tolerance, SerialFor), false);
+      ExpectSameSet(oracle, expected, RefinedSet(*minimal.Hierarchy, tolerance, SerialFor), true);
+      const DiamondMask subdivided = scalars.Hierarchy->Refine(field.Isovalue, accepted).Subdivided;
+      for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
+      {
+        ASSERT_EQ(subdivided.Contains(
+                    test::PlaceOf(scalars.Hierarchy->Domain(), oracle.Hierarchy.At(i).Center)),
+          expected[i]);
+      }
+    }
+  }
+}
+
+TEST(Refinement, FollowsArbitraryCriteria)
+{
+  // Random own errors, so that nothing in the field helps: the thresholds must give the walk.
+  std::mt19937 random(11);
+  for (const test::Field& field : { test::NoiseField({ 9, 9, 9 }, 3),
+         test::SparseField({ 17, 17, 17 }, 4), test::SparseField({ 10, 6, 13 }, 5) })
+  {
+    SCOPED_TRACE(field.Name);
+    const Grid grid(field.Dims);
+    Oracle oracle(field, ErrorCode(1.0));
+    DiamondMask mask(grid);
+    for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
+    {
+      oracle.Errors[i] =
+        oracle.Hierarchy.At(i).SticksOut ? ErrorCode::Always : 1.0 + random() % ErrorCode::Always;
+      if (oracle.Kinds[i] != ReferenceKind::Inactive)
+      {
+        mask.Insert(test::PlaceOf(grid, oracle.Hierarchy.At(i).Center));
+      }
+    }
+    const DiamondSet members(grid, mask);
+    std::vector<ErrorCode::Type> triggers(members.Size(), 0);
+    members.ForEach(
+      [&](const Place& place, std::uint32_t rank)
+      {
+        const int i = oracle.Hierarchy.Find(Centre(place));
+        triggers[rank] = oracle.Crossed[i] ? static_cast<ErrorCode::Type>(oracle.Errors[i]) : 0;
+      });
+    const std::vector<ErrorCode::Type> thresholds = ActivationThresholds(grid, members, triggers);
+    for (const int accepted : { 0, 1, 1000, 4000, 8000, 12000, 16000, ErrorCode::Always - 1 })
+    {
+      const reference::DiamondSet expected = oracle.Refine(static_cast<ErrorCode::Type>(accepted));
+      members.ForEach(
+        [&](const Place& place, std::uint32_t rank) {
+          EXPECT_EQ(
+            thresholds[rank] > accepted, bool(expected[oracle.Hierarchy.Find(Centre(place))]));
+        });
+    }
+  }
+}
+
+TEST(Refinement, TheWalkOnTheMinimalStructureFindsTheSameSet)
+{
+  // The paper's own walk over MI records, without samples, with the library's thresholds.
+  for (const test::Field& field :
+    { test::NoiseField({ 9, 9, 9 }, 8), test::SphereField({ 17, 17, 17 }),
+      test::SparseField({ 9, 9, 9 }, 9), test::WaveField({ 10, 6, 13 }) })
+  {
+    SCOPED_TRACE(field.Name);
+    const test::Built minimal = test::Build(Model::Minimal, field);
+    const ErrorCode& code = minimal.Hierarchy->Codes();
+    const Oracle oracle(field, code);
+    const Grid& grid = minimal.Hierarchy->Domain();
+    std::vector<double> thresholds(oracle.Hierarchy.Size(), 0.0);
+    for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
+    {
+      const std::int64_t rank =
+        minimal.Hierarchy->Diamonds().Rank(test::PlaceOf(grid, oracle.Hierarchy.At(i).Center));
+      thresholds[i] = rank != DiamondSet::None ? minimal.Hierarchy->Threshold(rank) : 0;
+    }
+    const reference::Encoding encoding =
+      reference::Encode(oracle.Hierarchy, oracle.Samples, field.Isovalue, oracle.Kinds,
+        std::vector<std::uint16_t>(oracle.Hierarchy.Size(), 1), reference::Model::Minimal);
+    const reference::MinimalHierarchy walk(oracle.Hierarchy, encoding, thresholds);
+    for (const double tolerance : test::Tolerances(code.Scale()))
+    {
+      const reference::MinimalRefinement result = walk.Refine(code.Accepted(tolerance));
+      ExpectSameSet(
+        oracle, result.Subdivided, RefinedSet(*minimal.Hierarchy, tolerance, SerialFor), true);
+      EXPECT_EQ(test::CompareWithPatches(test::Extract(*minimal.Hierarchy, tolerance),
+                  result.Patches, oracle.Samples, field.Isovalue),
+        "");
+    }
+  }
+}
+
+TEST(Refinement, OneHierarchyOfDiamondsAnswersTwentyIsovalues)
+{
+  test::Field field = test::WaveField({ 17, 14, 19 });
+  const test::BuiltScalars scalars = test::BuildScalars(field);
+  for (int i = 0; i < 20; ++i)
+  {
+    field.Isovalue = -2.4 + 0.25 * i;
+    const double tolerance = 0.02 * i;
+    const test::Built fromImage = test::Build(Model::Relevant, field);
+    const Encoding fromScalars =
+      BuildIsodiamonds(Model::Relevant, *scalars.Hierarchy, field.Isovalue, SerialFor);
+    EXPECT_EQ(fromScalars.Arrays.Records, fromImage.Encoding.Arrays.Records);
+    EXPECT_EQ(fromScalars.Arrays.BrickMasks, fromImage.Encoding.Arrays.BrickMasks);
+    EXPECT_EQ(fromScalars.Arrays.Isovertices, fromImage.Encoding.Arrays.Isovertices);
+    const test::Built query(
+      EncodeQuery(*scalars.Hierarchy, field.Isovalue, tolerance, SerialFor), SerialFor);
+    EXPECT_EQ(test::PlacedTriangles(test::Extract(*query.Hierarchy, tolerance)),
+      test::PlacedTriangles(test::Extract(*fromImage.Hierarchy, tolerance)));
+  }
+}
+
+TEST(Refinement, HierarchyOfDiamondsVisitsFewerAsTheToleranceGrows)
+{
+  const test::Field field = test::SphereField({ 33, 33, 33 });
+  const test::BuiltScalars scalars = test::BuildScalars(field);
+  const ErrorCode& code = scalars.Hierarchy->Codes();
+  std::int64_t previous = scalars.Hierarchy->Refine(field.Isovalue, 0).Visited;
+  EXPECT_LT(previous, 33 * 33 * 33);
+  for (const double tolerance : { 0.01, 0.05, 0.2 })
+  {
+    const std::int64_t visited =
+      scalars.Hierarchy->Refine(field.Isovalue, code.Accepted(tolerance * code.Scale())).Visited;
+    EXPECT_LT(visited, previous);
+    previous = visited;
+  }
+}

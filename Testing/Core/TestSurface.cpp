@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The extracted surfaces: against the reference's marching tetrahedra, and what must hold at
+// every tolerance.
+#include "CoreTestTools.h"
+#include "DiamondMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+using namespace isodiamond;
+
+namespace
+{
+
+bool OnBoundary(const test::Field& field, const test::Corner& a, const test::Corner& b)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto last = static_cast<float>(field.Dims[axis] - 1);
+    if ((a[axis] == 0.0F && b[axis] == 0.0F) || (a[axis] == last && b[axis] == last))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/** Edges with one triangle only on the boundary, none with more than two, orientation consistent,
+ *  points distinct and all used, nothing outside of the grid. */
+void ExpectConforming(const test::Field& field, const test::Mesh& mesh)
+{
+  std::map<std::pair<int, int>, int> directed;
+  std::vector<bool> used(mesh.Points.size(), false);
+  for (const std::array<std::int32_t, 3>& t : mesh.Triangles)
+  {
+    ASSERT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
+    for (int i = 0; i < 3; ++i)
+    {
+      ++directed[{ t[i], t[(i + 1) % 3] }];
+      used.at(t[i]) = true;
+    }
+  }
+  for (const auto& [edge, count] : directed)
+  {
+    ASSERT_EQ(count, 1); // a second triangle on the same side
+    if (directed.count({ edge.second, edge.first }) == 0)
+    {
+      ASSERT_TRUE(OnBoundary(field, mesh.Points[edge.first], mesh.Points[edge.second]));
+    }
+  }
+  ASSERT_EQ(std::count(used.begin(), used.end(), false), 0);
+  const std::set<test::Corner> distinct(mesh.Points.begin(), mesh.Points.end());
+  ASSERT_EQ(distinct.size(), mesh.Points.size());
+  for (const test::Corner& point : mesh.Points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_GE(point[axis], 0.0F);
+      ASSERT_LE(point[axis], static_cast<float>(field.Dims[axis] - 1));
+    }
+  }
+}
+
+}
+
+TEST(Surface, EqualsTheReferenceMeshAtEveryTolerance)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    const reference::Hierarchy hierarchy(field.Dims);
+    const reference::ScalarField samples = field.Reference();
+    const std::vector<bool> crossed = reference::CrossedDomains(hierarchy, samples, field.Isovalue);
+    std::vector<double> errors = reference::OwnFieldErrors(hierarchy, samples);
+    const test::Built minimal = test::Build(Model::Minimal, field);
+    const ErrorCode& code = minimal.Hierarchy->Codes();
+    std::transform(errors.begin(), errors.end(), errors.begin(),
+      [&](double error) { return double(code.Encode(error)); });
+    for (const double tolerance : test::Tolerances(code.Scale()))
+    {
+      SCOPED_TRACE(tolerance);
+      const reference::DiamondSet subdivided = reference::Refine(
+        hierarchy, reference::UniformCriterion(errors, crossed, code.Accepted(tolerance)))
+                                                 .Subdivided;
+      EXPECT_EQ(test::CompareWithPatches(test::Extract(*minimal.Hierarchy, tolerance),
+                  reference::LeafPatches(hierarchy, samples, field.Isovalue, subdivided), samples,
+                  field.Isovalue),
+        "");
+    }
+  }
+}
+
+TEST(Surface, IsTheFullResolutionSurfaceAtToleranceZero)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    const reference::Hierarchy hierarchy(field.Dims);
+    const reference::ScalarField samples = field.Reference();
+    const std::vector<reference::Patch> patches =
+      reference::FullResolutionPatches(hierarchy, samples, field.Isovalue);
+    const test::Mesh mesh = test::Extract(*test::Build(Model::Minimal, field).Hierarchy, 0.0);
+    EXPECT_EQ(test::CompareWithPatches(mesh, patches, samples, field.Isovalue), "");
+    EXPECT_EQ(mesh.Points.size(), reference::IsoverticesOf(patches).size());
+    EXPECT_EQ(int(mesh.Triangles.size()), reference::CountTriangles(patches));
+  }
+}
+
+TEST(Surface, ThreeModelsGiveTheIdenticalMesh)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    const test::Built relevant = test::Build(Model::Relevant, field);
+    const test::Built minimal = test::Build(Model::Minimal, field);
+    const test::BuiltScalars scalars = test::BuildScalars(field);
+    for (const double tolerance : test::Tolerances(minimal.Hierarchy->Codes().Scale()))
+    {
+      const test::Mesh mesh = test::Extract(*minimal.Hierarchy, tolerance);
+      EXPECT_TRUE(mesh == test::Extract(*relevant.Hierarchy, tolerance));
+      const test::Built query(
+        EncodeQuery(*scalars.Hierarchy, field.Isovalue, tolerance, SerialFor), SerialFor);
+      EXPECT_TRUE(mesh == test::Extract(*query.Hierarchy, tolerance));
+    }
+  }
+}
+
+TEST(Surface, ConformsAtEveryTolerance)
+{
+  std::vector<test::Field> fields = test::SmallFields();
+  for (const std::array<int, 3>& dims :
+    std::vector<std::array<int, 3>>{ { 33, 33, 33 }, { 32, 32, 32 }, { 50, 19, 27 } })
+  {
+    fields.push_back(test::NoiseField(dims, 77));
+    fields.push_back(test::SphereField(dims));
+    fields.push_back(test::SparseField(dims, 78));
+    fields.push_back(test::WaveField(dims));
+  }
+  for (const test::Field& field : fields)
+  {
+    SCOPED_TRACE(field.Name);
+    const test::Built minimal = test::Build(Model::Minimal, field);
+    for (const double tolerance : test::Tolerances(minimal.Hierarchy->Codes().Scale()))
+    {
+      SCOPED_TRACE(tolerance);
+      ExpectConforming(field, test::Extract(*minimal.Hierarchy, tolerance));
+    }
+  }
+}
+
+TEST(Surface, NormalsPointToLowerValues)
+{
+  // A ball: high inside, so normals point outward.
+  test::Field field = test::SphereField({ 33, 33, 33 });
+  for (int i = 0; i < 33 * 33 * 33; ++i)
+  {
+    field.Samples[i] =
+      10.0F - static_cast<float>(std::hypot(i % 33 - 16.2, i / 33 % 33 - 15.9, i / 1089 - 16.1));
+  }
+  const test::Built minimal = test::Build(Model::Minimal, field);
+  for (const double tolerance : { 0.0, 0.05, 0.3 })
+  {
+    double volume = 0.0; // six times
+    const test::Mesh mesh = test::Extract(*minimal.Hierarchy, tolerance);
+    for (const std::array<std::int32_t, 3>& t : mesh.Triangles)
+    {
+      const test::Corner& a = mesh.Points[t[0]];
+      const test::Corner& b = mesh.Points[t[1]];
+      const test::Corner& c = mesh.Points[t[2]];
+      volume += a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+        a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    // The ball of radius 9.75; the field is the distance, so the tolerance bounds the shift.
+    const double sphere = 4.0 * std::acos(-1.0) * 9.75 * 9.75;
+    EXPECT_NEAR(volume / 6.0, sphere * 9.75 / 3.0, sphere * (tolerance + 0.02));
+  }
+}
+
+TEST(Surface, KeepsThePromiseOfTheFieldMetric)
+{
+  // At every lattice point of every tetrahedron that carries the surface, by brute force.
+  for (const test::Field& field : { test::NoiseField({ 17, 17, 17 }, 21),
+         test::SphereField({ 17, 17, 17 }), test::WaveField({ 17, 17, 17 }),
+         test::SphereField({ 14, 13, 9 }), test::WaveField({ 10, 12, 6 }) })
+  {
+    SCOPED_TRACE(field.Name);
+    const reference::Hierarchy hierarchy(field.Dims);
+    const reference::ScalarField samples = field.Reference();
+    const test::Built minimal = test::Build(Model::Minimal, field);
+    for (const double tolerance : test::Tolerances(minimal.Hierarchy->Codes().Scale()))
+    {
+      const DiamondMesh mesh =
+        ExtractDiamondMesh(RefinedSet(*minimal.Hierarchy, tolerance, SerialFor));
+      std::set<int> carrying; // the diamonds of the leaves
+      for (const std::array<std::int64_t, 4>& tetrahedron : mesh.Tetrahedra)
+      {
+        reference::Tetrahedron leaf;
+        for (int i = 0; i < 4; ++i)
+        {
+          leaf.Vertices[i] = mesh.Points[tetrahedron[i]];
+        }
+        carrying.insert(hierarchy.DiamondOf(leaf));
+      }
+      carrying.erase(-1); // full resolution: no lattice point but the vertices
+      for (const int diamond : carrying)
+      {
+        EXPECT_LE(reference::OwnFieldError(hierarchy, samples, diamond), tolerance);
+      }
+    }
+  }
+}
+
+TEST(Surface, DoesNotDependOnThreads)
+{
+  const test::Field field = test::WaveField({ 50, 33, 41 });
+  const Encoding encoding =
+    BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor);
+  const IsodiamondHierarchy hierarchy(encoding, SerialFor);
+  const test::Mesh expected = test::Extract(hierarchy, 0.02);
+  for (const int threads : { 1, 2, 7 })
+  {
+    const ParallelFor parallelFor = test::ThreadedFor(threads);
+    const Encoding other =
+      BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, parallelFor);
+    EXPECT_EQ(other.Arrays.BrickMasks, encoding.Arrays.BrickMasks);
+    EXPECT_EQ(other.Arrays.Records, encoding.Arrays.Records);
+    EXPECT_EQ(other.Arrays.Isovertices, encoding.Arrays.Isovertices);
+    EXPECT_TRUE(
+      test::Extract(IsodiamondHierarchy(other, parallelFor), 0.02, parallelFor) == expected);
+    const ScalarEncoding scalars = BuildScalarHierarchy(field.View(), parallelFor);
+    EXPECT_EQ(scalars.Codes, test::BuildScalars(field).Encoding.Codes);
+  }
+}
+
+TEST(Surface, IsEmptyForConstantFieldsAndIsovaluesOutside)
+{
+  test::Field field = test::NoiseField({ 9, 6, 7 }, 1);
+  for (const double isovalue : { -1.0, 8.0, 100.0 }) // 8 is the largest sample: none above
+  {
+    field.Isovalue = isovalue;
+    EXPECT_TRUE(test::Extract(*test::Build(Model::Relevant, field).Hierarchy, 0.0).Points.empty());
+  }
+  std::fill(field.Samples.begin(), field.Samples.end(), 4.0F);
+  field.Isovalue = 4.0;
+  EXPECT_TRUE(test::Extract(*test::Build(Model::Minimal, field).Hierarchy, 0.0).Points.empty());
+  EXPECT_EQ(test::BuildScalars(field).Hierarchy->Refine(4.0, 0).Visited, 1);
+}
+
+TEST(Surface, AtInfiniteToleranceDependsOnTheRoot)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  // An active root: the base cube's own six tetrahedra carry the coarsest surface.
+  test::Field field = test::WaveField({ 17, 17, 17 });
+  for (int i = 0; i < 17 * 17 * 17; ++i)
+  {
+    field.Samples[i] = static_cast<float>(i % 17);
+  }
+  field.Isovalue = 7.3;
+  test::Mesh mesh = test::Extract(*test::Build(Model::Minimal, field).Hierarchy, infinity);
+  ExpectConforming(field, mesh);
+  EXPECT_EQ(mesh.Triangles.size(), 8U); // two halves and four quadrilaterals' worth
+  EXPECT_TRUE(std::all_of(
+    mesh.Levels.begin(), mesh.Levels.end(), [](std::uint8_t level) { return level == 0; }));
+  // A relevant root: all corners on one side, nothing to see without subdivision.
+  field = test::SparseField({ 17, 17, 17 }, 3);
+  for (const std::size_t corner : { 0, 16, 272, 288, 4624, 4640, 4896, 4912 })
+  {
+    field.Samples[corner] = 0.0F;
+  }
+  field.Samples[2456] = 0.0F; // the centre
+  mesh = test::Extract(*test::Build(Model::Minimal, field).Hierarchy, infinity);
+  EXPECT_TRUE(mesh.Triangles.empty());
+}
+
+TEST(DiamondMesh, TilesTheDomainForRelevantAndScalarHierarchies)
+{
+  const test::Field field = test::SphereField({ 17, 17, 17 });
+  const test::Built relevant = test::Build(Model::Relevant, field);
+  const test::Built minimal = test::Build(Model::Minimal, field);
+  const auto volume = [](const DiamondMesh& mesh)
+  {
+    std::int64_t six = 0;
+    for (const std::array<std::int64_t, 4>& t : mesh.Tetrahedra)
+    {
+      const Point& o = mesh.Points[t[0]];
+      const int part = tables::Determinant(
+        mesh.Points[t[1]] + -1 * o, mesh.Points[t[2]] + -1 * o, mesh.Points[t[3]] + -1 * o);
+      EXPECT_GT(part, 0);
+      six += part;
+    }
+    return six;
+  };
+  for (const double tolerance : { 0.0, 0.1, 1.0, 1e9 })
+  {
+    const DiamondMesh whole =
+      ExtractDiamondMesh(RefinedSet(*relevant.Hierarchy, tolerance, SerialFor));
+    EXPECT_EQ(volume(whole), 6 * 16 * 16 * 16);
+    const DiamondMesh part =
+      ExtractDiamondMesh(RefinedSet(*minimal.Hierarchy, tolerance, SerialFor));
+    EXPECT_LT(part.Tetrahedra.size(), std::max<std::size_t>(whole.Tetrahedra.size(), 7));
+    EXPECT_LE(volume(part), 6 * 16 * 16 * 16);
+  }
+}

@@ -1,0 +1,24 @@
+# The VTK module IsodiamondFilters, on ParaView's VTK or on a plain one.
+if(ISODIAMONDS_BUILD_PARAVIEW_PLUGIN)
+  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore)
+else()
+  find_package(VTK 9.1 REQUIRED
+    COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc FiltersCore)
+endif()
+
+vtk_module_scan(
+  MODULE_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module"
+  REQUEST_MODULES IsodiamondFilters
+  PROVIDES_MODULES isodiamond_modules
+  REQUIRES_MODULES isodiamond_required
+  WANT_BY_DEFAULT ON
+  HIDE_MODULES_FROM_CACHE ON
+  ENABLE_TESTS OFF)
+list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN")
+vtk_module_build(
+  MODULES ${isodiamond_modules}
+  PACKAGE Isodiamonds
+  INSTALL_EXPORT Isodiamonds
+  CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/Isodiamonds"
+  HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/isodiamonds"
+  TEST_DIRECTORY_NAME "NONE")
