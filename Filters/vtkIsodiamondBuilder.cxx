@@ -6,6 +6,7 @@
 #include "vtkIsodiamondState.h"
 #include "vtkIsodiamondThreads.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -19,7 +20,11 @@
 vtkStandardNewMacro(vtkIsodiamondBuilder);
 
 //------------------------------------------------------------------------------
-vtkIsodiamondBuilder::vtkIsodiamondBuilder() = default;
+vtkIsodiamondBuilder::vtkIsodiamondBuilder()
+{
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondBuilder::PrintSelf(ostream& os, vtkIndent indent)

@@ -181,30 +181,10 @@ void ReadScalars(Reader& reader, const isodiamond::EncodingHeader& header, State
     samples, header.ErrorScale, errors.Data, errors.Size, minima, maxima);
 }
 
-}
-
-bool HasHierarchy(vtkFieldData* fieldData)
+/** Header, parameters, then the arrays of the model. @throws std::invalid_argument */
+void ReadArrays(vtkFieldData* fieldData, State& state)
 {
-  return fieldData && fieldData->GetAbstractArray(HeaderName) != nullptr;
-}
-
-double ErrorScale(vtkFieldData* fieldData)
-{
-  vtkDataArray* parameters = fieldData ? fieldData->GetArray("IsodiamondParameters") : nullptr;
-  const bool valid = parameters && parameters->GetNumberOfTuples() == ParameterCount &&
-    parameters->GetNumberOfComponents() == 1;
-  return isodiamond::ErrorCode(valid ? parameters->GetTuple1(1) : 1.0).Scale();
-}
-
-std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
-{
-  if (!HasHierarchy(fieldData))
-  {
-    throw std::invalid_argument(
-      "the input is not an isodiamond hierarchy: it has no field data array \"IsodiamondHeader\"");
-  }
-  auto state = std::make_shared<State>();
-  Reader reader(fieldData, *state);
+  Reader reader(fieldData, state);
   const isodiamond::ArrayView<std::int32_t> header = reader.Values<std::int32_t>(HeaderName);
   if (header.Size != 6 || header[0] != FormatVersion)
   {
@@ -225,25 +205,59 @@ std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
     vtkStringArray::SafeDownCast(fieldData->GetAbstractArray("IsodiamondArrayName"));
   if (name && name->GetNumberOfValues() == 1)
   {
-    state->ArrayName = name->GetValue(0);
+    state.ArrayName = name->GetValue(0);
   }
-  state->Model = header[1];
-  state->Isovalue = parameters[0];
+  state.Model = header[1];
+  state.Isovalue = parameters[0];
   for (int i = 0; i < 12; ++i)
   {
-    state->World.Rows[i / 4][i % 4] = parameters[2 + i];
+    state.World.Rows[i / 4][i % 4] = parameters[2 + i];
   }
   const isodiamond::EncodingHeader core{ static_cast<isodiamond::Model>(header[1]),
     { header[3], header[4], header[5] }, parameters[0], parameters[1] };
   if (core.Kind == isodiamond::Model::HierarchyOfDiamonds)
   {
-    ReadScalars(reader, core, *state);
+    ReadScalars(reader, core, state);
   }
   else
   {
-    ReadIsodiamonds(reader, core, *state);
+    ReadIsodiamonds(reader, core, state);
   }
-  return state;
+}
+
+}
+
+bool HasHierarchy(vtkFieldData* fieldData)
+{
+  return fieldData && fieldData->GetAbstractArray(HeaderName) != nullptr;
+}
+
+double ErrorScale(vtkFieldData* fieldData)
+{
+  vtkDataArray* parameters = fieldData ? fieldData->GetArray("IsodiamondParameters") : nullptr;
+  const bool valid = parameters && parameters->GetNumberOfTuples() == ParameterCount &&
+    parameters->GetNumberOfComponents() == 1;
+  return isodiamond::ErrorCode(valid ? parameters->GetTuple1(1) : 1.0).Scale();
+}
+
+std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
+{
+  if (!HasHierarchy(fieldData))
+  {
+    throw std::invalid_argument(
+      "The input is not an isodiamond hierarchy: it has no field data array \"IsodiamondHeader\".");
+  }
+  try
+  {
+    auto state = std::make_shared<State>();
+    ReadArrays(fieldData, *state);
+    return state;
+  }
+  catch (const std::invalid_argument& problem)
+  {
+    throw std::invalid_argument(
+      "The isodiamond hierarchy is damaged: " + std::string(problem.what()) + ".");
+  }
 }
 
 bool IsCurrent(const State& state, vtkFieldData* fieldData)

@@ -20,7 +20,7 @@ namespace
 
 template <typename Array>
 vtkSmartPointer<vtkCellArray> WriteCells(
-  const isodiamond::SurfaceExtraction& extraction, bool mirrored)
+  const isodiamond::SurfaceExtraction& extraction, bool mirrored, vtkUnsignedCharArray* levels)
 {
   using Id = typename Array::ValueType;
   const std::int64_t count = extraction.TriangleCount();
@@ -37,7 +37,7 @@ vtkSmartPointer<vtkCellArray> WriteCells(
     });
   vtkSmartPointer<Array> connectivity = vtkSmartPointer<Array>::New();
   connectivity->SetNumberOfValues(3 * count);
-  extraction.WriteTriangles(mirrored, connectivity->GetPointer(0));
+  extraction.WriteTriangles(mirrored, connectivity->GetPointer(0), levels->GetPointer(0));
   vtkSmartPointer<vtkCellArray> cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, connectivity);
   return cells;
@@ -59,14 +59,13 @@ Surface ExtractSurface(const isodiamond::IsodiamondHierarchy& hierarchy,
   surface.Points = vtkSmartPointer<vtkPoints>::New();
   surface.Points->SetData(coordinates);
 
-  const bool small = 3 * extraction.TriangleCount() <= std::numeric_limits<std::int32_t>::max();
-  surface.Triangles = small ? WriteCells<vtkTypeInt32Array>(extraction, world.Mirrors())
-                            : WriteCells<vtkTypeInt64Array>(extraction, world.Mirrors());
-
   surface.Levels = vtkSmartPointer<vtkUnsignedCharArray>::New();
   surface.Levels->SetName("Level");
   surface.Levels->SetNumberOfValues(extraction.TriangleCount());
-  extraction.WriteLevels(surface.Levels->GetPointer(0));
+  const bool small = 3 * extraction.TriangleCount() <= std::numeric_limits<std::int32_t>::max();
+  surface.Triangles = small
+    ? WriteCells<vtkTypeInt32Array>(extraction, world.Mirrors(), surface.Levels)
+    : WriteCells<vtkTypeInt64Array>(extraction, world.Mirrors(), surface.Levels);
   return surface;
 }
 

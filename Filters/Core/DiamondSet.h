@@ -207,6 +207,40 @@ struct BrickLevel
   }
 };
 
+/** A brick and its 26 neighbours: where passes look from diamonds of one brick to others of the
+ *  same scale, without a search. */
+class BrickWindow
+{
+public:
+  BrickWindow(const BrickLevel& level, const Brick& brick)
+    : Origin(level.Box.Origin(brick.BoxIndex))
+  {
+    for (int i = 0; i < 27; ++i)
+    {
+      const Point offset = { 8 * (i % 3 - 1), 8 * (i / 3 % 3 - 1), 8 * (i / 9 - 1) };
+      const std::int64_t index = level.Box.Index(BrickOf(this->Origin + offset));
+      this->Indices[i] = index < 0 ? -1 : level.Lookup[index];
+    }
+  }
+
+  /** Position of the middle brick's first corner. */
+  const Point& First() const { return this->Origin; }
+
+  /** Index, in the level's list, of the brick at a position of this brick or next to it; -1 if
+   *  there is none. */
+  std::int32_t IndexAt(const Point& position) const
+  {
+    const int x = (position[0] - this->Origin[0] + 8) >> 3;
+    const int y = (position[1] - this->Origin[1] + 8) >> 3;
+    const int z = (position[2] - this->Origin[2] + 8) >> 3;
+    return this->Indices[x + 3 * y + 9 * z];
+  }
+
+private:
+  Point Origin;
+  std::array<std::int32_t, 27> Indices{};
+};
+
 /**
  * A set of diamonds with ranks: coarse scales first (from N, the base cube's corners, to 0), then
  * by brick, word and bit.

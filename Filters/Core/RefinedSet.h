@@ -42,6 +42,14 @@ public:
     return ((mask[place.Position[2] & 7] >> BitOf(place.Position)) & 1U) != 0;
   }
 
+  /** The same for a place in a brick's window. */
+  bool Contains(const BrickWindow& window, const Place& place) const
+  {
+    const std::int32_t index = window.IndexAt(place.Position);
+    return index >= 0 &&
+      ((this->Masks[place.Scale][index][place.Position[2] & 7] >> BitOf(place.Position)) & 1U) != 0;
+  }
+
   /** Number of refined diamonds, corners of the base cube not counted. */
   std::int64_t Count() const;
 
@@ -77,7 +85,8 @@ struct Leaf
   std::uint32_t Rank = 0; ///< of the parent
   const TypeTable& Shape; ///< of the parent
   const HalfTetrahedron& Half;
-  int Scale = 0; ///< scale of the diamond that the leaf lies in; -1 at full resolution
+  int Scale = 0;             ///< scale of the diamond that the leaf lies in; -1 at full resolution
+  const BrickWindow& Window; ///< of the parent's brick
 };
 
 /**
@@ -95,7 +104,8 @@ void ForEachLeaf(
   const BrickLevel& level = hierarchy.Diamonds().Level(brickPlace.Scale);
   const Brick& brick = level.Bricks[brickPlace.Index];
   const BrickMask& mask = refined.Mask(brickPlace.Scale, brickPlace.Index);
-  const Point origin = level.Box.Origin(brick.BoxIndex);
+  const BrickWindow window(level, brick);
+  const Point& origin = window.First();
   const bool interior = origin[0] > 0 && origin[1] > 0 && origin[2] > 0 &&
     grid.IsSampled((1 << brickPlace.Scale) * (origin + Point{ 8, 8, 8 }));
   for (int z = 0; z < 8; ++z)
@@ -119,7 +129,10 @@ void ForEachLeaf(
             continue;
           }
           const Place childPlace = ChildPlace(shape, place, child);
-          if (childPlace.Scale >= 0 && refined.Contains(childPlace))
+          const bool isRefined = shape.ChildStep == 0
+            ? refined.Contains(window, childPlace)
+            : childPlace.Scale >= 0 && refined.Contains(childPlace);
+          if (isRefined)
           {
             continue;
           }
@@ -128,7 +141,7 @@ void ForEachLeaf(
           {
             if ((half->Mask & wanted) != 0 && (half->Mask & ~sampled) == 0)
             {
-              body(Leaf{ place, rank, shape, *half, childPlace.Scale });
+              body(Leaf{ place, rank, shape, *half, childPlace.Scale, window });
             }
           }
         }

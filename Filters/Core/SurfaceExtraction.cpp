@@ -142,95 +142,134 @@ void SurfaceExtraction::WritePoints(const AffineMap& world, float* points) const
     });
 }
 
+/** Writes the triangles of one brick's leaves, one after the other. */
 template <typename Id>
-Id* SurfaceExtraction::WriteLeaf(const Leaf& leaf, bool mirrored, Id* next) const
+class SurfaceExtraction::TriangleWriter
 {
-  const std::array<std::uint8_t, 3>& v = leaf.Half.Vertices;
-  const std::uint32_t edges = this->Source.Edges(leaf.Rank);
-  const Slot& slot = this->Slots[leaf.Rank];
-  const auto differs = [&](int i) { return ((edges >> v[i]) & 1U) != 0; };
-  const auto own = [&](int i) { return static_cast<Id>(slot.Id(v[i])); };
-  const auto outer = [&](int opposite)
+public:
+  TriangleWriter(
+    const SurfaceExtraction& extraction, bool mirrored, Id* connectivity, std::uint8_t* levels)
+    : Extraction(extraction)
+    , Source(extraction.Source)
+    , Mirrored(mirrored)
+    , Next(connectivity)
+    , NextLevel(levels)
   {
-    const OuterEdge& edge = leaf.Half.OuterEdges[opposite];
-    const Point vertex = leaf.Parent.Position + leaf.Shape.Offsets[edge.OwnerVertex];
-    const int step = edge.OwnerStep;
-    const Place owner{ leaf.Parent.Scale + step,
-      { vertex[0] >> step, vertex[1] >> step, vertex[2] >> step } };
-    return static_cast<Id>(this->Slots[this->Source.Diamonds().Rank(owner)].Id(edge.OwnerEdge));
-  };
-  // For a centre above the isovalue these wind with normals away from it, to lower values.
-  const bool flip = (this->Source.Sign(leaf.Rank) == 0) != mirrored;
-  const auto triangle = [&](Id a, Id b, Id c)
-  {
-    *next++ = a;
-    *next++ = flip ? c : b;
-    *next++ = flip ? b : c;
-  };
-  const int count = PopCount(edges & leaf.Half.Mask);
-  if (count == 3)
-  {
-    triangle(own(0), own(1), own(2));
-    return next;
   }
-  // Turn the vertices so that the ones that differ come first: i alone, or i and j.
-  int i = 0;
-  while (!(differs(i) && (count == 1 || differs((i + 1) % 3))))
+
+  void Write(const Leaf& leaf)
   {
-    ++i;
-  }
-  const int j = (i + 1) % 3;
-  const int k = (i + 2) % 3;
-  if (count == 1)
-  {
-    triangle(own(i), outer(k), outer(j));
-  }
-  else
-  {
+    if (leaf.Rank != this->Rank)
+    {
+      this->Enter(leaf);
+    }
+    const std::array<std::uint8_t, 3>& v = leaf.Half.Vertices;
+    const auto own = [&](int i) { return static_cast<Id>(this->Own.Id(v[i])); };
+    const auto outer = [&](int opposite) { return this->OuterId(leaf, opposite); };
+    const int count = PopCount(this->Edges & leaf.Half.Mask);
+    if (count == 3)
+    {
+      this->Triangle(leaf, own(0), own(1), own(2));
+      return;
+    }
+    // Turn the vertices so that the ones that differ from the centre come first: i, or i and j.
+    const auto differs = [&](int i) { return ((this->Edges >> v[i]) & 1U) != 0; };
+    int i = 0;
+    while (!(differs(i) && (count == 1 || differs(i == 2 ? 0 : i + 1))))
+    {
+      ++i;
+    }
+    const int j = i == 2 ? 0 : i + 1;
+    const int k = 3 - i - j;
+    if (count == 1)
+    {
+      this->Triangle(leaf, own(i), outer(k), outer(j));
+      return;
+    }
     const Id a = own(i);
     const Id c = outer(i);
-    triangle(a, own(j), c);
-    triangle(a, c, outer(j));
+    this->Triangle(leaf, a, own(j), c);
+    this->Triangle(leaf, a, c, outer(j));
   }
-  return next;
-}
+
+private:
+  /** A new parent: its slot, and nothing known yet of the owners around it. */
+  void Enter(const Leaf& leaf)
+  {
+    this->Rank = leaf.Rank;
+    this->Edges = this->Source.Edges(leaf.Rank);
+    this->Own = this->Extraction.Slots[leaf.Rank];
+    this->Known = 0;
+    // For a centre above the isovalue triangles wind with normals away from it.
+    this->Flip = (this->Source.Sign(leaf.Rank) == 0) != this->Mirrored;
+  }
+
+  /** The point on a leaf's edge that belongs to an older diamond. */
+  Id OuterId(const Leaf& leaf, int opposite)
+  {
+    const OuterEdge& edge = leaf.Half.OuterEdges[opposite];
+    const int vertex = edge.OwnerVertex;
+    if (((this->Known >> vertex) & 1U) == 0)
+    {
+      this->Known |= 1U << vertex;
+      this->Owners[vertex] = this->Extraction.Slots[this->OwnerRank(leaf, edge)];
+    }
+    return static_cast<Id>(this->Owners[vertex].Id(edge.OwnerEdge));
+  }
+
+  std::int64_t OwnerRank(const Leaf& leaf, const OuterEdge& edge) const
+  {
+    const Point vertex = leaf.Parent.Position + leaf.Shape.Offsets[edge.OwnerVertex];
+    const DiamondSet& set = this->Source.Diamonds();
+    if (edge.OwnerStep != 0)
+    {
+      return set.Rank(
+        { leaf.Parent.Scale + 1, { vertex[0] >> 1, vertex[1] >> 1, vertex[2] >> 1 } });
+    }
+    const BrickLevel& level = set.Level(leaf.Parent.Scale);
+    return level.Bricks[leaf.Window.IndexAt(vertex)].Rank(vertex[2] & 7, BitOf(vertex));
+  }
+
+  void Triangle(const Leaf& leaf, Id a, Id b, Id c)
+  {
+    this->Next[0] = a;
+    this->Next[1] = this->Flip ? c : b;
+    this->Next[2] = this->Flip ? b : c;
+    this->Next += 3;
+    *this->NextLevel++ = static_cast<std::uint8_t>(this->Source.Domain().Depth() - 1 - leaf.Scale);
+  }
+
+  const SurfaceExtraction& Extraction;
+  const IsodiamondHierarchy& Source;
+  bool Mirrored;
+  Id* Next;
+  std::uint8_t* NextLevel;
+
+  // Of the current parent.
+  std::int64_t Rank = DiamondSet::None;
+  std::uint32_t Edges = 0;
+  Slot Own;
+  bool Flip = false;
+  std::uint32_t Known = 0; ///< vertices whose slots are in Owners
+  std::array<Slot, MaximumVertices> Owners{};
+};
 
 template <typename Id>
-void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity) const
+void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity, std::uint8_t* levels) const
 {
   this->ForEachBrick(16,
     [&](std::int64_t i)
     {
-      Id* next = connectivity + 3 * this->FirstTriangle[i];
+      TriangleWriter<Id> writer(*this, mirrored, connectivity + 3 * this->FirstTriangle[i],
+        levels + this->FirstTriangle[i]);
       ForEachLeaf(
         this->Refined, this->Bricks[i],
         [this](std::uint32_t rank) { return this->Source.Edges(rank); },
-        [&](const Leaf& leaf) { next = this->WriteLeaf(leaf, mirrored, next); });
+        [&](const Leaf& leaf) { writer.Write(leaf); });
     });
 }
 
-template void SurfaceExtraction::WriteTriangles(bool, std::int32_t*) const;
-template void SurfaceExtraction::WriteTriangles(bool, std::int64_t*) const;
-
-void SurfaceExtraction::WriteLevels(std::uint8_t* levels) const
-{
-  const int rootScale = this->Source.Domain().Depth() - 1;
-  this->ForEachBrick(16,
-    [&](std::int64_t i)
-    {
-      std::uint8_t* next = levels + this->FirstTriangle[i];
-      ForEachLeaf(
-        this->Refined, this->Bricks[i],
-        [this](std::uint32_t rank) { return this->Source.Edges(rank); },
-        [&](const Leaf& leaf)
-        {
-          const int count = PopCount(this->Source.Edges(leaf.Rank) & leaf.Half.Mask);
-          for (int triangle = 0; triangle < TrianglesOfLeaf[count]; ++triangle)
-          {
-            *next++ = static_cast<std::uint8_t>(rootScale - leaf.Scale);
-          }
-        });
-    });
-}
+template void SurfaceExtraction::WriteTriangles(bool, std::int32_t*, std::uint8_t*) const;
+template void SurfaceExtraction::WriteTriangles(bool, long long*, std::uint8_t*) const;
 
 }

@@ -31,14 +31,16 @@ public:
   /** Writes 3 coordinates a point. */
   void WritePoints(const AffineMap& world, float* points) const;
 
-  /** Writes 3 point ids a triangle; normals point to lower values. @param mirrored of the map
-   *  that places the points. */
+  /**
+   * Writes the triangles.
+   *
+   * @param mirrored of the map that places the points; normals then point to lower values
+   * @param connectivity receives 3 point ids a triangle (32 bits, or long long)
+   * @param levels receives the level of the diamond that each triangle lies in: 0 for the root, N
+   *        at full resolution
+   */
   template <typename Id>
-  void WriteTriangles(bool mirrored, Id* connectivity) const;
-
-  /** Writes the level of the diamond that each triangle lies in: 0 for the root, N at full
-   *  resolution. */
-  void WriteLevels(std::uint8_t* levels) const;
+  void WriteTriangles(bool mirrored, Id* connectivity, std::uint8_t* levels) const;
 
 private:
   /** The points of one refined diamond: its alive isovertices have consecutive ids. */
@@ -55,8 +57,9 @@ private:
 
   std::uint32_t AliveEdges(const Place& place, std::uint32_t edges) const;
   void CountBrick(std::int64_t brick);
+
   template <typename Id>
-  Id* WriteLeaf(const Leaf& leaf, bool mirrored, Id* next) const;
+  class TriangleWriter;
 
   template <typename Body>
   void ForEachBrick(std::int64_t grain, Body&& body) const;

@@ -166,9 +166,11 @@ Mesh Extract(const isodiamond::IsodiamondHierarchy& hierarchy, double tolerance,
   mesh.Points.resize(extraction.PointCount());
   mesh.Triangles.resize(extraction.TriangleCount());
   mesh.Levels.resize(extraction.TriangleCount());
-  extraction.WritePoints(isodiamond::AffineMap(), mesh.Points.data()->data());
-  extraction.WriteTriangles(false, mesh.Triangles.data()->data());
-  extraction.WriteLevels(mesh.Levels.data());
+  if (!mesh.Triangles.empty())
+  {
+    extraction.WritePoints(isodiamond::AffineMap(), mesh.Points[0].data());
+    extraction.WriteTriangles(false, mesh.Triangles[0].data(), mesh.Levels.data());
+  }
   return mesh;
 }
 
