@@ -13,7 +13,7 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
-#include "vtkUnsignedCharArray.h"
+#include "vtkSignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -24,10 +24,9 @@ vtkStandardNewMacro(vtkDiamondMesh);
 namespace
 {
 
-void AddArray(
-  vtkUnstructuredGrid* output, const char* name, const std::vector<std::uint8_t>& values)
+void AddArray(vtkUnstructuredGrid* output, const char* name, const std::vector<std::int8_t>& values)
 {
-  vtkNew<vtkUnsignedCharArray> array;
+  vtkNew<vtkSignedCharArray> array;
   array->SetName(name);
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));

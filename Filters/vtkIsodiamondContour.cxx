@@ -19,7 +19,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkUnsignedCharArray.h"
+#include "vtkSignedCharArray.h"
 
 #include <algorithm>
 #include <map>

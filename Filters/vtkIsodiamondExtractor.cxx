@@ -13,7 +13,7 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkUnsignedCharArray.h"
+#include "vtkSignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 vtkStandardNewMacro(vtkIsodiamondExtractor);

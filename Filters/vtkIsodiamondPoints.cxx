@@ -13,7 +13,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkUnsignedCharArray.h"
+#include "vtkSignedCharArray.h"
 
 #include <stdexcept>
 
@@ -57,9 +57,9 @@ int vtkIsodiamondPoints::RequestData(
     const isodiamond::IsodiamondHierarchy& hierarchy = *state->Isodiamonds;
     vtkNew<vtkPoints> points;
     vtkNew<vtkCellArray> vertices;
-    vtkNew<vtkUnsignedCharArray> kinds;
-    vtkNew<vtkUnsignedCharArray> classes;
-    vtkNew<vtkUnsignedCharArray> levels;
+    vtkNew<vtkSignedCharArray> kinds;
+    vtkNew<vtkSignedCharArray> classes;
+    vtkNew<vtkSignedCharArray> levels;
     vtkNew<vtkDoubleArray> errors;
     kinds->SetName("Kind");
     classes->SetName("Class");
@@ -77,10 +77,10 @@ int vtkIsodiamondPoints::RequestData(
         const vtkIdType id =
           points->InsertNextPoint(state->World(centre[0], centre[1], centre[2]).data());
         vertices->InsertNextCell(1, &id);
-        kinds->InsertNextValue(static_cast<unsigned char>(hierarchy.KindOf(rank)));
+        kinds->InsertNextValue(static_cast<signed char>(hierarchy.KindOf(rank)));
         classes->InsertNextValue(
-          static_cast<unsigned char>(isodiamond::ShapeOf(place.Position).DiamondClass));
-        levels->InsertNextValue(static_cast<unsigned char>(depth - 1 - place.Scale));
+          static_cast<signed char>(isodiamond::ShapeOf(place.Position).DiamondClass));
+        levels->InsertNextValue(static_cast<signed char>(depth - 1 - place.Scale));
         errors->InsertNextValue(hierarchy.Codes().Decode(hierarchy.Threshold(rank)));
       });
     output->SetPoints(points);

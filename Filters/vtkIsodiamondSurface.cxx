@@ -7,9 +7,9 @@
 #include "vtkCellArray.h"
 #include "vtkFloatArray.h"
 #include "vtkPoints.h"
+#include "vtkSignedCharArray.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <limits>
 
@@ -20,7 +20,7 @@ namespace
 
 template <typename Array>
 vtkSmartPointer<vtkCellArray> WriteCells(
-  const isodiamond::SurfaceExtraction& extraction, bool mirrored, vtkUnsignedCharArray* levels)
+  const isodiamond::SurfaceExtraction& extraction, bool mirrored, vtkSignedCharArray* levels)
 {
   using Id = typename Array::ValueType;
   const std::int64_t count = extraction.TriangleCount();
@@ -59,7 +59,7 @@ Surface ExtractSurface(const isodiamond::IsodiamondHierarchy& hierarchy,
   surface.Points = vtkSmartPointer<vtkPoints>::New();
   surface.Points->SetData(coordinates);
 
-  surface.Levels = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  surface.Levels = vtkSmartPointer<vtkSignedCharArray>::New();
   surface.Levels->SetName("Level");
   surface.Levels->SetNumberOfValues(extraction.TriangleCount());
   const bool small = 3 * extraction.TriangleCount() <= std::numeric_limits<std::int32_t>::max();

@@ -12,7 +12,7 @@
 class vtkCellArray;
 class vtkFloatArray;
 class vtkPoints;
-class vtkUnsignedCharArray;
+class vtkSignedCharArray;
 
 namespace vtkIsodiamond
 {
@@ -20,9 +20,9 @@ namespace vtkIsodiamond
 /** An extracted isosurface as VTK arrays. */
 struct Surface
 {
-  vtkSmartPointer<vtkPoints> Points;            ///< world positions, float
-  vtkSmartPointer<vtkCellArray> Triangles;      ///< 32-bit storage where ids fit
-  vtkSmartPointer<vtkUnsignedCharArray> Levels; ///< "Level", one a triangle
+  vtkSmartPointer<vtkPoints> Points;          ///< world positions, float
+  vtkSmartPointer<vtkCellArray> Triangles;    ///< 32-bit storage where ids fit
+  vtkSmartPointer<vtkSignedCharArray> Levels; ///< "Level", one a triangle
 };
 
 /** Extracts a surface from an RI or MI. Runs on the calling thread's vtkSMPTools scope. */

@@ -5,6 +5,13 @@ else()
   find_package(VTK 9.1 REQUIRED
     COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc FiltersCore)
 endif()
+if(BUILD_TESTING)
+  # What the tests use besides: here, because imported targets belong to the folder that finds them.
+  find_package(VTK REQUIRED
+    COMPONENTS CommonExecutionModel FiltersCore FiltersExtraction FiltersGeneral ImagingCore IOXML
+      InteractionStyle RenderingCore RenderingFreeType RenderingOpenGL2 TestingRendering
+    PATHS "${VTK_DIR}" NO_DEFAULT_PATH) # the VTK that ParaView brought
+endif()
 
 vtk_module_scan(
   MODULE_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module"

@@ -11,8 +11,8 @@ build_packages="cmake ninja-build g++ paraview-dev python3-paraview libopenmpi-d
 render_packages="xvfb xauth"
 # The MRI head of the demo.
 demo_packages="mricron-data"
-# VTK's C++ rendering tests, and programs under MPI.
-test_packages="libglew-dev libfreetype-dev mpi-default-bin"
+# GoogleTest, VTK's rendering tests, and programs under MPI.
+test_packages="libgtest-dev libglew-dev libfreetype-dev mpi-default-bin"
 
 # install_packages PACKAGE...: installs those that are missing.
 install_packages() {

@@ -41,8 +41,8 @@ DiamondMesh ExtractDiamondMesh(const RefinedSet& refined)
         }
         mesh.Tetrahedra.push_back(ends);
         mesh.Levels.push_back(
-          static_cast<std::uint8_t>(hierarchy.Domain().Depth() - 1 - leaf.Scale));
-        mesh.Classes.push_back(static_cast<std::uint8_t>((leaf.Shape.DiamondClass + 1) % 3));
+          static_cast<std::int8_t>(hierarchy.Domain().Depth() - 1 - leaf.Scale));
+        mesh.Classes.push_back(static_cast<std::int8_t>((leaf.Shape.DiamondClass + 1) % 3));
       });
   }
   return mesh;

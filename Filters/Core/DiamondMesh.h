@@ -19,8 +19,8 @@ struct DiamondMesh
 {
   std::vector<Point> Points;                           ///< lattice points, each once
   std::vector<std::array<std::int64_t, 4>> Tetrahedra; ///< positively oriented in index space
-  std::vector<std::uint8_t> Levels;  ///< of the diamond that a tetrahedron lies in
-  std::vector<std::uint8_t> Classes; ///< class of that diamond
+  std::vector<std::int8_t> Levels;  ///< of the diamond that a tetrahedron lies in
+  std::vector<std::int8_t> Classes; ///< class of that diamond
 };
 
 /** Collects the mesh. Serial: it is for looking at, not for speed. */

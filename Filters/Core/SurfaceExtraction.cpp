@@ -148,7 +148,7 @@ class SurfaceExtraction::TriangleWriter
 {
 public:
   TriangleWriter(
-    const SurfaceExtraction& extraction, bool mirrored, Id* connectivity, std::uint8_t* levels)
+    const SurfaceExtraction& extraction, bool mirrored, Id* connectivity, std::int8_t* levels)
     : Extraction(extraction)
     , Source(extraction.Source)
     , Mirrored(mirrored)
@@ -236,14 +236,14 @@ private:
     this->Next[1] = this->Flip ? c : b;
     this->Next[2] = this->Flip ? b : c;
     this->Next += 3;
-    *this->NextLevel++ = static_cast<std::uint8_t>(this->Source.Domain().Depth() - 1 - leaf.Scale);
+    *this->NextLevel++ = static_cast<std::int8_t>(this->Source.Domain().Depth() - 1 - leaf.Scale);
   }
 
   const SurfaceExtraction& Extraction;
   const IsodiamondHierarchy& Source;
   bool Mirrored;
   Id* Next;
-  std::uint8_t* NextLevel;
+  std::int8_t* NextLevel;
 
   // Of the current parent.
   std::int64_t Rank = DiamondSet::None;
@@ -255,7 +255,7 @@ private:
 };
 
 template <typename Id>
-void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity, std::uint8_t* levels) const
+void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const
 {
   this->ForEachBrick(16,
     [&](std::int64_t i)
@@ -269,7 +269,7 @@ void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity, std::uin
     });
 }
 
-template void SurfaceExtraction::WriteTriangles(bool, std::int32_t*, std::uint8_t*) const;
-template void SurfaceExtraction::WriteTriangles(bool, long long*, std::uint8_t*) const;
+template void SurfaceExtraction::WriteTriangles(bool, std::int32_t*, std::int8_t*) const;
+template void SurfaceExtraction::WriteTriangles(bool, long long*, std::int8_t*) const;
 
 }

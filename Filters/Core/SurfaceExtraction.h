@@ -40,7 +40,7 @@ public:
    *        at full resolution
    */
   template <typename Id>
-  void WriteTriangles(bool mirrored, Id* connectivity, std::uint8_t* levels) const;
+  void WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const;
 
 private:
   /** The points of one refined diamond: its alive isovertices have consecutive ids. */

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterTestTools.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCell.h"
+#include "vtkFeatureEdges.h"
+#include "vtkFloatArray.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace test
+{
+
+vtkSmartPointer<vtkImageData> MakeImage(
+  const std::array<int, 3>& dims, const std::function<double(double, double, double)>& function)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(dims.data());
+  vtkNew<vtkFloatArray> density;
+  density->SetName("density");
+  for (int z = 0; z < dims[2]; ++z)
+  {
+    for (int y = 0; y < dims[1]; ++y)
+    {
+      for (int x = 0; x < dims[0]; ++x)
+      {
+        density->InsertNextValue(static_cast<float>(function(x, y, z)));
+      }
+    }
+  }
+  image->GetPointData()->SetScalars(density);
+  return image;
+}
+
+vtkSmartPointer<vtkImageData> BallImage(const std::array<int, 3>& dims)
+{
+  return MakeImage(dims,
+    [&](double x, double y, double z)
+    {
+      const double u = 2.0 * x / (dims[0] - 1) - 1.0;
+      const double v = 2.0 * y / (dims[1] - 1) - 1.0;
+      const double w = 2.0 * z / (dims[2] - 1) - 1.0;
+      return 0.71 - std::sqrt(u * u + v * v + w * w) +
+        0.07 * std::sin(7.0 * u) * std::sin(6.0 * v) * std::cos(5.0 * w);
+    });
+}
+
+void Messages::Execute(vtkObject*, unsigned long event, void* data)
+{
+  const char* text = static_cast<const char*>(data);
+  if (event == vtkCommand::ErrorEvent)
+  {
+    this->Errors += text;
+    ++this->ErrorCount;
+  }
+  else if (event == vtkCommand::WarningEvent)
+  {
+    this->Warnings += text;
+    ++this->WarningCount;
+  }
+}
+
+vtkSmartPointer<Messages> Watch(vtkAlgorithm* algorithm)
+{
+  auto messages = vtkSmartPointer<Messages>::New();
+  algorithm->AddObserver(vtkCommand::ErrorEvent, messages);
+  algorithm->AddObserver(vtkCommand::WarningEvent, messages);
+  return messages;
+}
+
+namespace
+{
+
+template <typename Body>
+void ForEachTriangle(vtkPointSet* mesh, Body&& body)
+{
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    vtkIdList* ids = mesh->GetCell(i)->GetPointIds();
+    std::array<std::array<double, 3>, 3> corners{};
+    for (int j = 0; j < 3; ++j)
+    {
+      mesh->GetPoint(ids->GetId(j), corners[j].data());
+    }
+    body(corners);
+  }
+}
+
+}
+
+double SixVolume(vtkPointSet* mesh)
+{
+  double sum = 0.0;
+  ForEachTriangle(mesh,
+    [&](const std::array<std::array<double, 3>, 3>& t)
+    { sum += vtkMath::Determinant3x3(t[0].data(), t[1].data(), t[2].data()); });
+  return sum;
+}
+
+double Area(vtkPointSet* mesh)
+{
+  double sum = 0.0;
+  ForEachTriangle(mesh,
+    [&](const std::array<std::array<double, 3>, 3>& t)
+    {
+      double a[3];
+      double b[3];
+      double normal[3];
+      vtkMath::Subtract(t[1].data(), t[0].data(), a);
+      vtkMath::Subtract(t[2].data(), t[0].data(), b);
+      vtkMath::Cross(a, b, normal);
+      sum += 0.5 * vtkMath::Norm(normal);
+    });
+  return sum;
+}
+
+Triangles SortedTriangles(vtkPointSet* mesh)
+{
+  Triangles triangles;
+  ForEachTriangle(mesh,
+    [&](std::array<std::array<double, 3>, 3> t)
+    {
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      triangles.push_back(t);
+    });
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+vtkIdType BoundaryEdges(vtkPolyData* mesh)
+{
+  vtkNew<vtkFeatureEdges> edges;
+  edges->SetInputData(mesh);
+  edges->BoundaryEdgesOn();
+  edges->NonManifoldEdgesOn();
+  edges->FeatureEdgesOff();
+  edges->ManifoldEdgesOff();
+  edges->Update();
+  return edges->GetOutput()->GetNumberOfCells();
+}
+
+}

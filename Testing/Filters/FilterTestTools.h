@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef FilterTestTools_h
+#define FilterTestTools_h
+
+#include "vtkCommand.h"
+#include "vtkImageData.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkCellArray;
+class vtkPolyData;
+
+/** Images, meshes and caught errors that the tests of the filters share. */
+namespace test
+{
+
+/** An image with the float point scalars "density" = function(x, y, z) of sample indices. */
+vtkSmartPointer<vtkImageData> MakeImage(
+  const std::array<int, 3>& dims, const std::function<double(double, double, double)>& function);
+
+/** A bumpy ball: density falls from the middle, about 0 on its surface, well inside the image. */
+vtkSmartPointer<vtkImageData> BallImage(const std::array<int, 3>& dims);
+
+/** Collects the errors and warnings of an algorithm instead of printing them. */
+class Messages : public vtkCommand
+{
+public:
+  vtkTypeMacro(Messages, vtkCommand);
+  static Messages* New() { return new Messages; }
+  void Execute(vtkObject* caller, unsigned long event, void* data) override;
+
+  std::string Errors;
+  int ErrorCount = 0;
+  std::string Warnings;
+  int WarningCount = 0;
+};
+vtkSmartPointer<Messages> Watch(vtkAlgorithm* algorithm);
+
+/** Six times the volume that a closed surface encloses, positive if normals point outward. */
+double SixVolume(vtkPointSet* mesh);
+double Area(vtkPointSet* mesh);
+
+/** The triangles of a mesh as positions, sorted: equal for the same surface in any order. */
+using Triangles = std::vector<std::array<std::array<double, 3>, 3>>;
+Triangles SortedTriangles(vtkPointSet* mesh);
+
+/** Number of edges with one triangle. */
+vtkIdType BoundaryEdges(vtkPolyData* mesh);
+
+}
+
+#endif

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bad input: one error that names the cause, an empty and valid output, and a filter that works
+// again afterwards.
+#include "FilterTestTools.h"
+
+#include "vtkDiamondMesh.h"
+#include "vtkDoubleArray.h"
+#include "vtkExecutive.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondExtractor.h"
+#include "vtkIsodiamondHierarchy.h"
+#include "vtkIsodiamondPoints.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include "vtkCellData.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace
+{
+
+constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
+
+/** Runs Contour and Builder on an image; both must say `cause` once and give nothing. */
+void ExpectRefusal(const std::function<void(vtkAlgorithm*)>& prepare, const std::string& cause)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(test::BallImage({ 9, 9, 9 }));
+  contour->SetValue(0, 0.0);
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(test::BallImage({ 9, 9, 9 }));
+  for (vtkAlgorithm* filter :
+    { static_cast<vtkAlgorithm*>(contour), static_cast<vtkAlgorithm*>(builder) })
+  {
+    filter->Update(); // a good run first: nothing of it may remain
+    prepare(filter);
+    const auto messages = test::Watch(filter);
+    filter->Update();
+    EXPECT_EQ(messages->ErrorCount, 1) << messages->Errors;
+    EXPECT_NE(messages->Errors.find(cause), std::string::npos) << messages->Errors;
+    EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
+    EXPECT_EQ(filter->GetOutputDataObject(0)->GetFieldData()->GetNumberOfArrays(), 0);
+    // And it works again.
+    filter->SetInputDataObject(0, test::BallImage({ 9, 9, 9 }));
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "density");
+    filter->Update();
+    EXPECT_EQ(messages->ErrorCount, 1) << messages->Errors;
+    EXPECT_GT(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
+  }
+}
+
+}
+
+TEST(BadInput, ImagesThatHaveNoSurface)
+{
+  ExpectRefusal([](vtkAlgorithm* filter)
+    { filter->SetInputDataObject(0, vtkSmartPointer<vtkImageData>::New()); },
+    "empty");
+  ExpectRefusal(
+    [](vtkAlgorithm* filter) {
+      filter->SetInputDataObject(0, test::BallImage({ 9, 9, 1 }));
+    },
+    "9 x 9 x 1");
+  ExpectRefusal(
+    [](vtkAlgorithm* filter) {
+      filter->SetInputDataObject(0, test::BallImage({ 1, 9, 9 }));
+    },
+    "1 x 9 x 9");
+}
+
+TEST(BadInput, ArraysThatCannotBeContoured)
+{
+  ExpectRefusal(
+    [](vtkAlgorithm* filter) {
+      filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "nowhere");
+    },
+    "no such point data array");
+  ExpectRefusal(
+    [](vtkAlgorithm* filter)
+    {
+      const auto image = test::BallImage({ 9, 9, 9 });
+      vtkNew<vtkFloatArray> vectors;
+      vectors->SetName("velocity");
+      vectors->SetNumberOfComponents(3);
+      vectors->SetNumberOfTuples(image->GetNumberOfPoints());
+      vectors->Fill(1.0);
+      image->GetPointData()->SetScalars(vectors);
+      filter->SetInputDataObject(0, image);
+      filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "velocity");
+    },
+    "3 components");
+  ExpectRefusal(
+    [](vtkAlgorithm* filter)
+    {
+      const auto image = test::BallImage({ 9, 9, 9 });
+      vtkNew<vtkFloatArray> values;
+      values->SetName("cells");
+      values->SetNumberOfTuples(image->GetNumberOfCells());
+      values->Fill(1.0);
+      image->GetCellData()->SetScalars(values);
+      filter->SetInputDataObject(0, image);
+      filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "cells");
+    },
+    "not point data");
+}
+
+TEST(BadInput, NoInputAtAll)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  for (vtkAlgorithm* filter :
+    { static_cast<vtkAlgorithm*>(contour), static_cast<vtkAlgorithm*>(extractor) })
+  {
+    const auto messages = test::Watch(filter);
+    vtkNew<test::Messages> executive;
+    filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
+    filter->Update();
+    EXPECT_GT(messages->ErrorCount + executive->ErrorCount, 0); // the pipeline's own
+    EXPECT_EQ(vtkPointSet::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints(), 0);
+  }
+}
+
+TEST(BadInput, TolerancesAndIsovalues)
+{
+  for (const double tolerance : { -1.0, NotANumber })
+  {
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputData(test::BallImage({ 9, 9, 9 }));
+    contour->SetValue(0, 0.0);
+    contour->SetErrorTolerance(tolerance);
+    auto messages = test::Watch(contour);
+    contour->Update();
+    EXPECT_EQ(messages->ErrorCount, 1);
+    EXPECT_NE(messages->Errors.find("tolerance"), std::string::npos);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+
+    vtkNew<vtkIsodiamondBuilder> builder;
+    builder->SetInputData(test::BallImage({ 9, 9, 9 }));
+    vtkNew<vtkIsodiamondExtractor> extractor;
+    vtkNew<vtkDiamondMesh> mesh;
+    for (vtkIsodiamondExtractor* filter : { static_cast<vtkIsodiamondExtractor*>(extractor),
+           static_cast<vtkIsodiamondExtractor*>(mesh) })
+    {
+      filter->SetInputConnection(builder->GetOutputPort());
+      filter->SetErrorTolerance(tolerance);
+      messages = test::Watch(filter);
+      filter->Update();
+      EXPECT_EQ(messages->ErrorCount, 1);
+      EXPECT_NE(messages->Errors.find("tolerance"), std::string::npos);
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    }
+  }
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(test::BallImage({ 9, 9, 9 }));
+  builder->SetIsovalue(NotANumber);
+  auto messages = test::Watch(builder);
+  builder->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+  // Outside of the range is just empty.
+  builder->SetIsovalue(1000.0);
+  builder->Update();
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(builder->GetOutputPort());
+  messages = test::Watch(extractor);
+  extractor->Update();
+  EXPECT_EQ(messages->ErrorCount, 0);
+  EXPECT_EQ(extractor->GetOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(BadInput, ThingsThatAreNotHierarchies)
+{
+  vtkNew<vtkPolyData> plain;
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  vtkNew<vtkIsodiamondPoints> points;
+  vtkNew<vtkIsodiamondBuilder> builder;
+  for (vtkAlgorithm* filter : { static_cast<vtkAlgorithm*>(extractor),
+         static_cast<vtkAlgorithm*>(points), static_cast<vtkAlgorithm*>(builder) })
+  {
+    filter->SetInputDataObject(0, plain);
+    const auto messages = test::Watch(filter);
+    filter->Update();
+    EXPECT_EQ(messages->ErrorCount, 1);
+    EXPECT_NE(messages->Errors.find("not an isodiamond hierarchy"), std::string::npos);
+  }
+  // HD has no isodiamonds; RI and MI no samples.
+  vtkNew<vtkIsodiamondBuilder> scalars;
+  scalars->SetInputData(test::BallImage({ 9, 9, 9 }));
+  scalars->SetModelToHierarchyOfDiamonds();
+  points->SetInputConnection(scalars->GetOutputPort());
+  auto messages = test::Watch(points);
+  points->Update();
+  EXPECT_NE(messages->Errors.find("stores no isodiamonds"), std::string::npos);
+  vtkNew<vtkIsodiamondBuilder> minimal;
+  minimal->SetInputData(test::BallImage({ 9, 9, 9 }));
+  builder->SetInputConnection(minimal->GetOutputPort());
+  messages = test::Watch(builder);
+  builder->Update();
+  EXPECT_NE(messages->Errors.find("one isovalue"), std::string::npos);
+}
+
+TEST(BadInput, DamagedHierarchies)
+{
+  for (const bool scalars : { false, true })
+  {
+    vtkNew<vtkIsodiamondBuilder> builder;
+    builder->SetInputData(test::BallImage({ 9, 9, 9 }));
+    builder->SetModel(scalars ? 0 : 2);
+    builder->Update();
+    vtkFieldData* good = builder->GetOutput()->GetFieldData();
+    for (int i = 0; i < good->GetNumberOfArrays(); ++i)
+    {
+      if (std::string(good->GetArrayName(i)) == "IsodiamondArrayName")
+      {
+        continue; // only a name
+      }
+      for (int damage = 0; damage < 3; ++damage)
+      {
+        vtkNew<vtkPolyData> bad;
+        bad->DeepCopy(builder->GetOutput());
+        const std::string name = good->GetArrayName(i);
+        if (damage == 0)
+        {
+          bad->GetFieldData()->RemoveArray(name.c_str());
+        }
+        else if (damage == 1)
+        {
+          vtkDataArray* array = bad->GetFieldData()->GetArray(name.c_str());
+          array->SetNumberOfTuples(array->GetNumberOfTuples() - 1);
+        }
+        else
+        {
+          vtkNew<vtkDoubleArray> other;
+          other->SetName(name.c_str());
+          other->SetNumberOfComponents(2);
+          other->SetNumberOfTuples(good->GetArray(name.c_str())->GetNumberOfTuples());
+          other->Fill(1.0);
+          bad->GetFieldData()->RemoveArray(name.c_str());
+          bad->GetFieldData()->AddArray(other);
+        }
+        vtkNew<vtkIsodiamondExtractor> extractor;
+        extractor->SetInputData(bad);
+        const auto messages = test::Watch(extractor);
+        extractor->Update();
+        EXPECT_EQ(messages->ErrorCount, 1) << name << " damage " << damage;
+        EXPECT_EQ(extractor->GetOutput()->GetNumberOfCells(), 0);
+      }
+    }
+  }
+}

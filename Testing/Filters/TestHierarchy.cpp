@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Builder, hierarchy, extractor, points and diamond mesh.
+#include "FilterTestTools.h"
+
+#include "vtkCellData.h"
+#include "vtkDiamondMesh.h"
+#include "vtkFieldData.h"
+#include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondExtractor.h"
+#include "vtkIsodiamondHierarchy.h"
+#include "vtkIsodiamondPoints.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLPolyDataReader.h"
+#include "vtkXMLPolyDataWriter.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace
+{
+
+vtkSmartPointer<vtkIsodiamondBuilder> MakeBuilder(int model)
+{
+  auto builder = vtkSmartPointer<vtkIsodiamondBuilder>::New();
+  builder->SetInputData(test::BallImage({ 33, 29, 31 }));
+  builder->SetModel(model);
+  return builder;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> Extract(vtkAlgorithmOutput* hierarchy, double tolerance)
+{
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(hierarchy);
+  extractor->SetErrorTolerance(tolerance);
+  extractor->Update();
+  return extractor->GetOutput();
+}
+
+}
+
+TEST(Hierarchy, KnowsWhatItHolds)
+{
+  const auto minimal = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  minimal->Update();
+  vtkIsodiamondHierarchy* mi = minimal->GetHierarchy();
+  ASSERT_NE(mi, nullptr);
+  EXPECT_EQ(mi->GetModel(), vtkIsodiamondHierarchy::MINIMAL);
+  EXPECT_EQ(mi->GetShape(), vtkIsodiamondHierarchy::ISOSURFACE);
+  EXPECT_EQ(mi->GetArrayName(), "density");
+  EXPECT_GT(mi->GetNumberOfActiveIsodiamonds(), 1000);
+  EXPECT_EQ(mi->GetNumberOfRelevantIsodiamonds(), mi->GetNumberOfCreationIsodiamonds());
+  const auto relevant = MakeBuilder(vtkIsodiamondHierarchy::RELEVANT);
+  relevant->Update();
+  vtkIsodiamondHierarchy* ri = relevant->GetHierarchy();
+  EXPECT_EQ(ri->GetNumberOfActiveIsodiamonds(), mi->GetNumberOfActiveIsodiamonds());
+  EXPECT_EQ(ri->GetNumberOfIsovertices(), mi->GetNumberOfIsovertices());
+  EXPECT_GT(ri->GetNumberOfRelevantIsodiamonds(), mi->GetNumberOfRelevantIsodiamonds());
+  EXPECT_GT(ri->GetStorageSize(), mi->GetStorageSize());
+  const auto scalars = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  scalars->Update();
+  vtkIsodiamondHierarchy* hd = scalars->GetHierarchy();
+  EXPECT_EQ(hd->GetModel(), vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  EXPECT_EQ(hd->GetNumberOfActiveIsodiamonds(), 0);
+  EXPECT_LE(hd->GetStorageSize(), 8 * 34 * 30 * 32); // 8 bytes a voxel
+  // The geometry is the outline.
+  double bounds[6];
+  hd->GetBounds(bounds);
+  EXPECT_EQ(bounds[1], 32.0);
+  EXPECT_EQ(hd->GetNumberOfLines(), 12);
+  std::ostringstream text;
+  mi->Print(text);
+  EXPECT_NE(text.str().find("NumberOfIsovertices"), std::string::npos);
+}
+
+TEST(Hierarchy, StorageSizeIsTheSumOfTheArrays)
+{
+  const auto builder = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  builder->Update();
+  vtkFieldData* arrays = builder->GetHierarchy()->GetFieldData();
+  vtkIdType size = 0;
+  for (const char* name : { "IsodiamondBrickCounts", "IsodiamondBrickIndices",
+         "IsodiamondBrickMasks", "IsodiamondRecords", "IsodiamondIsovertices" })
+  {
+    vtkDataArray* array = arrays->GetArray(name);
+    ASSERT_NE(array, nullptr);
+    size += array->GetNumberOfValues() * array->GetDataTypeSize();
+  }
+  EXPECT_EQ(builder->GetHierarchy()->GetStorageSize(), size);
+}
+
+TEST(Hierarchy, ThreeModelsGiveTheSameSurface)
+{
+  const auto hd = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  const auto ri = MakeBuilder(vtkIsodiamondHierarchy::RELEVANT);
+  const auto mi = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  vtkNew<vtkIsodiamondBuilder> fromScalars; // MI from the HD, without the image
+  fromScalars->SetInputConnection(hd->GetOutputPort());
+  for (const double tolerance : { 0.0, 0.02, 0.2, 1e9 })
+  {
+    const auto expected = test::SortedTriangles(Extract(mi->GetOutputPort(), tolerance));
+    EXPECT_EQ(test::SortedTriangles(Extract(ri->GetOutputPort(), tolerance)), expected);
+    EXPECT_EQ(test::SortedTriangles(Extract(hd->GetOutputPort(), tolerance)), expected);
+    EXPECT_EQ(test::SortedTriangles(Extract(fromScalars->GetOutputPort(), tolerance)), expected);
+  }
+}
+
+TEST(Hierarchy, OfDiamondsAnswersOtherIsovalues)
+{
+  const auto hd = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(hd->GetOutputPort());
+  for (const double isovalue : { -0.3, 0.1, 0.4 })
+  {
+    extractor->SetIsovalue(isovalue);
+    extractor->Update();
+    const auto mi = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+    mi->SetIsovalue(isovalue);
+    EXPECT_EQ(test::SortedTriangles(extractor->GetOutput()),
+      test::SortedTriangles(Extract(mi->GetOutputPort(), 0.0)));
+    EXPECT_FLOAT_EQ(
+      extractor->GetOutput()->GetPointData()->GetArray("density")->GetTuple1(0), isovalue);
+  }
+  extractor->UseIsovalueOff();
+  extractor->Update();
+  EXPECT_EQ(test::SortedTriangles(extractor->GetOutput()),
+    test::SortedTriangles(Extract(hd->GetOutputPort(), 0.0)));
+}
+
+TEST(Hierarchy, AnotherIsovalueOnMinimalWarnsOnceAndHasNoEffect)
+{
+  const auto mi = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(mi->GetOutputPort());
+  extractor->SetIsovalue(0.3);
+  const auto messages = test::Watch(extractor);
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 1);
+  EXPECT_EQ(messages->ErrorCount, 0);
+  EXPECT_EQ(test::SortedTriangles(extractor->GetOutput()),
+    test::SortedTriangles(Extract(mi->GetOutputPort(), 0.0)));
+}
+
+TEST(Hierarchy, SurvivesFilesAndCopies)
+{
+  for (const int model : { vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS,
+         vtkIsodiamondHierarchy::RELEVANT, vtkIsodiamondHierarchy::MINIMAL })
+  {
+    const auto builder = MakeBuilder(model);
+    const std::string path = std::string(TEMPORARY_FOLDER) + "/hierarchy.vtp";
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetFileName(path.c_str());
+    writer->SetInputConnection(builder->GetOutputPort());
+    writer->Write();
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    const auto expected = test::SortedTriangles(Extract(builder->GetOutputPort(), 0.05));
+    EXPECT_EQ(test::SortedTriangles(Extract(reader->GetOutputPort(), 0.05)), expected);
+    const auto restored = vtkSmartPointer<vtkIsodiamondHierarchy>::Take(
+      vtkIsodiamondHierarchy::FromPolyData(reader->GetOutput()));
+    ASSERT_NE(restored, nullptr);
+    EXPECT_EQ(restored->GetModel(), model);
+    EXPECT_EQ(restored->GetStorageSize(), builder->GetHierarchy()->GetStorageSize());
+    EXPECT_EQ(
+      restored->GetNumberOfIsovertices(), builder->GetHierarchy()->GetNumberOfIsovertices());
+    vtkNew<vtkIsodiamondHierarchy> copy;
+    copy->DeepCopy(restored);
+    EXPECT_EQ(copy->GetStorageSize(), restored->GetStorageSize());
+    copy->Initialize();
+    EXPECT_EQ(copy->GetFieldData()->GetNumberOfArrays(), 0);
+  }
+  vtkNew<vtkPolyData> other;
+  EXPECT_EQ(vtkIsodiamondHierarchy::FromPolyData(other), nullptr);
+  EXPECT_EQ(vtkIsodiamondHierarchy::FromPolyData(nullptr), nullptr);
+}
+
+TEST(Points, HaveOneForEachStoredIsodiamond)
+{
+  const auto builder = MakeBuilder(vtkIsodiamondHierarchy::RELEVANT);
+  vtkNew<vtkIsodiamondPoints> points;
+  points->SetInputConnection(builder->GetOutputPort());
+  points->Update();
+  vtkIsodiamondHierarchy* hierarchy = builder->GetHierarchy();
+  vtkPolyData* output = points->GetOutput();
+  EXPECT_EQ(output->GetNumberOfPoints(),
+    hierarchy->GetNumberOfActiveIsodiamonds() + hierarchy->GetNumberOfRelevantIsodiamonds());
+  EXPECT_EQ(output->GetNumberOfVerts(), output->GetNumberOfPoints());
+  std::array<vtkIdType, 3> kinds{};
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    ++kinds.at(static_cast<int>(output->GetPointData()->GetArray("Kind")->GetTuple1(i)));
+    ASSERT_LE(output->GetPointData()->GetArray("Class")->GetTuple1(i), 2);
+    ASSERT_LE(output->GetPointData()->GetArray("Level")->GetTuple1(i), 4);
+    ASSERT_GT(output->GetPointData()->GetArray("Error")->GetTuple1(i), 0.0);
+  }
+  EXPECT_EQ(kinds[0], hierarchy->GetNumberOfActiveIsodiamonds());
+  EXPECT_EQ(kinds[1], hierarchy->GetNumberOfCreationIsodiamonds());
+  EXPECT_EQ(kinds[1] + kinds[2], hierarchy->GetNumberOfRelevantIsodiamonds());
+}
+
+TEST(DiamondMesh, FillsTheDomainOnlyForHierarchiesThatHoldIt)
+{
+  for (const int model : { vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS,
+         vtkIsodiamondHierarchy::RELEVANT, vtkIsodiamondHierarchy::MINIMAL })
+  {
+    vtkNew<vtkIsodiamondBuilder> builder;
+    builder->SetInputData(test::BallImage({ 17, 17, 17 }));
+    builder->SetModel(model);
+    vtkNew<vtkDiamondMesh> mesh;
+    mesh->SetInputConnection(builder->GetOutputPort());
+    mesh->SetErrorTolerance(0.1);
+    mesh->Update();
+    double six = 0.0;
+    vtkUnstructuredGrid* output = mesh->GetOutput();
+    ASSERT_GT(output->GetNumberOfCells(), 0);
+    for (vtkIdType i = 0; i < output->GetNumberOfCells(); ++i)
+    {
+      ASSERT_EQ(output->GetCellType(i), VTK_TETRA);
+      vtkPoints* p = output->GetCell(i)->GetPoints();
+      double a[3];
+      double b[3];
+      double c[3];
+      vtkMath::Subtract(p->GetPoint(1), p->GetPoint(0), a);
+      p->GetPoint(2, b);
+      p->GetPoint(3, c);
+      double o[3];
+      p->GetPoint(0, o);
+      vtkMath::Subtract(b, o, b);
+      vtkMath::Subtract(c, o, c);
+      p->GetPoint(1, a);
+      vtkMath::Subtract(a, o, a);
+      const double part = vtkMath::Determinant3x3(a, b, c);
+      ASSERT_GT(part, 0.0);
+      six += part;
+    }
+    if (model == vtkIsodiamondHierarchy::MINIMAL)
+    {
+      EXPECT_LT(six, 0.9 * 6 * 16 * 16 * 16);
+    }
+    else
+    {
+      EXPECT_DOUBLE_EQ(six, 6.0 * 16 * 16 * 16);
+    }
+    EXPECT_NE(output->GetCellData()->GetArray("Level"), nullptr);
+    EXPECT_NE(output->GetCellData()->GetArray("Class"), nullptr);
+  }
+}

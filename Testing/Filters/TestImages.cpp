@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What users see, against baselines in Data/Baseline. Numbers check the geometry elsewhere; these
+// check the look: shading, edges, colours, what is inside and what is outside.
+#include "FilterTestTools.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkCellData.h"
+#include "vtkDataSetMapper.h"
+#include "vtkDiamondMesh.h"
+#include "vtkExtractGeometry.h"
+#include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondExtractor.h"
+#include "vtkIsodiamondPoints.h"
+#include "vtkLookupTable.h"
+#include "vtkNew.h"
+#include "vtkPlane.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkTesting.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+/** A window of viewports side by side, each with one view of the ball. */
+class Scene
+{
+public:
+  explicit Scene(int views)
+    : Views(views)
+  {
+    this->Window->SetSize(400 * views, 400);
+    this->Window->SetMultiSamples(0);
+    this->Window->SetOffScreenRendering(1);
+  }
+
+  vtkActor* Add(vtkAlgorithmOutput* data)
+  {
+    vtkNew<vtkRenderer> renderer;
+    const double width = 1.0 / this->Views;
+    renderer->SetViewport(this->Next * width, 0.0, (this->Next + 1) * width, 1.0);
+    ++this->Next;
+    renderer->SetBackground(1.0, 1.0, 1.0);
+    vtkNew<vtkDataSetMapper> mapper;
+    mapper->SetInputConnection(data);
+    mapper->ScalarVisibilityOff();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->GetProperty()->SetColor(0.55, 0.7, 0.85);
+    renderer->AddActor(actor);
+    renderer->GetActiveCamera()->SetPosition(3, -4, 2.5);
+    renderer->GetActiveCamera()->SetFocalPoint(0, 0, 0);
+    renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
+    renderer->ResetCamera();
+    renderer->GetActiveCamera()->Zoom(1.1);
+    this->Window->AddRenderer(renderer);
+    return actor;
+  }
+
+  void Compare(const std::string& name)
+  {
+    this->Window->Render();
+    vtkNew<vtkTesting> testing;
+    testing->AddArgument("-T");
+    testing->AddArgument(TEMPORARY_FOLDER);
+    testing->AddArgument("-V");
+    testing->AddArgument((std::string(BASELINE_FOLDER) + "/" + name + ".png").c_str());
+    testing->SetRenderWindow(this->Window);
+    EXPECT_EQ(testing->RegressionTest(0.15), vtkTesting::PASSED);
+  }
+
+private:
+  vtkNew<vtkRenderWindow> Window;
+  int Views;
+  int Next = 0;
+};
+
+void ColourBy(vtkActor* actor, const char* array, int count)
+{
+  vtkNew<vtkLookupTable> colours;
+  colours->SetNumberOfTableValues(count);
+  colours->SetHueRange(0.66, 0.0);
+  colours->SetTableRange(-0.5, count - 0.5);
+  colours->ForceBuild();
+  vtkMapper* mapper = actor->GetMapper();
+  mapper->ScalarVisibilityOn();
+  mapper->SetLookupTable(colours);
+  mapper->UseLookupTableScalarRangeOn();
+  mapper->SelectColorArray(array);
+}
+
+}
+
+TEST(Images, SurfaceAtThreeTolerances)
+{
+  Scene scene(3);
+  vtkNew<vtkIsodiamondContour> contours[3];
+  const double tolerances[3] = { 0.0, 0.02, 0.1 };
+  for (int i = 0; i < 3; ++i)
+  {
+    contours[i]->SetInputData(test::BallImage({ 29, 29, 29 }));
+    contours[i]->SetValue(0, 0.0);
+    contours[i]->SetErrorTolerance(tolerances[i]);
+    scene.Add(contours[i]->GetOutputPort())->GetProperty()->EdgeVisibilityOn();
+  }
+  scene.Compare("SurfaceAtThreeTolerances");
+}
+
+TEST(Images, LevelsAndKindsAndDiamonds)
+{
+  Scene scene(3);
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(test::BallImage({ 33, 33, 33 }));
+  builder->SetModelToRelevant();
+  vtkNew<vtkIsodiamondExtractor> surface;
+  surface->SetInputConnection(builder->GetOutputPort());
+  surface->SetErrorTolerance(0.02);
+  vtkActor* actor = scene.Add(surface->GetOutputPort());
+  ColourBy(actor, "Level", 6);
+  actor->GetMapper()->SetScalarModeToUseCellFieldData();
+  vtkNew<vtkIsodiamondPoints> points;
+  points->SetInputConnection(builder->GetOutputPort());
+  actor = scene.Add(points->GetOutputPort());
+  ColourBy(actor, "Kind", 3);
+  actor->GetMapper()->SetScalarModeToUsePointFieldData();
+  actor->GetProperty()->SetPointSize(2.0);
+  // Half of the diamond mesh.
+  vtkNew<vtkDiamondMesh> mesh;
+  mesh->SetInputConnection(builder->GetOutputPort());
+  mesh->SetErrorTolerance(0.1);
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(16.0, 16.0, 16.0);
+  plane->SetNormal(0.0, -1.0, 0.0);
+  vtkNew<vtkExtractGeometry> half;
+  half->SetInputConnection(mesh->GetOutputPort());
+  half->SetImplicitFunction(plane);
+  actor = scene.Add(half->GetOutputPort());
+  ColourBy(actor, "Class", 3);
+  actor->GetMapper()->SetScalarModeToUseCellFieldData();
+  actor->GetProperty()->EdgeVisibilityOn();
+  scene.Compare("LevelsAndKindsAndDiamonds");
+}

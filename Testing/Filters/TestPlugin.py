@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin in pvpython: proxies, defaults, Show and SaveScreenshot."""
+import os
+import sys
+
+from paraview.simple import *
+
+LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
+
+wavelet = Wavelet()
+wavelet.UpdatePipeline()
+middle = sum(wavelet.PointData["RTData"].GetRange()) / 2
+extent = wavelet.PointData["RTData"].GetRange()[1] - wavelet.PointData["RTData"].GetRange()[0]
+
+# Contour: defaults that show a surface at once, a slider from 0 to the array's range.
+contour = IsodiamondContour(wavelet)
+assert list(contour.ContourBy) == ["POINTS", "RTData"], contour.ContourBy
+assert abs(contour.Isosurfaces[0] - middle) < 1e-3, contour.Isosurfaces
+assert contour.ErrorTolerance == 0
+domain = contour.GetProperty("ErrorTolerance").GetDomain("range")
+assert domain.GetMinimum(0) == 0 and abs(domain.GetMaximum(0) - extent) < 1e-3
+contour.UpdatePipeline()
+full = contour.GetDataInformation().GetNumberOfCells()
+stock = Contour(wavelet)
+stock.UpdatePipeline()
+assert full > stock.GetDataInformation().GetNumberOfCells() > 0
+contour.ErrorTolerance = 40
+contour.UpdatePipeline()
+assert 0 < contour.GetDataInformation().GetNumberOfCells() < full / 2
+
+# Two steps.
+hierarchy = IsodiamondHierarchy(wavelet)
+assert abs(hierarchy.Isovalue - middle) < 1e-3
+assert hierarchy.Model == "Minimal Isodiamonds"
+hierarchy.UpdatePipeline()
+extract = IsodiamondExtract(hierarchy)
+domain = extract.GetProperty("ErrorTolerance").GetDomain("range")
+assert abs(domain.GetMaximum(0) - extent) < 1e-3, domain.GetMaximum(0)
+extract.UpdatePipeline()
+assert extract.GetDataInformation().GetNumberOfCells() == full
+points = IsodiamondPoints(hierarchy)
+points.UpdatePipeline()
+assert sorted(points.PointData.keys()) == ["Class", "Error", "Kind", "Level"]
+mesh = DiamondMesh(hierarchy)
+mesh.UpdatePipeline()
+assert mesh.GetDataInformation().GetNumberOfCells() > 0
+
+# Saved and opened again.
+path = os.path.join(sys.argv[1], "plugin.vtp")
+SaveData(path, proxy=hierarchy)
+reopened = IsodiamondExtract(OpenDataFile(path))
+reopened.UpdatePipeline()
+assert reopened.GetDataInformation().GetNumberOfCells() == full
+
+# Shown.
+contour.ErrorTolerance = 5
+view = CreateRenderView(ViewSize=[400, 300])
+display = Show(contour, view)
+display.Representation = "Surface With Edges"
+ResetCamera(view)
+picture = os.path.join(sys.argv[1], "plugin.png")
+SaveScreenshot(picture, view)
+assert os.path.getsize(picture) > 5000
+print(full, "triangles,", os.path.getsize(picture), "bytes of picture")
