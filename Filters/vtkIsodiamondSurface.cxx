@@ -32,7 +32,7 @@ vtkSmartPointer<vtkCellArray> WriteCells(
     {
       for (std::int64_t i = begin; i < end; ++i)
       {
-        offset[i] = static_cast<Id>(3 * i);
+        offset[i] = 3 * static_cast<Id>(i);
       }
     });
   vtkSmartPointer<Array> connectivity = vtkSmartPointer<Array>::New();

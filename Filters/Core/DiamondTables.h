@@ -5,7 +5,9 @@
 #include "Lattice.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 /**
  * @file DiamondTables.h
@@ -376,17 +378,17 @@ inline constexpr TypeTable MakeType(int parity, int highBits)
   return table;
 }
 
-inline constexpr std::array<TypeTable, 64> MakeTypes()
+/** One constant a type: compilers limit the work that goes into a single one. */
+template <std::size_t Type>
+inline constexpr TypeTable TableOfType = MakeType(Type & 7, Type >> 3);
+
+template <std::size_t... Type>
+inline constexpr std::array<TypeTable, 64> MakeTypes(std::index_sequence<Type...> /*types*/)
 {
-  std::array<TypeTable, 64> all{};
-  for (int type = 0; type < 64; ++type)
-  {
-    all[type] = MakeType(type & 7, type >> 3);
-  }
-  return all;
+  return { TableOfType<Type>... };
 }
 
-inline constexpr std::array<TypeTable, 64> Types = MakeTypes();
+inline constexpr std::array<TypeTable, 64> Types = MakeTypes(std::make_index_sequence<64>());
 
 }
 
