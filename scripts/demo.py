@@ -1,0 +1,370 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An isosurface of a volume at five error tolerances; run by demo.sh with pvpython."""
+
+import argparse
+import contextlib
+import os
+import statistics
+import sys
+import time
+
+from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
+from vtkmodules.vtkIOImage import (
+    vtkMetaImageReader,
+    vtkNIFTIImageReader,
+    vtkNrrdReader,
+    vtkPNGWriter,
+)
+from vtkmodules.vtkImagingCore import vtkImageShrink3D
+from vtkmodules.vtkIOLegacy import vtkStructuredPointsReader
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataReader,
+    vtkXMLPolyDataReader,
+    vtkXMLPolyDataWriter,
+    vtkXMLUnstructuredGridWriter,
+)
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkCamera,
+    vtkDataSetMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+    vtkWindowToImageFilter,
+)
+import vtkmodules.vtkRenderingFreeType  # noqa: F401 (draws text)
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (draws everything else)
+
+HEAD = "/usr/share/mricron/templates/ch2.nii.gz"
+HEAD_ISOVALUE = 40.5  # between air and skin
+
+READERS = {
+    ".vti": vtkXMLImageDataReader,
+    ".nrrd": vtkNrrdReader,
+    ".nhdr": vtkNrrdReader,
+    ".mhd": vtkMetaImageReader,
+    ".mha": vtkMetaImageReader,
+    ".nii": vtkNIFTIImageReader,
+    ".nii.gz": vtkNIFTIImageReader,
+    ".vtk": vtkStructuredPointsReader,
+}
+
+TOLERANCES = (0, 5, 10, 25, 50)  # percent of the range of the data
+
+PICTURE_SIZE = (2000, 940)
+OVERSAMPLING = 2  # for thin, smooth edges
+CAPTION_HEIGHT = 0.1  # of the picture
+WHOLE_HEIGHT = 0.41  # the row of whole surfaces, above the row of close-ups
+FRONT = (0.45, 1, 0)
+CLOSE_UP = (0.35, 0, 0.3)  # where in the surface's box, then moved onto the surface
+CLOSE_UP_SIZE = 0.16  # of the whole view
+EDGE_LIMIT = 150_000  # triangles of a whole surface; denser edges only blacken it
+BACKGROUND = (0.97, 0.97, 0.98)
+SURFACE_COLOR = (0.93, 0.78, 0.68)
+EDGE_COLOR = (0.33, 0.22, 0.17)
+TEXT_COLOR = (0.15, 0.15, 0.18)
+
+
+class DemoError(Exception):
+    """What the user reads, on one line."""
+
+
+class ErrorLog:
+    """Keeps the errors of VTK, in place of VTK's own report of several lines."""
+
+    def __init__(self):
+        self.count = 0
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+        vtkOutputWindow.GetInstance().AddObserver("ErrorEvent", self.add)
+
+    def add(self, _window, _event):
+        self.count += 1
+
+
+@contextlib.contextmanager
+def silent_standard_error():
+    """Some readers' libraries write to the process's standard error, past VTK."""
+    sys.stderr.flush()
+    saved = os.dup(2)
+    with open(os.devnull, "wb") as nothing:
+        os.dup2(nothing.fileno(), 2)
+    try:
+        yield
+    finally:
+        os.dup2(saved, 2)
+        os.close(saved)
+
+
+def timed(algorithm):
+    """Milliseconds of one execution."""
+    algorithm.Modified()
+    start = time.perf_counter()
+    algorithm.Update()
+    return 1000 * (time.perf_counter() - start)
+
+
+def median_time(algorithm):
+    return statistics.median(timed(algorithm) for _ in range(3))
+
+
+def read_volume(path, errors):
+    """The image of a file, its array made the point scalars."""
+    extension = next((e for e in READERS if path.lower().endswith(e)), None)
+    if extension is None:
+        raise DemoError(f"unknown kind of file: '{path}'")
+    reader = READERS[extension]()
+    reader.SetFileName(path)
+    with silent_standard_error():
+        reader.Update()
+    image = reader.GetOutput()
+    if errors.count or image.GetNumberOfPoints() == 0:
+        raise DemoError(f"cannot read '{path}': damaged, or not the kind of file its name says")
+    if min(image.GetDimensions()) < 2:
+        raise DemoError(f"'{path}' is not a volume: it has {image.GetDimensions()} samples")
+    point_data = image.GetPointData()
+    # Some writers name no active scalars: then the first array.
+    array = point_data.GetScalars() or point_data.GetArray(0)
+    if array is None:
+        raise DemoError(f"'{path}' has no point scalars")
+    if array.GetNumberOfComponents() != 1:
+        raise DemoError(f"'{path}' has {array.GetNumberOfComponents()} components a point, not one")
+    point_data.SetScalars(array)
+    return image
+
+
+def use_scalars(algorithm):
+    algorithm.SetInputArrayToProcess(
+        0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes.SCALARS
+    )
+
+
+def build(image, isovalue):
+    builder = vtkIsodiamondBuilder()
+    builder.SetInputData(image)
+    use_scalars(builder)
+    builder.SetModelToMinimal()
+    builder.SetIsovalue(isovalue)
+    milliseconds = timed(builder)
+    return builder.GetHierarchy(), milliseconds / 1000
+
+
+def extract(hierarchy, tolerance):
+    extractor = vtkIsodiamondExtractor()
+    extractor.SetInputData(hierarchy)
+    extractor.SetErrorTolerance(tolerance)
+    milliseconds = median_time(extractor)
+    return extractor.GetOutput(), milliseconds
+
+
+def print_flying_edges(image, isovalue):
+    contour = vtkFlyingEdges3D()
+    contour.SetInputData(image)
+    use_scalars(contour)
+    contour.SetValue(0, isovalue)
+    contour.ComputeNormalsOff()
+    contour.ComputeScalarsOff()
+    milliseconds = median_time(contour)
+    print(
+        f"For orientation, vtkFlyingEdges3D (full resolution, no normals, VTK's own threading):"
+        f" {contour.GetOutput().GetNumberOfCells():,} triangles, {milliseconds:.0f} ms"
+    )
+
+
+def print_sizes(hierarchy, full):
+    mesh_size = 12 * full.GetNumberOfPoints() + 12 * full.GetNumberOfCells()
+    size = hierarchy.GetStorageSize()
+    print(
+        f"Hierarchy: {size:,} bytes; indexed mesh of the full resolution: {mesh_size:,} bytes"
+        f" ({mesh_size / size:.1f} times as many)"
+    )
+
+
+def write(writer, path, data):
+    writer.SetFileName(path)
+    writer.SetInputData(data)
+    writer.Write()
+    if writer.GetErrorCode():
+        raise DemoError(f"cannot write '{path}'")
+    return path
+
+
+def surface_actor(surface, edges):
+    mapper = vtkDataSetMapper()
+    mapper.SetInputData(surface)
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetColor(SURFACE_COLOR)
+    look.SetEdgeColor(EDGE_COLOR)
+    look.SetEdgeVisibility(edges)
+    return actor
+
+
+def caption(text, center):
+    actor = vtkTextActor()
+    actor.SetInput(text)
+    actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    actor.SetPosition(center, 0.5)
+    look = actor.GetTextProperty()
+    look.SetFontSize(24 * OVERSAMPLING)
+    look.SetLineSpacing(1.2)
+    look.SetColor(TEXT_COLOR)
+    look.SetJustificationToCentered()
+    look.SetVerticalJustificationToCentered()
+    return actor
+
+
+def front_camera(surface, aspect):
+    """A camera that the surface fills, from the front of a NIfTI head (y to the nose, z up).
+    @param aspect width by height of the view."""
+    camera = vtkCamera()
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(0, 0, 0)
+    camera.SetPosition(FRONT)
+    camera.SetViewUp(0, 0, 1)
+    to_view = vtkTransform()
+    to_view.SetMatrix(camera.GetViewTransformMatrix())
+    points = vtkPoints()
+    to_view.TransformPoints(surface.GetPoints(), points)
+    x0, x1, y0, y1, z0, z1 = points.GetBounds()
+    center = to_view.GetInverse().TransformPoint((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2)
+    camera.SetParallelScale(1.12 * max(y1 - y0, (x1 - x0) / aspect) / 2)
+    return look_at(camera, center, surface.GetLength())
+
+
+def close_up_camera(surface, whole):
+    """The view of another camera, with a part of the surface only."""
+    camera = vtkCamera()
+    camera.DeepCopy(whole)
+    camera.SetParallelScale(CLOSE_UP_SIZE * whole.GetParallelScale())
+    bounds = surface.GetBounds()
+    # From the front: y is counted from the far end.
+    x, y, z = CLOSE_UP
+    target = [
+        bounds[0] + x * (bounds[1] - bounds[0]),
+        bounds[3] - y * (bounds[3] - bounds[2]),
+        bounds[4] + z * (bounds[5] - bounds[4]),
+    ]
+    return look_at(camera, surface.GetPoint(surface.FindPoint(target)), surface.GetLength())
+
+
+def look_at(camera, point, distance):
+    camera.SetFocalPoint(point)
+    camera.SetPosition([p + distance * f for p, f in zip(point, FRONT)])
+    return camera
+
+
+def add_view(window, viewport, camera, actor):
+    renderer = vtkRenderer()
+    renderer.SetBackground(BACKGROUND)
+    renderer.SetViewport(viewport)
+    renderer.SetActiveCamera(camera)
+    renderer.AddActor(actor)
+    renderer.ResetCameraClippingRange()
+    window.AddRenderer(renderer)
+
+
+def draw(surfaces, captions):
+    """The surfaces side by side: whole, closer with all edges, and a caption under each."""
+    count = len(surfaces)
+    width, height = (OVERSAMPLING * size for size in PICTURE_SIZE)
+    window = vtkRenderWindow()
+    window.OffScreenRenderingOn()
+    window.SetSize(width, height)
+    text = vtkRenderer()
+    text.SetBackground(BACKGROUND)
+    text.SetViewport(0, 0, 1, CAPTION_HEIGHT)
+    window.AddRenderer(text)
+    whole = front_camera(surfaces[0], width / count / (height * WHOLE_HEIGHT))
+    closer = close_up_camera(surfaces[0], whole)
+    for i, surface in enumerate(surfaces):
+        left, right = i / count, (i + 1) / count
+        middle = 1 - WHOLE_HEIGHT
+        actor = surface_actor(surface, surface.GetNumberOfCells() < EDGE_LIMIT)
+        add_view(window, (left, middle, right, 1), whole, actor)
+        actor = surface_actor(surface, True)
+        add_view(window, (left, CAPTION_HEIGHT, right, middle), closer, actor)
+        text.AddActor(caption(captions[i], (i + 0.5) / count))
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    shrink = vtkImageShrink3D()
+    shrink.SetInputConnection(grab.GetOutputPort())
+    shrink.SetShrinkFactors(OVERSAMPLING, OVERSAMPLING, 1)
+    shrink.MeanOn()
+    shrink.Update()
+    return shrink.GetOutput()
+
+
+def check_reload(path, full):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(path)
+    reader.Update()
+    again, _ = extract(reader.GetOutput(), 0)
+    sizes = [(mesh.GetNumberOfPoints(), mesh.GetNumberOfCells()) for mesh in (full, again)]
+    if sizes[0] != sizes[1]:
+        raise DemoError(f"the reloaded hierarchy gives another surface: {sizes[1]}, not {sizes[0]}")
+    print("reloaded hierarchy: same surface")
+
+
+def run(arguments, errors):
+    path = arguments.file or HEAD
+    image = read_volume(path, errors)
+    low, high = image.GetPointData().GetScalars().GetFiniteRange(0)
+    isovalue = arguments.isovalue
+    if isovalue is None:
+        isovalue = low / 2 + high / 2 if arguments.file else HEAD_ISOVALUE
+    # A sample that equals the isovalue counts as below it.
+    if not low <= isovalue < high:
+        raise DemoError(f"the surface of {isovalue:g} is empty: values go from {low:g} to {high:g}")
+    print(f"{path}: {' x '.join(map(str, image.GetDimensions()))} samples, isovalue {isovalue:g}")
+
+    hierarchy, seconds = build(image, isovalue)
+    print(f"Built in {seconds:.2f} s\n")
+    print(f"{'tolerance':>18} {'triangles':>12} {'ms':>8}")
+    surfaces = []
+    captions = []
+    for percent in TOLERANCES:
+        tolerance = percent / 100 * (high - low)
+        surface, milliseconds = extract(hierarchy, tolerance)
+        triangles = surface.GetNumberOfCells()
+        label = f"{tolerance:.4g} ({percent} %)"
+        print(f"{label:>18} {triangles:>12,} {milliseconds:>8.1f}")
+        surfaces.append(surface)
+        captions.append(f"tolerance {label}\n{triangles:,} triangles")
+    print()
+    print_sizes(hierarchy, surfaces[0])
+    print_flying_edges(image, isovalue)
+    if errors.count:
+        raise DemoError("VTK reported errors")
+
+    os.makedirs(arguments.output, exist_ok=True)
+    hierarchy_path = os.path.join(arguments.output, "hierarchy.vtp")
+    files = [write(vtkXMLPolyDataWriter(), hierarchy_path, hierarchy)]
+    for i, surface in enumerate(surfaces):
+        surface_path = os.path.join(arguments.output, f"surface-{i}.vtu")
+        files.append(write(vtkXMLUnstructuredGridWriter(), surface_path, surface))
+    picture_path = os.path.join(arguments.output, "levels.png")
+    files.append(write(vtkPNGWriter(), picture_path, draw(surfaces, captions)))
+    check_reload(hierarchy_path, surfaces[0])
+    print("Written:", *files, sep="\n  ")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="demo.py", description=__doc__)
+    parser.add_argument("--isovalue", type=float)
+    parser.add_argument("--output", required=True)
+    parser.add_argument("file", nargs="?")
+    arguments = parser.parse_args()
+    try:
+        run(arguments, ErrorLog())
+    except (DemoError, OSError) as problem:
+        sys.exit(f"demo.py: {problem}")
+
+
+main()
