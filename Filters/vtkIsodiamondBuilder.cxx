@@ -108,12 +108,22 @@ int vtkIsodiamondBuilder::RequestData(
 }
 
 //------------------------------------------------------------------------------
+vtkIsodiamond::InputArray vtkIsodiamondBuilder::FindInputArray(vtkDataObject* input)
+{
+  vtkIsodiamond::InputArray found;
+  if (input)
+  {
+    found.Array = this->GetInputArrayToProcess(0, input, found.Association);
+  }
+  return vtkIsodiamond::OrScalars(found, this->GetInputArrayInformation(0), input);
+}
+
+//------------------------------------------------------------------------------
 void vtkIsodiamondBuilder::BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output)
 {
-  int association = -1;
-  vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
-  const vtkIsodiamond::Volume volume = vtkIsodiamond::ReadVolume(
-    vtkImageData::GetData(inputVector[0]), array, association, this->CloseBoundary);
+  vtkImageData* image = vtkImageData::GetData(inputVector[0]);
+  const vtkIsodiamond::Volume volume =
+    vtkIsodiamond::ReadVolume(image, this->FindInputArray(image), this->CloseBoundary);
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {
     isodiamond::ScalarEncoding encoding;

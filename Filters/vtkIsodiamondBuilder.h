@@ -29,6 +29,11 @@
 #include "vtkIsodiamondHierarchy.h"     // for the models
 #include "vtkPolyDataAlgorithm.h"
 
+namespace vtkIsodiamond
+{
+struct InputArray;
+}
+
 class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondBuilder : public vtkPolyDataAlgorithm
 {
 public:
@@ -106,6 +111,7 @@ private:
   vtkIsodiamondBuilder(const vtkIsodiamondBuilder&) = delete;
   void operator=(const vtkIsodiamondBuilder&) = delete;
 
+  vtkIsodiamond::InputArray FindInputArray(vtkDataObject* input);
   void BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output);
   void BuildFromHierarchy(vtkPolyData* input, vtkPolyData* output);
 };

@@ -107,8 +107,7 @@ double* vtkIsodiamondContour::GetErrorToleranceRange()
   this->ErrorToleranceRange[1] = 1.0;
   vtkDataObject* input =
     this->GetNumberOfInputConnections(0) > 0 ? this->GetInputDataObject(0, 0) : nullptr;
-  int association = -1;
-  vtkDataArray* array = input ? this->GetInputArrayToProcess(0, input, association) : nullptr;
+  vtkDataArray* array = this->FindInputArray(input).Array;
   if (array && array->GetNumberOfComponents() == 1 && array->GetNumberOfTuples() > 0)
   {
     double range[2];
@@ -167,11 +166,10 @@ int vtkIsodiamondContour::RequestData(
   {
     vtkIsodiamond::CheckTolerance(this->ErrorTolerance);
     vtkImageData* image = vtkImageData::GetData(inputVector[0]);
-    int association = -1;
-    vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
+    const vtkIsodiamond::InputArray array = this->FindInputArray(image);
     const vtkIsodiamond::Volume volume =
-      vtkIsodiamond::ReadVolume(image, array, association, this->CloseBoundary);
-    this->Hierarchies->Prepare(image, array, this->CloseBoundary, this->ContourValues);
+      vtkIsodiamond::ReadVolume(image, array, this->CloseBoundary);
+    this->Hierarchies->Prepare(image, array.Array, this->CloseBoundary, this->ContourValues);
     vtkNew<vtkAppendPolyData> append;
     vtkIsodiamond::RunThreaded(this->NumberOfThreads,
       [&]
@@ -197,6 +195,17 @@ int vtkIsodiamondContour::RequestData(
     vtkErrorMacro(<< problem.what());
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::InputArray vtkIsodiamondContour::FindInputArray(vtkDataObject* input)
+{
+  vtkIsodiamond::InputArray found;
+  if (input)
+  {
+    found.Array = this->GetInputArrayToProcess(0, input, found.Association);
+  }
+  return vtkIsodiamond::OrScalars(found, this->GetInputArrayInformation(0), input);
 }
 
 //------------------------------------------------------------------------------

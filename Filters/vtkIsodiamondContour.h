@@ -33,6 +33,7 @@
 
 namespace vtkIsodiamond
 {
+struct InputArray;
 struct Volume;
 }
 
@@ -139,6 +140,8 @@ protected:
 private:
   vtkIsodiamondContour(const vtkIsodiamondContour&) = delete;
   void operator=(const vtkIsodiamondContour&) = delete;
+
+  vtkIsodiamond::InputArray FindInputArray(vtkDataObject* input);
 
   /** The surface of one isovalue; builds its hierarchy if there is none yet. */
   vtkSmartPointer<vtkPolyData> ExtractContour(const vtkIsodiamond::Volume& volume, double isovalue);

@@ -103,9 +103,7 @@ vtkIdType vtkIsodiamondHierarchy::GetNumberOfActiveIsodiamonds()
 vtkIdType vtkIsodiamondHierarchy::GetNumberOfRelevantIsodiamonds()
 {
   const vtkIsodiamond::State* state = this->GetState();
-  return state && state->Isodiamonds ? state->Isodiamonds->Count(isodiamond::Kind::Relevant) +
-      state->Isodiamonds->Count(isodiamond::Kind::Creation)
-                                     : 0;
+  return state && state->Isodiamonds ? state->Isodiamonds->Header().RelevantCount : 0;
 }
 
 //------------------------------------------------------------------------------

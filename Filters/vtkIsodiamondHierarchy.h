@@ -63,8 +63,8 @@ public:
 
   ///@{
   /**
-   * The paper's counts m_a, m_r (creation diamonds included, as in the paper; RI only, an MI
-   * knows just its creation diamonds) and m_c. All 0 for an HD.
+   * The paper's counts m_a, m_r (creation diamonds included, as in the paper; an MI knows it too,
+   * though it stores none but those) and m_c. All 0 for an HD.
    */
   vtkIdType GetNumberOfActiveIsodiamonds();
   vtkIdType GetNumberOfRelevantIsodiamonds();

@@ -6,6 +6,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
+#include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <stdexcept>
@@ -90,8 +91,9 @@ vtkSmartPointer<vtkDataArray> PaddedCopy(
   return copy;
 }
 
-void CheckArray(vtkDataArray* array, int association, vtkImageData* image)
+void CheckArray(const InputArray& inputArray, vtkImageData* image)
 {
+  vtkDataArray* array = inputArray.Array;
   if (!array)
   {
     throw std::invalid_argument(
@@ -99,7 +101,7 @@ void CheckArray(vtkDataArray* array, int association, vtkImageData* image)
   }
   const std::string name =
     "Array \"" + std::string(array->GetName() ? array->GetName() : "") + "\" ";
-  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
+  if (inputArray.Association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
   {
     throw std::invalid_argument(name + "is not point data; convert cell data to point data first.");
   }
@@ -180,7 +182,18 @@ bool ViewSamples(
   }
 }
 
-Volume ReadVolume(vtkImageData* image, vtkDataArray* array, int association, bool closeBoundary)
+InputArray OrScalars(const InputArray& found, vtkInformation* request, vtkDataObject* input)
+{
+  vtkDataSet* dataSet = vtkDataSet::SafeDownCast(input);
+  const char* name = request->Get(vtkDataObject::FIELD_NAME());
+  if (found.Array || !dataSet || !name || *name)
+  {
+    return found;
+  }
+  return { dataSet->GetPointData()->GetScalars(), vtkDataObject::FIELD_ASSOCIATION_POINTS };
+}
+
+Volume ReadVolume(vtkImageData* image, const InputArray& inputArray, bool closeBoundary)
 {
   if (!image || image->GetNumberOfPoints() == 0)
   {
@@ -188,8 +201,9 @@ Volume ReadVolume(vtkImageData* image, vtkDataArray* array, int association, boo
   }
   std::array<int, 3> dimensions{};
   image->GetDimensions(dimensions.data());
-  CheckArray(array, association, image);
+  CheckArray(inputArray, image);
   CheckDimensions(dimensions);
+  vtkDataArray* array = inputArray.Array;
   Volume volume;
   volume.Array = array;
   volume.ArrayName = array->GetName() ? array->GetName() : "";

@@ -10,6 +10,7 @@
 #include <string>
 
 class vtkDataArray;
+class vtkDataObject;
 class vtkImageData;
 class vtkInformation;
 
@@ -25,14 +26,28 @@ struct Volume
   std::string ArrayName;
 };
 
+/** An array and what it is of, as vtkDataObject::FIELD_ASSOCIATION_... says. */
+struct InputArray
+{
+  vtkDataArray* Array = nullptr;
+  int Association = -1;
+};
+
+/**
+ * The array that a filter is to process: what it found itself, or the point scalars if the request
+ * has no name. ParaView makes such a request for an input that has not been updated yet.
+ *
+ * @param request vtkAlgorithm::GetInputArrayInformation
+ */
+InputArray OrScalars(const InputArray& found, vtkInformation* request, vtkDataObject* input);
+
 /**
  * An image's array as samples.
  *
- * @param array,association as vtkAlgorithm::GetInputArrayToProcess gives them
  * @param closeBoundary pad by one layer of the data's minimum on all six sides
  * @throws std::invalid_argument saying why the image or the array cannot be used
  */
-Volume ReadVolume(vtkImageData* image, vtkDataArray* array, int association, bool closeBoundary);
+Volume ReadVolume(vtkImageData* image, const InputArray& array, bool closeBoundary);
 
 /** The samples of an array as volume of given dimensions. @return false for an unknown type. */
 bool ViewSamples(

@@ -10,7 +10,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
-#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkTypeUInt16Array.h"
 #include "vtkTypeUInt32Array.h"
 #include "vtkTypeUInt64Array.h"
@@ -27,6 +27,7 @@ namespace
 
 constexpr int FormatVersion = 1;
 constexpr int IsosurfaceShape = 0;
+constexpr int HeaderCount = 7;
 constexpr int ParameterCount = 14;
 constexpr const char* HeaderName = "IsodiamondHeader";
 
@@ -64,14 +65,13 @@ void WriteOutline(
   output->SetLines(lines);
 }
 
-void WriteHeader(isodiamond::Model model, const std::array<int, 3>& dimensions, double isovalue,
-  double errorScale, const isodiamond::AffineMap& world, const std::string& arrayName,
-  vtkFieldData* fieldData)
+void WriteHeader(const isodiamond::EncodingHeader& header, const isodiamond::AffineMap& world,
+  const std::string& arrayName, vtkFieldData* fieldData)
 {
-  AddArray<vtkTypeInt32Array>(fieldData, HeaderName,
-    std::vector<std::int32_t>{ FormatVersion, static_cast<int>(model), IsosurfaceShape,
-      dimensions[0], dimensions[1], dimensions[2] });
-  std::vector<double> parameters = { isovalue, errorScale };
+  AddArray<vtkTypeInt64Array>(fieldData, HeaderName,
+    std::vector<std::int64_t>{ FormatVersion, static_cast<int>(header.Kind), IsosurfaceShape,
+      header.Dimensions[0], header.Dimensions[1], header.Dimensions[2], header.RelevantCount });
+  std::vector<double> parameters = { header.Isovalue, header.ErrorScale };
   for (const std::array<double, 4>& row : world.Rows)
   {
     parameters.insert(parameters.end(), row.begin(), row.end());
@@ -181,12 +181,21 @@ void ReadScalars(Reader& reader, const isodiamond::EncodingHeader& header, State
     samples, header.ErrorScale, errors.Data, errors.Size, minima, maxima);
 }
 
+int Dimension(std::int64_t value)
+{
+  if (value < 0 || value > std::numeric_limits<int>::max())
+  {
+    throw std::invalid_argument("a dimension is out of range");
+  }
+  return static_cast<int>(value);
+}
+
 /** Header, parameters, then the arrays of the model. @throws std::invalid_argument */
 void ReadArrays(vtkFieldData* fieldData, State& state)
 {
   Reader reader(fieldData, state);
-  const isodiamond::ArrayView<std::int32_t> header = reader.Values<std::int32_t>(HeaderName);
-  if (header.Size != 6 || header[0] != FormatVersion)
+  const isodiamond::ArrayView<std::int64_t> header = reader.Values<std::int64_t>(HeaderName);
+  if (header.Size != HeaderCount || header[0] != FormatVersion)
   {
     throw std::invalid_argument("the hierarchy has an unknown format version");
   }
@@ -207,14 +216,15 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   {
     state.ArrayName = name->GetValue(0);
   }
-  state.Model = header[1];
+  state.Model = static_cast<int>(header[1]);
   state.Isovalue = parameters[0];
   for (int i = 0; i < 12; ++i)
   {
     state.World.Rows[i / 4][i % 4] = parameters[2 + i];
   }
   const isodiamond::EncodingHeader core{ static_cast<isodiamond::Model>(header[1]),
-    { header[3], header[4], header[5] }, parameters[0], parameters[1] };
+    { Dimension(header[3]), Dimension(header[4]), Dimension(header[5]) }, parameters[0],
+    parameters[1], header[6] };
   if (core.Kind == isodiamond::Model::HierarchyOfDiamonds)
   {
     ReadScalars(reader, core, state);
@@ -272,8 +282,7 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const isodiamond::Af
 {
   WriteOutline(encoding.Header.Dimensions, world, output);
   vtkFieldData* fieldData = output->GetFieldData();
-  WriteHeader(encoding.Header.Kind, encoding.Header.Dimensions, encoding.Header.Isovalue,
-    encoding.Header.ErrorScale, world, arrayName, fieldData);
+  WriteHeader(encoding.Header, world, arrayName, fieldData);
   AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickCounts", encoding.Arrays.BrickCounts);
   AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickIndices", encoding.Arrays.BrickIndices);
   AddArray<vtkTypeUInt64Array>(fieldData, "IsodiamondBrickMasks", encoding.Arrays.BrickMasks);
@@ -288,7 +297,8 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volu
     std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
   WriteOutline(dimensions, volume.World, output);
   vtkFieldData* fieldData = output->GetFieldData();
-  WriteHeader(isodiamond::Model::HierarchyOfDiamonds, dimensions, isovalue, encoding.ErrorScale,
+  WriteHeader(
+    { isodiamond::Model::HierarchyOfDiamonds, dimensions, isovalue, encoding.ErrorScale, 0 },
     volume.World, volume.ArrayName, fieldData);
   // The input's own array under another name: shared memory would rename it for the input too.
   const auto addLike = [&](const char* name, const void* values, std::int64_t count)

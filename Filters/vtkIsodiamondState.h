@@ -22,16 +22,13 @@ class vtkPolyData;
  *
  * | array | values |
  * |---|---|
- * | IsodiamondHeader | int32: format version, model, shape, dimensions (3) |
- * | IsodiamondParameters | float64: isovalue, error scale, index-to-world map (3 rows of 4) |
- * | IsodiamondArrayName | string: name of the input's array |
- * | IsodiamondBrickCounts, ...BrickIndices | uint32, see isodiamond::EncodingArrays |
- * | IsodiamondBrickMasks | uint64 |
- * | IsodiamondRecords | uint16 |
- * | IsodiamondIsovertices | uint8 |
- * | IsodiamondSamples (HD only) | the input's samples |
- * | IsodiamondErrors (HD only) | uint16, see isodiamond::ScalarHierarchy |
- * | IsodiamondMinima, IsodiamondMaxima (HD only) | of the samples' type |
+ * | IsodiamondHeader | int64: format version, model, shape, dimensions (3), number m_r of relevant
+ * isodiamonds | | IsodiamondParameters | float64: isovalue, error scale, index-to-world map (3 rows
+ * of 4) | | IsodiamondArrayName | string: name of the input's array | | IsodiamondBrickCounts,
+ * ...BrickIndices | uint32, see isodiamond::EncodingArrays | | IsodiamondBrickMasks | uint64 | |
+ * IsodiamondRecords | uint16 | | IsodiamondIsovertices | uint8 | | IsodiamondSamples (HD only) |
+ * the input's samples | | IsodiamondErrors (HD only) | uint16, see isodiamond::ScalarHierarchy | |
+ * IsodiamondMinima, IsodiamondMaxima (HD only) | of the samples' type |
  */
 namespace vtkIsodiamond
 {

@@ -80,8 +80,8 @@ private:
   }
 };
 
-Encoding Build(const EncodingHeader& header, const AnySamples& samples,
-  const TriggerFunction& trigger, const ParallelFor& parallelFor)
+Encoding Build(EncodingHeader header, const AnySamples& samples, const TriggerFunction& trigger,
+  const ParallelFor& parallelFor)
 {
   const Grid grid(header.Dimensions);
   Classification kinds = [&]
@@ -93,6 +93,7 @@ Encoding Build(const EncodingHeader& header, const AnySamples& samples,
   kinds.Members = DiamondMask();
   const std::vector<ErrorCode::Type> thresholds =
     ActivationThresholds(grid, members, Triggers(members, trigger, parallelFor));
+  header.RelevantCount = members.Size() - kinds.Active.Size();
   const Selection selection(grid, header.Kind, members, thresholds, kinds);
   return Encode(header, grid, samples, selection.Set, selection.Thresholds, parallelFor);
 }
@@ -111,7 +112,7 @@ Encoding BuildIsodiamonds(
     const DomainSummary summary = SummarizeDomain(grid, samples, place);
     return summary.Range.Crosses(isovalue) ? code.Encode(summary.Error) : ErrorCode::Type{ 0 };
   };
-  return Build({ model, dimensions, isovalue, code.Scale() }, samples, trigger, parallelFor);
+  return Build({ model, dimensions, isovalue, code.Scale(), 0 }, samples, trigger, parallelFor);
 }
 
 Encoding BuildIsodiamonds(
@@ -121,7 +122,7 @@ Encoding BuildIsodiamonds(
   {
     return hierarchy.Range(place).Crosses(isovalue) ? hierarchy.Error(place) : ErrorCode::Type{ 0 };
   };
-  return Build({ model, hierarchy.Domain().Dimensions(), isovalue, hierarchy.Codes().Scale() },
+  return Build({ model, hierarchy.Domain().Dimensions(), isovalue, hierarchy.Codes().Scale(), 0 },
     hierarchy.Samples(), trigger, parallelFor);
 }
 
@@ -135,7 +136,7 @@ Encoding EncodeQuery(const ScalarHierarchy& hierarchy, double isovalue, double t
   const DiamondSet set(grid, subdivided);
   const std::vector<ErrorCode::Type> thresholds(set.Size(), ErrorCode::Always);
   const EncodingHeader header{ Model::Relevant, grid.Dimensions(), isovalue,
-    hierarchy.Codes().Scale() };
+    hierarchy.Codes().Scale(), set.Size() };
   return Encode(header, grid, hierarchy.Samples(), set, thresholds, parallelFor);
 }
 

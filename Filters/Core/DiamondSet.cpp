@@ -28,6 +28,22 @@ BrickMask& DiamondMask::BrickAt(Level& level, std::int64_t brickIndex)
   return level.Masks[entry];
 }
 
+std::int64_t DiamondMask::Size() const
+{
+  std::int64_t size = 0;
+  for (const Level& level : this->Levels)
+  {
+    for (const BrickMask& mask : level.Masks)
+    {
+      for (const std::uint64_t word : mask)
+      {
+        size += PopCount(word);
+      }
+    }
+  }
+  return size;
+}
+
 bool DiamondMask::Insert(const Place& place)
 {
   Level& level = this->Levels[place.Scale];

@@ -128,6 +128,9 @@ public:
   const BrickBox& Box(int scale) const { return this->Levels[scale].Box; }
   int ScaleCount() const { return static_cast<int>(this->Levels.size()); }
 
+  /** The number of diamonds. */
+  std::int64_t Size() const;
+
   /** Calls body(place) for every diamond, coarse to fine, in the order of the ranks. */
   template <typename Body>
   void ForEach(Body&& body) const

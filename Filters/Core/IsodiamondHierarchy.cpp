@@ -87,6 +87,9 @@ IsodiamondHierarchy::IsodiamondHierarchy(
   }
   Require(isovertices == encoding.Arrays.Isovertices.Size,
     "the number of isovertices does not match the signs");
+  Require(
+    encoding.Header.RelevantCount >= this->Count(Kind::Relevant) + this->Count(Kind::Creation),
+    "there are more relevant isodiamonds than the header says");
 }
 
 std::int64_t IsodiamondHierarchy::DerivedSize() const

@@ -83,6 +83,8 @@ struct EncodingHeader
   std::array<int, 3> Dimensions = { 2, 2, 2 };
   double Isovalue = 0.0;
   double ErrorScale = 1.0; ///< of ErrorCode
+  /** m_r: the relevant isodiamonds that there are, creation ones included, stored or not. */
+  std::int64_t RelevantCount = 0;
 };
 
 /**

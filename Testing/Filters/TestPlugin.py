@@ -7,6 +7,11 @@ from paraview.simple import *
 
 LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
 
+# A pipeline in one go: ParaView knows no array of an input that was never updated.
+fresh = IsodiamondContour(Input=Wavelet(), Isosurfaces=[157])
+fresh.UpdatePipeline()
+assert fresh.GetDataInformation().GetNumberOfCells() > 0
+
 wavelet = Wavelet()
 wavelet.UpdatePipeline()
 middle = sum(wavelet.PointData["RTData"].GetRange()) / 2

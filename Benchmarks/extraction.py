@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Build and extraction times against vtkFlyingEdges3D on a synthetic volume, one thread each.
+
+    PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/extraction.py [SIZE]
+
+Prints medians of interleaved runs and their ratios; the ratios are what can be compared between
+machines. Fields: a smooth ball, a ball with noise, and a gyroid that fills the volume.
+"""
+import statistics
+import sys
+import time
+
+import numpy
+from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
+
+RUNS = 7
+
+
+def fields(size):
+    axis = numpy.linspace(-1, 1, size, dtype=numpy.float32)
+    z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
+    ball = 0.6 - numpy.sqrt(x * x + y * y + z * z)
+    yield "ball", ball
+    noise = numpy.random.default_rng(1).standard_normal(ball.shape, dtype=numpy.float32)
+    yield "noisy ball", ball + noise * numpy.float32(2 / size)
+    w = numpy.float32(8 * numpy.pi)
+    sin, cos = numpy.sin, numpy.cos
+    yield "gyroid", sin(w * x) * cos(w * y) + sin(w * y) * cos(w * z) + sin(w * z) * cos(w * x)
+
+
+def image_of(field):
+    image = vtkImageData()
+    image.SetDimensions(field.shape[::-1])
+    image.GetPointData().SetScalars(numpy_to_vtk(field.ravel(), deep=True))
+    return image
+
+
+def make_builder(image):
+    builder = vtkIsodiamondBuilder()
+    builder.SetInputData(image)
+    builder.SetIsovalue(0)
+    builder.SetNumberOfThreads(1)
+    return builder
+
+
+def timed(algorithm):
+    algorithm.Modified()
+    start = time.perf_counter()
+    algorithm.Update()
+    return 1000 * (time.perf_counter() - start)
+
+
+def main():
+    size = int(sys.argv[1]) if len(sys.argv) > 1 else 256
+    print(f"{size}^3, medians of {RUNS}, milliseconds; ratios to vtkFlyingEdges3D")
+    for name, field in fields(size):
+        image = image_of(field)
+        contour = vtkFlyingEdges3D()
+        contour.SetInputData(image)
+        contour.SetValue(0, 0)
+        contour.ComputeNormalsOff()
+        contour.ComputeScalarsOff()
+        # The second builder's output stays, so that extraction finds it checked.
+        builder, unchanged = make_builder(image), make_builder(image)
+        extractor = vtkIsodiamondExtractor()
+        extractor.SetInputConnection(unchanged.GetOutputPort())
+        extractor.SetNumberOfThreads(1)
+        extractor.Update()
+        theirs, builds, extractions = [], [], []
+        for _ in range(RUNS):
+            theirs.append(timed(contour))
+            builds.append(timed(builder))
+            extractions.append(timed(extractor))
+        reference = statistics.median(theirs)
+        build = statistics.median(builds)
+        extraction = statistics.median(extractions)
+        print(
+            f"{name:>12}: flying edges {reference:.0f}"
+            f" ({contour.GetOutput().GetNumberOfCells():,} triangles),"
+            f" build {build:.0f} ({build / reference:.1f} x),"
+            f" extraction {extraction:.0f} ({extraction / reference:.2f} x,"
+            f" {extractor.GetOutput().GetNumberOfCells():,} triangles)"
+        )
+
+
+main()
