@@ -186,6 +186,8 @@ def print_sizes(hierarchy, full):
 def write(writer, path, data):
     writer.SetFileName(path)
     writer.SetInputData(data)
+    if hasattr(writer, "SetDataModeToBinary"):
+        writer.SetDataModeToBinary()  # see README.md on files
     writer.Write()
     if writer.GetErrorCode():
         raise DemoError(f"cannot write '{path}'")

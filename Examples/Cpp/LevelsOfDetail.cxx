@@ -35,6 +35,7 @@ int main(int argc, char* argv[])
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetInputConnection(builder->GetOutputPort());
     writer->SetFileName(argv[1]);
+    writer->SetDataModeToBinary(); // see README.md on files
     return writer->Write() == 1 ? 0 : 1;
   }
   return 0;

@@ -154,6 +154,7 @@ TEST(Hierarchy, SurvivesFilesAndCopies)
     const std::string path = std::string(TEMPORARY_FOLDER) + "/hierarchy.vtp";
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetFileName(path.c_str());
+    writer->SetDataModeToBinary(); // see README.md on files
     writer->SetInputConnection(builder->GetOutputPort());
     writer->Write();
     vtkNew<vtkXMLPolyDataReader> reader;

@@ -52,7 +52,7 @@ assert mesh.GetDataInformation().GetNumberOfCells() > 0
 
 # Saved and opened again.
 path = os.path.join(sys.argv[1], "plugin.vtp")
-SaveData(path, proxy=hierarchy)
+SaveData(path, proxy=hierarchy, DataMode="Binary")  # see README.md on files
 reopened = IsodiamondExtract(OpenDataFile(path))
 reopened.UpdatePipeline()
 assert reopened.GetDataInformation().GetNumberOfCells() == full

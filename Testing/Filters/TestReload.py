@@ -44,6 +44,7 @@ for model in [0, 1, 2]:
     writer = vtkXMLPolyDataWriter()
     writer.SetInputConnection(builder.GetOutputPort())
     writer.SetFileName(path)
+    writer.SetDataModeToBinary()  # see README.md on files
     assert writer.Write() == 1
     expected = describe(builder.GetOutputPort())
     found = subprocess.check_output(
