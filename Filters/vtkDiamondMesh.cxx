@@ -81,15 +81,10 @@ int vtkDiamondMesh::RequestData(
   }
   try
   {
-    const vtkIsodiamond::Query query{ this->ErrorTolerance, this->UseIsovalue, this->Isovalue };
-    vtkIsodiamond::RunQuery(this, vtkPolyData::GetData(inputVector[0]), query,
+    vtkIsodiamond::RunQuery(this, vtkPolyData::GetData(inputVector[0]), this->GetQuery(),
       this->NumberOfThreads,
-      [&](const vtkIsodiamond::State& state, const isodiamond::IsodiamondHierarchy& hierarchy)
-      {
-        const isodiamond::RefinedSet refined(
-          hierarchy, this->ErrorTolerance, vtkIsodiamond::SMPFor());
-        WriteMesh(isodiamond::ExtractDiamondMesh(refined), state.World, output);
-      });
+      [&](const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined)
+      { WriteMesh(isodiamond::ExtractDiamondMesh(refined), state.World, output); });
   }
   catch (const std::exception& problem)
   {

@@ -14,7 +14,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 
-#include <cmath>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkIsodiamondBuilder);
@@ -31,7 +30,10 @@ void vtkIsodiamondBuilder::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Model: " << this->Model << "\n";
+  os << indent << "Shape: " << this->Shape << "\n";
   os << indent << "Isovalue: " << this->Isovalue << "\n";
+  os << indent << "Isorange: " << this->Isorange[0] << " " << this->Isorange[1] << "\n";
+  os << indent << "RefineInterior: " << (this->RefineInterior ? "On" : "Off") << "\n";
   os << indent << "CloseBoundary: " << (this->CloseBoundary ? "On" : "Off") << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
@@ -86,10 +88,6 @@ int vtkIsodiamondBuilder::RequestData(
   }
   try
   {
-    if (!std::isfinite(this->Isovalue))
-    {
-      throw std::invalid_argument("The isovalue is not a finite number.");
-    }
     if (vtkPolyData* hierarchy = vtkPolyData::GetData(inputVector[0]))
     {
       this->BuildFromHierarchy(hierarchy, output);
@@ -119,18 +117,27 @@ vtkIsodiamond::InputArray vtkIsodiamondBuilder::FindInputArray(vtkDataObject* in
 }
 
 //------------------------------------------------------------------------------
+vtkIsodiamond::Choice vtkIsodiamondBuilder::GetChoice() const
+{
+  return { static_cast<isodiamond::Shape>(this->Shape), this->Isovalue,
+    { this->Isorange[0], this->Isorange[1] } };
+}
+
+//------------------------------------------------------------------------------
 void vtkIsodiamondBuilder::BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output)
 {
   vtkImageData* image = vtkImageData::GetData(inputVector[0]);
-  const vtkIsodiamond::Volume volume =
-    vtkIsodiamond::ReadVolume(image, this->FindInputArray(image), this->CloseBoundary);
+  const vtkIsodiamond::Choice choice = this->GetChoice();
+  const isodiamond::Isoregion region = choice.Region();
+  const vtkIsodiamond::Volume volume = vtkIsodiamond::ReadVolume(
+    image, this->FindInputArray(image), this->CloseBoundary && !region.IsVolume());
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {
     isodiamond::ScalarEncoding encoding;
     vtkIsodiamond::RunThreaded(this->NumberOfThreads,
       [&]
       { encoding = isodiamond::BuildScalarHierarchy(volume.Samples, vtkIsodiamond::SMPFor()); });
-    vtkIsodiamond::WriteScalars(encoding, volume, this->Isovalue, output);
+    vtkIsodiamond::WriteScalars(encoding, choice, volume, output);
     return;
   }
   isodiamond::Encoding encoding;
@@ -138,9 +145,9 @@ void vtkIsodiamondBuilder::BuildFromImage(vtkInformationVector** inputVector, vt
     [&]
     {
       encoding = isodiamond::BuildIsodiamonds(static_cast<isodiamond::Model>(this->Model),
-        volume.Samples, this->Isovalue, vtkIsodiamond::SMPFor());
+        volume.Samples, region, vtkIsodiamond::SMPFor(), this->RefineInterior);
     });
-  vtkIsodiamond::WriteIsodiamonds(encoding, volume.World, volume.ArrayName, output);
+  vtkIsodiamond::WriteIsodiamonds(encoding, choice, volume.World, volume.ArrayName, output);
 }
 
 //------------------------------------------------------------------------------
@@ -150,20 +157,22 @@ void vtkIsodiamondBuilder::BuildFromHierarchy(vtkPolyData* input, vtkPolyData* o
     vtkIsodiamondHierarchy::ReadState(input);
   if (!state->Scalars)
   {
-    throw std::invalid_argument("The input hierarchy is relevant or minimal: those are made for "
-                                "one isovalue, others come from an HD or from the image.");
+    throw std::invalid_argument(
+      "The input hierarchy is relevant or minimal: those are made for "
+      "one isovalue or isorange, others come from an HD or from the image.");
   }
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {
     output->ShallowCopy(input);
     return;
   }
+  const vtkIsodiamond::Choice choice = this->GetChoice();
   isodiamond::Encoding encoding;
   vtkIsodiamond::RunThreaded(this->NumberOfThreads,
     [&]
     {
       encoding = isodiamond::BuildIsodiamonds(static_cast<isodiamond::Model>(this->Model),
-        *state->Scalars, this->Isovalue, vtkIsodiamond::SMPFor());
+        *state->Scalars, choice.Region(), vtkIsodiamond::SMPFor(), this->RefineInterior);
     });
-  vtkIsodiamond::WriteIsodiamonds(encoding, state->World, state->ArrayName, output);
+  vtkIsodiamond::WriteIsodiamonds(encoding, choice, state->World, state->ArrayName, output);
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkIsodiamondBuilder
- * @brief   build a multiresolution hierarchy of an isosurface from a volume
+ * @brief   build a multiresolution hierarchy of an isosurface or interval volume from an image
  *
  * Input: a vtkImageData with a one-component point array of any scalar type (chosen with
  * SetInputArrayToProcess(0, port, connection, association, name); the point scalars by default)
  * and at least two samples on every axis; or a hierarchy of diamonds (HD) that another builder
  * made, from which RI and MI come without the image. Output: a vtkIsodiamondHierarchy.
  *
- * The surface is that of the samples' values above the isovalue; NaN counts as below. Errors are
+ * An isosurface separates samples above the isovalue from the others; an interval volume holds the
+ * samples within the isorange, its ends included. NaN counts as below. Errors are
  * in field units (the paper's metric): the largest difference between the field and its linear
  * interpolant at the lattice points of a diamond.
  *
@@ -31,6 +32,7 @@
 
 namespace vtkIsodiamond
 {
+struct Choice;
 struct InputArray;
 }
 
@@ -59,8 +61,19 @@ public:
 
   ///@{
   /**
-   * The isovalue, in field units; for HD the default of later queries. Outside of the data's
-   * range the surface is empty. Default: 0.
+   * What to build the hierarchy of; for HD the default of later queries. Default: isosurface.
+   */
+  vtkSetClampMacro(
+    Shape, int, vtkIsodiamondHierarchy::ISOSURFACE, vtkIsodiamondHierarchy::INTERVAL_VOLUME);
+  vtkGetMacro(Shape, int);
+  void SetShapeToIsosurface() { this->SetShape(vtkIsodiamondHierarchy::ISOSURFACE); }
+  void SetShapeToIntervalVolume() { this->SetShape(vtkIsodiamondHierarchy::INTERVAL_VOLUME); }
+  ///@}
+
+  ///@{
+  /**
+   * The isovalue of an isosurface, in field units; for HD the default of later queries. Outside of
+   * the data's range the surface is empty. Default: 0.
    */
   vtkSetMacro(Isovalue, double);
   vtkGetMacro(Isovalue, double);
@@ -68,10 +81,32 @@ public:
 
   ///@{
   /**
+   * The isorange [lower, upper] of an interval volume, in field units; for HD the default of later
+   * queries. An end may be infinite, or beyond the data's range: an open side. A range outside of
+   * the data's gives an empty volume; lower >= upper and NaN are errors. Default: [0, 1].
+   */
+  vtkSetVector2Macro(Isorange, double);
+  vtkGetVector2Macro(Isorange, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether an interval volume can be refined inside, where no surface is: keeps every diamond
+   * that has all vertices inside, with its field error, for vtkIsodiamondExtractor's
+   * InteriorTolerance. Takes memory in proportion to the volume inside. An HD can without.
+   * Default: off.
+   */
+  vtkSetMacro(RefineInterior, bool);
+  vtkGetMacro(RefineInterior, bool);
+  vtkBooleanMacro(RefineInterior, bool);
+  ///@}
+
+  ///@{
+  /**
    * Close every surface above the data's minimum: the volume counts as padded on all six sides by
    * a layer of that minimum, so caps lie less than a voxel outside of the image. Off, the surface
-   * ends at the image's boundary as with any contour filter. No effect on an HD input. Default:
-   * off.
+   * ends at the image's boundary as with any contour filter. No effect on an interval volume,
+   * which is closed by the image's faces, and on an HD input. Default: off.
    */
   vtkSetMacro(CloseBoundary, bool);
   vtkGetMacro(CloseBoundary, bool);
@@ -103,7 +138,10 @@ protected:
     vtkInformationVector* outputVector) override;
 
   int Model = vtkIsodiamondHierarchy::MINIMAL;
+  int Shape = vtkIsodiamondHierarchy::ISOSURFACE;
   double Isovalue = 0.0;
+  double Isorange[2] = { 0.0, 1.0 };
+  bool RefineInterior = false;
   bool CloseBoundary = false;
   int NumberOfThreads = 0;
 
@@ -112,6 +150,7 @@ private:
   void operator=(const vtkIsodiamondBuilder&) = delete;
 
   vtkIsodiamond::InputArray FindInputArray(vtkDataObject* input);
+  vtkIsodiamond::Choice GetChoice() const;
   void BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output);
   void BuildFromHierarchy(vtkPolyData* input, vtkPolyData* output);
 };

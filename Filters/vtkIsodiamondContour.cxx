@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondContour.h"
 
-#include "Builder.h"
 #include "GradientNormals.h"
+#include "vtkIsodiamondCache.h"
 #include "vtkIsodiamondInput.h"
+#include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
-#include "vtkIsodiamondSurface.h"
 #include "vtkIsodiamondThreads.h"
 
 #include "vtkAppendPolyData.h"
@@ -22,57 +22,12 @@
 #include "vtkSignedCharArray.h"
 
 #include <algorithm>
-#include <map>
 
 vtkStandardNewMacro(vtkIsodiamondContour);
 
 //------------------------------------------------------------------------------
-// The hierarchies of the current volume, by isovalue. Volumes count as the same when array
-// (object and time), dimensions and padding are: geometry is applied on extraction.
-class vtkIsodiamondContour::Cache
-{
-public:
-  struct Entry
-  {
-    isodiamond::Encoding Encoding;
-    std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy;
-  };
-
-  // Forgets what does not belong to the volume or to the isovalues.
-  void Prepare(vtkImageData* image, vtkDataArray* array, bool closed, vtkContourValues* values)
-  {
-    std::array<int, 3> dimensions{};
-    image->GetDimensions(dimensions.data());
-    if (array != this->Array || array->GetMTime() != this->ArrayTime ||
-      dimensions != this->Dimensions || closed != this->Closed)
-    {
-      this->Entries.clear();
-      this->Array = array;
-      this->ArrayTime = array->GetMTime();
-      this->Dimensions = dimensions;
-      this->Closed = closed;
-    }
-    const double* begin = values->GetValues();
-    const double* end = begin + values->GetNumberOfContours();
-    for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
-    {
-      entry =
-        std::find(begin, end, entry->first) == end ? this->Entries.erase(entry) : std::next(entry);
-    }
-  }
-
-  std::map<double, Entry> Entries;
-
-private:
-  vtkSmartPointer<vtkDataArray> Array; // held, so that no other array can get its address
-  vtkMTimeType ArrayTime = 0;
-  std::array<int, 3> Dimensions{};
-  bool Closed = false;
-};
-
-//------------------------------------------------------------------------------
 vtkIsodiamondContour::vtkIsodiamondContour()
-  : Hierarchies(std::make_unique<Cache>())
+  : Hierarchies(std::make_unique<vtkIsodiamond::Cache>())
 {
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
@@ -90,7 +45,7 @@ void vtkIsodiamondContour::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ComputeScalars: " << (this->ComputeScalars ? "On" : "Off") << "\n";
   os << indent << "CloseBoundary: " << (this->CloseBoundary ? "On" : "Off") << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n";
+  os << indent << "NumberOfBuilds: " << this->GetNumberOfBuilds() << "\n";
   os << indent << "ContourValues:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
 }
@@ -104,20 +59,17 @@ vtkMTimeType vtkIsodiamondContour::GetMTime()
 //------------------------------------------------------------------------------
 double* vtkIsodiamondContour::GetErrorToleranceRange()
 {
-  this->ErrorToleranceRange[1] = 1.0;
   vtkDataObject* input =
     this->GetNumberOfInputConnections(0) > 0 ? this->GetInputDataObject(0, 0) : nullptr;
-  vtkDataArray* array = this->FindInputArray(input).Array;
-  if (array && array->GetNumberOfComponents() == 1 && array->GetNumberOfTuples() > 0)
-  {
-    double range[2];
-    array->GetFiniteRange(range);
-    if (range[1] > range[0])
-    {
-      this->ErrorToleranceRange[1] = range[1] - range[0];
-    }
-  }
+  this->ErrorToleranceRange[1] =
+    vtkIsodiamond::ExtentOfValues(this->FindInputArray(input).Array).value_or(1.0);
   return this->ErrorToleranceRange;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondContour::GetNumberOfBuilds()
+{
+  return this->Hierarchies->GetNumberOfBuilds();
 }
 
 //------------------------------------------------------------------------------
@@ -169,7 +121,11 @@ int vtkIsodiamondContour::RequestData(
     const vtkIsodiamond::InputArray array = this->FindInputArray(image);
     const vtkIsodiamond::Volume volume =
       vtkIsodiamond::ReadVolume(image, array, this->CloseBoundary);
-    this->Hierarchies->Prepare(image, array.Array, this->CloseBoundary, this->ContourValues);
+    const double* values = this->ContourValues->GetValues();
+    const double* end = values + this->ContourValues->GetNumberOfContours();
+    this->Hierarchies->Prepare(array.Array, volume.Dimensions, this->CloseBoundary);
+    this->Hierarchies->Retain([&](const isodiamond::Isoregion& region)
+      { return std::find(values, end, region.Isovalue()) != end; });
     vtkNew<vtkAppendPolyData> append;
     vtkIsodiamond::RunThreaded(this->NumberOfThreads,
       [&]
@@ -212,21 +168,11 @@ vtkIsodiamond::InputArray vtkIsodiamondContour::FindInputArray(vtkDataObject* in
 vtkSmartPointer<vtkPolyData> vtkIsodiamondContour::ExtractContour(
   const vtkIsodiamond::Volume& volume, double isovalue)
 {
-  if (!std::isfinite(isovalue))
-  {
-    throw std::invalid_argument("An isovalue is not a finite number.");
-  }
-  Cache::Entry& entry = this->Hierarchies->Entries[isovalue];
-  if (!entry.Hierarchy)
-  {
-    entry.Encoding = isodiamond::BuildIsodiamonds(
-      isodiamond::Model::Minimal, volume.Samples, isovalue, vtkIsodiamond::SMPFor());
-    entry.Hierarchy =
-      std::make_unique<isodiamond::IsodiamondHierarchy>(entry.Encoding, vtkIsodiamond::SMPFor());
-    ++this->NumberOfBuilds;
-  }
-  const vtkIsodiamond::Surface surface =
-    vtkIsodiamond::ExtractSurface(*entry.Hierarchy, volume.World, this->ErrorTolerance);
+  vtkIsodiamond::Choice choice;
+  choice.Isovalue = isovalue;
+  const isodiamond::RefinedSet refined(
+    this->Hierarchies->Get(volume, choice.Region()), this->ErrorTolerance, vtkIsodiamond::SMPFor());
+  const vtkIsodiamond::Surface surface = vtkIsodiamond::ExtractSurface(refined, volume.World);
   vtkSmartPointer<vtkPolyData> contour = vtkSmartPointer<vtkPolyData>::New();
   contour->SetPoints(surface.Points);
   contour->SetPolys(surface.Triangles);

@@ -33,6 +33,7 @@
 
 namespace vtkIsodiamond
 {
+class Cache;
 struct InputArray;
 struct Volume;
 }
@@ -114,7 +115,7 @@ public:
   ///@}
 
   /** How many hierarchies this filter has built so far. */
-  vtkGetMacro(NumberOfBuilds, vtkIdType);
+  vtkIdType GetNumberOfBuilds();
 
   vtkMTimeType GetMTime() override;
 
@@ -134,7 +135,6 @@ protected:
   vtkTypeBool ComputeScalars = 1;
   bool CloseBoundary = false;
   int NumberOfThreads = 0;
-  vtkIdType NumberOfBuilds = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
 
 private:
@@ -146,8 +146,7 @@ private:
   /** The surface of one isovalue; builds its hierarchy if there is none yet. */
   vtkSmartPointer<vtkPolyData> ExtractContour(const vtkIsodiamond::Volume& volume, double isovalue);
 
-  class Cache;
-  std::unique_ptr<Cache> Hierarchies;
+  std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
 };
 
 #endif

@@ -2,18 +2,13 @@
 #include "vtkIsodiamondExtractor.h"
 
 #include "vtkIsodiamondInput.h"
+#include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
-#include "vtkIsodiamondSurface.h"
 
-#include "vtkCellData.h"
-#include "vtkCellType.h"
 #include "vtkFieldData.h"
-#include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
-#include "vtkSignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 vtkStandardNewMacro(vtkIsodiamondExtractor);
@@ -26,6 +21,10 @@ void vtkIsodiamondExtractor::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
+  os << indent << "InteriorTolerance: " << this->InteriorTolerance << "\n";
+  os << indent << "Shape: " << this->Shape << "\n";
+  os << indent << "Isorange: " << this->Isorange[0] << " " << this->Isorange[1] << "\n";
+  os << indent << "UseIsorange: " << (this->UseIsorange ? "On" : "Off") << "\n";
   os << indent << "Isovalue: " << this->Isovalue << "\n";
   os << indent << "UseIsovalue: " << (this->UseIsovalue ? "On" : "Off") << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
@@ -40,6 +39,51 @@ void vtkIsodiamondExtractor::SetIsovalue(double isovalue)
     this->UseIsovalue = true;
     this->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::SetIsorange(double lower, double upper)
+{
+  if (!this->UseIsorange || this->Isorange[0] != lower || this->Isorange[1] != upper)
+  {
+    this->Isorange[0] = lower;
+    this->Isorange[1] = upper;
+    this->UseIsorange = true;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::Query vtkIsodiamondExtractor::GetQuery() const
+{
+  vtkIsodiamond::Query query;
+  query.ErrorTolerance = this->ErrorTolerance;
+  query.InteriorTolerance = this->InteriorTolerance;
+  if (this->Shape >= 0)
+  {
+    query.Shape = static_cast<isodiamond::Shape>(this->Shape);
+  }
+  if (this->UseIsovalue)
+  {
+    query.Isovalue = this->Isovalue;
+  }
+  if (this->UseIsorange)
+  {
+    query.Isorange = { this->Isorange[0], this->Isorange[1] };
+  }
+  return query;
+}
+
+//------------------------------------------------------------------------------
+double* vtkIsodiamondExtractor::GetInteriorToleranceRange()
+{
+  vtkPolyData* input = this->GetNumberOfInputConnections(0) > 0
+    ? vtkPolyData::SafeDownCast(this->GetInputDataObject(0, 0))
+    : nullptr;
+  const bool known = input && vtkIsodiamond::HasHierarchy(input->GetFieldData());
+  this->InteriorToleranceRange[1] =
+    known ? vtkIsodiamond::ErrorScale(input->GetFieldData()) : VTK_DOUBLE_MAX;
+  return this->InteriorToleranceRange;
 }
 
 //------------------------------------------------------------------------------
@@ -70,19 +114,10 @@ int vtkIsodiamondExtractor::RequestData(
   }
   try
   {
-    const vtkIsodiamond::Query query{ this->ErrorTolerance, this->UseIsovalue, this->Isovalue };
-    vtkIsodiamond::RunQuery(this, vtkPolyData::GetData(inputVector[0]), query,
+    vtkIsodiamond::RunQuery(this, vtkPolyData::GetData(inputVector[0]), this->GetQuery(),
       this->NumberOfThreads,
-      [&](const vtkIsodiamond::State& state, const isodiamond::IsodiamondHierarchy& hierarchy)
-      {
-        const vtkIsodiamond::Surface surface =
-          vtkIsodiamond::ExtractSurface(hierarchy, state.World, this->ErrorTolerance);
-        output->SetPoints(surface.Points);
-        output->SetCells(VTK_TRIANGLE, surface.Triangles);
-        output->GetCellData()->AddArray(surface.Levels);
-        output->GetPointData()->SetScalars(vtkIsodiamond::ConstantScalars(
-          state.ArrayName, surface.Points->GetNumberOfPoints(), hierarchy.Header().Isovalue));
-      });
+      [&](const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined)
+      { vtkIsodiamond::ExtractMesh(refined, state.World, state.ArrayName, output); });
   }
   catch (const std::exception& problem)
   {

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkIsodiamondExtractor
- * @brief   extract a crack-free isosurface from an isodiamond hierarchy at an error tolerance
+ * @brief   extract a crack-free mesh from an isodiamond hierarchy at an error tolerance
  *
  * Input: a vtkIsodiamondHierarchy, or any vtkPolyData that holds one (as a reader gives back).
- * Output: triangles, with normals to lower values; point data: the isovalue under the name of the
- * array that the hierarchy was built from; cell data: `Level` of the diamond that a triangle lies
- * in, 0 for the coarsest.
+ * Output: of an isosurface triangles, with normals to lower values; of an interval volume
+ * tetrahedra. Point data: under the name of the array that the hierarchy was built from the field's
+ * value, which is the isovalue on a surface and the sample inside; of an interval volume also
+ * `Surface`: -1 on the lower surface, 1 on the upper one, 0 inside. Cell data: `Level` of the
+ * diamond that a cell lies in, 0 for the coarsest.
  *
- * The surface has no cracks at any tolerance, and the three models give the same one. A coarser
- * tolerance costs less time, in proportion to what it returns.
+ * The mesh has no cracks at any tolerance, and the three models give the same one. A coarser
+ * tolerance costs less time, in proportion to what it returns. All tetrahedra have positive
+ * volume; every face of one is a face of another, or lies on a surface or the image's boundary.
  *
- * @warning With an open boundary, edges on the image's boundary have one triangle.
+ * @warning With an open boundary, a surface's edges on the image's boundary have one triangle.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010, section 6.
  */
@@ -20,7 +23,13 @@
 #define vtkIsodiamondExtractor_h
 
 #include "vtkIsodiamondFiltersModule.h" // for export macro
+#include "vtkIsodiamondHierarchy.h"     // for the shapes
 #include "vtkUnstructuredGridAlgorithm.h"
+
+namespace vtkIsodiamond
+{
+struct Query;
+}
 
 class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondExtractor : public vtkUnstructuredGridAlgorithm
 {
@@ -42,6 +51,45 @@ public:
   /** From 0 to the extent of the field's values, beyond which a tolerance changes nothing; {0, 1}
    *  while there is no hierarchy. */
   double* GetErrorToleranceRange() VTK_SIZEHINT(2);
+
+  /** The same for the interior tolerance; its maximum, which is as good as infinity, stays at
+   *  VTK_DOUBLE_MAX while there is no hierarchy. */
+  double* GetInteriorToleranceRange() VTK_SIZEHINT(2);
+
+  ///@{
+  /**
+   * The error that is tolerated where no surface is, inside an interval volume, in field units:
+   * in every tetrahedron with all vertices inside. Needs an HD or vtkIsodiamondBuilder's
+   * RefineInterior. Default: VTK_DOUBLE_MAX, as good as infinity: the inside is as coarse as its
+   * surfaces let it be.
+   */
+  vtkSetMacro(InteriorTolerance, double);
+  vtkGetMacro(InteriorTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Another shape than the hierarchy's own, for an HD. RI and MI are of one shape: with them it
+   * warns and has no effect. Default: -1, the hierarchy's own.
+   */
+  vtkSetClampMacro(Shape, int, -1, vtkIsodiamondHierarchy::INTERVAL_VOLUME);
+  vtkGetMacro(Shape, int);
+  void SetShapeToIsosurface() { this->SetShape(vtkIsodiamondHierarchy::ISOSURFACE); }
+  void SetShapeToIntervalVolume() { this->SetShape(vtkIsodiamondHierarchy::INTERVAL_VOLUME); }
+  ///@}
+
+  ///@{
+  /**
+   * Another isorange than the hierarchy's own, for an HD. SetIsorange turns UseIsorange on. RI and
+   * MI are of one isorange: with them it warns and has no effect. Default: off.
+   */
+  void SetIsorange(double lower, double upper);
+  void SetIsorange(double isorange[2]) { this->SetIsorange(isorange[0], isorange[1]); }
+  vtkGetVector2Macro(Isorange, double);
+  vtkSetMacro(UseIsorange, bool);
+  vtkGetMacro(UseIsorange, bool);
+  vtkBooleanMacro(UseIsorange, bool);
+  ///@}
 
   ///@{
   /**
@@ -71,11 +119,19 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
+  /** What the properties ask of a hierarchy. */
+  vtkIsodiamond::Query GetQuery() const;
+
   double ErrorTolerance = 0.0;
+  double InteriorTolerance = VTK_DOUBLE_MAX;
+  int Shape = -1;
+  double Isorange[2] = { 0.0, 1.0 };
+  bool UseIsorange = false;
   double Isovalue = 0.0;
   bool UseIsovalue = false;
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
+  double InteriorToleranceRange[2] = { 0.0, VTK_DOUBLE_MAX };
 
 private:
   vtkIsodiamondExtractor(const vtkIsodiamondExtractor&) = delete;

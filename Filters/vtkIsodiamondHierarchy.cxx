@@ -6,6 +6,7 @@
 #include "vtkFieldData.h"
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
 #include <exception>
 
 vtkStandardNewMacro(vtkIsodiamondHierarchy);
@@ -75,7 +76,8 @@ int vtkIsodiamondHierarchy::GetModel()
 //------------------------------------------------------------------------------
 int vtkIsodiamondHierarchy::GetShape()
 {
-  return this->GetState() ? ISOSURFACE : -1;
+  const vtkIsodiamond::State* state = this->GetState();
+  return state ? static_cast<int>(state->Chosen.Shape) : -1;
 }
 
 //------------------------------------------------------------------------------
@@ -89,7 +91,15 @@ std::string vtkIsodiamondHierarchy::GetArrayName()
 double vtkIsodiamondHierarchy::GetIsovalue()
 {
   const vtkIsodiamond::State* state = this->GetState();
-  return state ? state->Isovalue : 0.0;
+  return state ? state->Chosen.Isovalue : 0.0;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondHierarchy::GetIsorange(double isorange[2])
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  const vtkIsodiamond::Choice choice = state ? state->Chosen : vtkIsodiamond::Choice();
+  std::copy(choice.Isorange.begin(), choice.Isorange.end(), isorange);
 }
 
 //------------------------------------------------------------------------------

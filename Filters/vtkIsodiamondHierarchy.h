@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkIsodiamondHierarchy
- * @brief   a multiresolution hierarchy of an isosurface, carried as a vtkPolyData
+ * @brief   a multiresolution hierarchy of an isosurface or interval volume, as a vtkPolyData
  *
  * What vtkIsodiamondBuilder makes and vtkIsodiamondExtractor reads. The geometry is the outline
  * of the volume; all content sits in field-data arrays, so any pipeline moves it, any standard
@@ -44,12 +44,14 @@ public:
   /** What is extracted. */
   enum Shapes
   {
-    ISOSURFACE = 0
+    ISOSURFACE = 0,     ///< of an isovalue: triangles
+    INTERVAL_VOLUME = 1 ///< of an isorange: tetrahedra
   };
 
   ///@{
   /**
-   * What the hierarchy is of. -1 if the arrays are missing or damaged (one error says why).
+   * What the hierarchy is of; the shape of an HD is the default of queries. -1 if the arrays are
+   * missing or damaged (one error says why).
    */
   int GetModel();
   int GetShape();
@@ -58,8 +60,14 @@ public:
   /** Name of the array that the hierarchy was built from. */
   std::string GetArrayName();
 
-  /** The isovalue: of RI and MI the surface's, of HD the default of queries. */
+  ///@{
+  /**
+   * The isovalue and the isorange: of RI and MI the one that belongs to their shape, of HD the
+   * defaults of queries.
+   */
   double GetIsovalue();
+  void GetIsorange(double isorange[2]);
+  ///@}
 
   ///@{
   /**

@@ -193,6 +193,17 @@ InputArray OrScalars(const InputArray& found, vtkInformation* request, vtkDataOb
   return { dataSet->GetPointData()->GetScalars(), vtkDataObject::FIELD_ASSOCIATION_POINTS };
 }
 
+std::optional<double> ExtentOfValues(vtkDataArray* array)
+{
+  if (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() == 0)
+  {
+    return {};
+  }
+  double range[2];
+  array->GetFiniteRange(range);
+  return range[1] > range[0] ? std::optional<double>(range[1] - range[0]) : std::nullopt;
+}
+
 Volume ReadVolume(vtkImageData* image, const InputArray& inputArray, bool closeBoundary)
 {
   if (!image || image->GetNumberOfPoints() == 0)
@@ -205,6 +216,7 @@ Volume ReadVolume(vtkImageData* image, const InputArray& inputArray, bool closeB
   CheckDimensions(dimensions);
   vtkDataArray* array = inputArray.Array;
   Volume volume;
+  volume.Dimensions = dimensions;
   volume.Array = array;
   volume.ArrayName = array->GetName() ? array->GetName() : "";
   if (!array->HasStandardMemoryLayout())

@@ -7,6 +7,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <optional>
 #include <string>
 
 class vtkDataArray;
@@ -20,6 +21,7 @@ namespace vtkIsodiamond
 /** The volume that a filter works on: samples in index space, and where they are in the world. */
 struct Volume
 {
+  std::array<int, 3> Dimensions{};     ///< of the image
   vtkSmartPointer<vtkDataArray> Array; ///< holds the samples, one component
   isodiamond::AnySamples Samples;
   isodiamond::AffineMap World; ///< of the lattice; includes extent, origin, spacing, direction
@@ -40,6 +42,9 @@ struct InputArray
  * @param request vtkAlgorithm::GetInputArrayInformation
  */
 InputArray OrScalars(const InputArray& found, vtkInformation* request, vtkDataObject* input);
+
+/** Largest less smallest finite value; nothing if there is no array, or if that is 0. */
+std::optional<double> ExtentOfValues(vtkDataArray* array);
 
 /**
  * An image's array as samples.

@@ -2,6 +2,7 @@
 #ifndef vtkIsodiamondQuery_h
 #define vtkIsodiamondQuery_h
 
+#include "RefinedSet.h"
 #include "vtkIsodiamondHierarchy.h"
 #include "vtkIsodiamondState.h"
 #include "vtkIsodiamondThreads.h"
@@ -9,7 +10,9 @@
 #include "vtkAlgorithm.h"
 #include "vtkPolyData.h"
 
+#include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace vtkIsodiamond
@@ -19,8 +22,20 @@ namespace vtkIsodiamond
 struct Query
 {
   double ErrorTolerance = 0.0;
-  bool UseIsovalue = false;
-  double Isovalue = 0.0;
+  double InteriorTolerance = HUGE_VAL;
+  /** What to extract instead of the hierarchy's own; an HD can. */
+  std::optional<isodiamond::Shape> Shape;
+  std::optional<double> Isovalue;
+  std::optional<std::array<double, 2>> Isorange;
+
+  /** The hierarchy's own choice, overridden by the query's. */
+  Choice Override(Choice choice) const
+  {
+    choice.Shape = this->Shape.value_or(choice.Shape);
+    choice.Isovalue = this->Isovalue.value_or(choice.Isovalue);
+    choice.Isorange = this->Isorange.value_or(choice.Isorange);
+    return choice;
+  }
 };
 
 /** @throws std::invalid_argument for a negative tolerance or NaN */
@@ -33,9 +48,31 @@ inline void CheckTolerance(double tolerance)
   }
 }
 
+/** Says so where a relevant or minimal hierarchy cannot do what the query asks. */
+inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, const Query& query)
+{
+  const isodiamond::IsodiamondHierarchy& hierarchy = *state.Isodiamonds;
+  const Choice& own = state.Chosen;
+  const Choice asked = query.Override(own);
+  if (asked.Shape != own.Shape ||
+    (hierarchy.Region().IsVolume() ? asked.Isorange != own.Isorange
+                                   : asked.Isovalue != own.Isovalue))
+  {
+    vtkWarningWithObjectMacro(filter,
+      "A relevant or minimal hierarchy is of one isovalue or isorange; another shape, isovalue or "
+      "isorange has no effect.");
+  }
+  if (hierarchy.Region().IsVolume() && !hierarchy.RefinesInterior() &&
+    query.InteriorTolerance < hierarchy.Codes().Scale())
+  {
+    vtkWarningWithObjectMacro(filter,
+      "The hierarchy was built without RefineInterior: the interior tolerance has no effect.");
+  }
+}
+
 /**
- * Calls use(state, hierarchy) with the RI or MI that a data set holds, or with the answer of its
- * HD to the query.
+ * Calls use(state, refined) with the refined set of the RI or MI that a data set holds, or of the
+ * answer of its HD to the query.
  *
  * @throws std::exception that says what is wrong with the input or the query
  */
@@ -44,33 +81,31 @@ void RunQuery(
   vtkAlgorithm* filter, vtkPolyData* input, const Query& query, int numberOfThreads, Use&& use)
 {
   CheckTolerance(query.ErrorTolerance);
+  CheckTolerance(query.InteriorTolerance);
   if (!input)
   {
     throw std::invalid_argument("There is no input hierarchy.");
   }
   const std::shared_ptr<const State> state = vtkIsodiamondHierarchy::ReadState(input);
-  if (state->Isodiamonds && query.UseIsovalue && query.Isovalue != state->Isovalue)
+  if (state->Isodiamonds)
   {
-    vtkWarningWithObjectMacro(filter, << "A relevant or minimal hierarchy is of one isovalue ("
-                                      << state->Isovalue << "); the isovalue " << query.Isovalue
-                                      << " has no effect.");
+    WarnOfWhatHasNoEffect(filter, *state, query);
   }
-  const double isovalue = query.UseIsovalue ? query.Isovalue : state->Isovalue;
-  if (!std::isfinite(isovalue))
-  {
-    throw std::invalid_argument("The isovalue is not a finite number.");
-  }
+  const isodiamond::Isoregion region = query.Override(state->Chosen).Region();
   RunThreaded(numberOfThreads,
     [&]
     {
       if (state->Isodiamonds)
       {
-        use(*state, *state->Isodiamonds);
+        use(*state,
+          isodiamond::RefinedSet(
+            *state->Isodiamonds, query.ErrorTolerance, SMPFor(), query.InteriorTolerance));
         return;
       }
-      const isodiamond::Encoding answer =
-        isodiamond::EncodeQuery(*state->Scalars, isovalue, query.ErrorTolerance, SMPFor());
-      use(*state, isodiamond::IsodiamondHierarchy(answer, SMPFor()));
+      const isodiamond::Encoding answer = isodiamond::EncodeQuery(
+        *state->Scalars, region, query.ErrorTolerance, SMPFor(), query.InteriorTolerance);
+      const isodiamond::IsodiamondHierarchy hierarchy(answer, SMPFor());
+      use(*state, isodiamond::RefinedSet(hierarchy, 0.0, SMPFor()));
     });
 }
 

@@ -26,9 +26,8 @@ namespace
 {
 
 constexpr int FormatVersion = 1;
-constexpr int IsosurfaceShape = 0;
 constexpr int HeaderCount = 7;
-constexpr int ParameterCount = 14;
+constexpr int ParameterCount = 16;
 constexpr const char* HeaderName = "IsodiamondHeader";
 
 template <typename Array, typename T>
@@ -39,6 +38,35 @@ void AddArray(vtkFieldData* fieldData, const char* name, const std::vector<T>& v
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   fieldData->AddArray(array);
+}
+
+/** Samples of a VTK type. */
+void AddSamples(
+  vtkFieldData* fieldData, const char* name, int type, const void* values, std::int64_t count)
+{
+  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  array->SetName(name);
+  array->SetNumberOfTuples(count);
+  const char* bytes = static_cast<const char*>(values);
+  std::copy(
+    bytes, bytes + count * array->GetDataTypeSize(), static_cast<char*>(array->GetVoidPointer(0)));
+  fieldData->AddArray(array);
+}
+
+void AddSamples(vtkFieldData* fieldData, const char* name, const isodiamond::AnyValues& values)
+{
+  // In the order of the alternatives.
+  constexpr std::array<int, 10> types = { VTK_FLOAT, VTK_DOUBLE, VTK_TYPE_INT8, VTK_TYPE_UINT8,
+    VTK_TYPE_INT16, VTK_TYPE_UINT16, VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_TYPE_INT64,
+    VTK_TYPE_UINT64 };
+  static_assert(types.size() == std::variant_size_v<isodiamond::AnyValues>);
+  std::visit(
+    [&](const auto& array)
+    {
+      AddSamples(fieldData, name, types[values.index()], array.data(),
+        static_cast<std::int64_t>(array.size()));
+    },
+    values);
 }
 
 /** The outline box of the grid: 8 corners and 12 edges. */
@@ -65,13 +93,15 @@ void WriteOutline(
   output->SetLines(lines);
 }
 
-void WriteHeader(const isodiamond::EncodingHeader& header, const isodiamond::AffineMap& world,
-  const std::string& arrayName, vtkFieldData* fieldData)
+void WriteHeader(const isodiamond::EncodingHeader& header, const Choice& choice,
+  const isodiamond::AffineMap& world, const std::string& arrayName, vtkFieldData* fieldData)
 {
   AddArray<vtkTypeInt64Array>(fieldData, HeaderName,
-    std::vector<std::int64_t>{ FormatVersion, static_cast<int>(header.Kind), IsosurfaceShape,
-      header.Dimensions[0], header.Dimensions[1], header.Dimensions[2], header.RelevantCount });
-  std::vector<double> parameters = { header.Isovalue, header.ErrorScale };
+    std::vector<std::int64_t>{ FormatVersion, static_cast<int>(header.Kind),
+      static_cast<int>(choice.Shape), header.Dimensions[0], header.Dimensions[1],
+      header.Dimensions[2], header.RelevantCount });
+  std::vector<double> parameters = { choice.Isovalue, choice.Isorange[0], choice.Isorange[1],
+    header.ErrorScale };
   for (const std::array<double, 4>& row : world.Rows)
   {
     parameters.insert(parameters.end(), row.begin(), row.end());
@@ -92,6 +122,8 @@ public:
     , Target(state)
   {
   }
+
+  bool Has(const char* name) const { return this->FieldData->GetAbstractArray(name) != nullptr; }
 
   vtkDataArray* Array(const char* name)
   {
@@ -166,6 +198,14 @@ void ReadIsodiamonds(Reader& reader, const isodiamond::EncodingHeader& header, S
   view.Arrays.BrickMasks = reader.Stored<std::uint64_t>("IsodiamondBrickMasks");
   view.Arrays.Records = reader.Stored<std::uint16_t>("IsodiamondRecords");
   view.Arrays.Isovertices = reader.Stored<std::uint8_t>("IsodiamondIsovertices");
+  if (header.Region.IsVolume())
+  {
+    view.InsideValues = reader.Samples("IsodiamondInsideValues", { 0, 1, 1 });
+  }
+  if (reader.Has("IsodiamondInteriorCodes"))
+  {
+    view.Arrays.InteriorCodes = reader.Stored<std::uint16_t>("IsodiamondInteriorCodes");
+  }
   RunThreaded(0,
     [&] { state.Isodiamonds = std::make_unique<isodiamond::IsodiamondHierarchy>(view, SMPFor()); });
 }
@@ -199,13 +239,13 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   {
     throw std::invalid_argument("the hierarchy has an unknown format version");
   }
-  if (header[1] < 0 || header[1] > 2 || header[2] != IsosurfaceShape)
+  if (header[1] < 0 || header[1] > 2 || header[2] < 0 || header[2] > 1)
   {
     throw std::invalid_argument("the hierarchy is of an unknown model or shape");
   }
   const isodiamond::ArrayView<double> parameters = reader.Values<double>("IsodiamondParameters");
   if (parameters.Size != ParameterCount ||
-    !std::all_of(parameters.Data, parameters.Data + parameters.Size,
+    !std::all_of(parameters.Data + 3, parameters.Data + parameters.Size,
       [](double value) { return std::isfinite(value); }))
   {
     throw std::invalid_argument("the hierarchy's parameters are malformed");
@@ -217,14 +257,15 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
     state.ArrayName = name->GetValue(0);
   }
   state.Model = static_cast<int>(header[1]);
-  state.Isovalue = parameters[0];
+  state.Chosen = { static_cast<isodiamond::Shape>(header[2]), parameters[0],
+    { parameters[1], parameters[2] } };
   for (int i = 0; i < 12; ++i)
   {
-    state.World.Rows[i / 4][i % 4] = parameters[2 + i];
+    state.World.Rows[i / 4][i % 4] = parameters[4 + i];
   }
   const isodiamond::EncodingHeader core{ static_cast<isodiamond::Model>(header[1]),
-    { Dimension(header[3]), Dimension(header[4]), Dimension(header[5]) }, parameters[0],
-    parameters[1], header[6] };
+    { Dimension(header[3]), Dimension(header[4]), Dimension(header[5]) }, state.Chosen.Region(),
+    parameters[3], header[6] };
   if (core.Kind == isodiamond::Model::HierarchyOfDiamonds)
   {
     ReadScalars(reader, core, state);
@@ -247,7 +288,7 @@ double ErrorScale(vtkFieldData* fieldData)
   vtkDataArray* parameters = fieldData ? fieldData->GetArray("IsodiamondParameters") : nullptr;
   const bool valid = parameters && parameters->GetNumberOfTuples() == ParameterCount &&
     parameters->GetNumberOfComponents() == 1;
-  return isodiamond::ErrorCode(valid ? parameters->GetTuple1(1) : 1.0).Scale();
+  return isodiamond::ErrorCode(valid ? parameters->GetTuple1(3) : 1.0).Scale();
 }
 
 std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
@@ -277,51 +318,44 @@ bool IsCurrent(const State& state, vtkFieldData* fieldData)
     { return fieldData->GetAbstractArray(array->GetName()) == array; });
 }
 
-void WriteIsodiamonds(const isodiamond::Encoding& encoding, const isodiamond::AffineMap& world,
-  const std::string& arrayName, vtkPolyData* output)
+void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
+  const isodiamond::AffineMap& world, const std::string& arrayName, vtkPolyData* output)
 {
   WriteOutline(encoding.Header.Dimensions, world, output);
   vtkFieldData* fieldData = output->GetFieldData();
-  WriteHeader(encoding.Header, world, arrayName, fieldData);
+  WriteHeader(encoding.Header, choice, world, arrayName, fieldData);
   AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickCounts", encoding.Arrays.BrickCounts);
   AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickIndices", encoding.Arrays.BrickIndices);
   AddArray<vtkTypeUInt64Array>(fieldData, "IsodiamondBrickMasks", encoding.Arrays.BrickMasks);
   AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondRecords", encoding.Arrays.Records);
   AddArray<vtkTypeUInt8Array>(fieldData, "IsodiamondIsovertices", encoding.Arrays.Isovertices);
+  if (encoding.Header.Region.IsVolume())
+  {
+    AddSamples(fieldData, "IsodiamondInsideValues", encoding.InsideValues);
+  }
+  if (!encoding.Arrays.InteriorCodes.empty())
+  {
+    AddArray<vtkTypeUInt16Array>(
+      fieldData, "IsodiamondInteriorCodes", encoding.Arrays.InteriorCodes);
+  }
 }
 
-void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volume, double isovalue,
-  vtkPolyData* output)
+void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choice,
+  const Volume& volume, vtkPolyData* output)
 {
   const std::array<int, 3> dimensions =
     std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
   WriteOutline(dimensions, volume.World, output);
   vtkFieldData* fieldData = output->GetFieldData();
   WriteHeader(
-    { isodiamond::Model::HierarchyOfDiamonds, dimensions, isovalue, encoding.ErrorScale, 0 },
-    volume.World, volume.ArrayName, fieldData);
+    { isodiamond::Model::HierarchyOfDiamonds, dimensions, choice.Region(), encoding.ErrorScale, 0 },
+    choice, volume.World, volume.ArrayName, fieldData);
   // The input's own array under another name: shared memory would rename it for the input too.
-  const auto addLike = [&](const char* name, const void* values, std::int64_t count)
-  {
-    auto array = vtkSmartPointer<vtkDataArray>::Take(
-      vtkDataArray::CreateDataArray(volume.Array->GetDataType()));
-    array->SetName(name);
-    array->SetNumberOfTuples(count);
-    const char* bytes = static_cast<const char*>(values);
-    std::copy(bytes, bytes + count * array->GetDataTypeSize(),
-      static_cast<char*>(array->GetVoidPointer(0)));
-    fieldData->AddArray(array);
-  };
-  addLike("IsodiamondSamples", volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());
+  AddSamples(fieldData, "IsodiamondSamples", volume.Array->GetDataType(),
+    volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());
   AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondErrors", encoding.Codes);
-  const auto addRange = [&](const char* name, const isodiamond::AnyValues& values)
-  {
-    std::visit([&](const auto& array)
-      { addLike(name, array.data(), static_cast<std::int64_t>(array.size())); },
-      values);
-  };
-  addRange("IsodiamondMinima", encoding.Minima);
-  addRange("IsodiamondMaxima", encoding.Maxima);
+  AddSamples(fieldData, "IsodiamondMinima", encoding.Minima);
+  AddSamples(fieldData, "IsodiamondMaxima", encoding.Maxima);
 }
 
 }

@@ -4,6 +4,7 @@
 
 #include "AffineMap.h"
 #include "Builder.h"
+#include "vtkIsodiamondChoice.h"
 #include "vtkIsodiamondInput.h"
 
 #include "vtkAbstractArray.h"
@@ -22,13 +23,18 @@ class vtkPolyData;
  *
  * | array | values |
  * |---|---|
- * | IsodiamondHeader | int64: format version, model, shape, dimensions (3), number m_r of relevant
- * isodiamonds | | IsodiamondParameters | float64: isovalue, error scale, index-to-world map (3 rows
- * of 4) | | IsodiamondArrayName | string: name of the input's array | | IsodiamondBrickCounts,
- * ...BrickIndices | uint32, see isodiamond::EncodingArrays | | IsodiamondBrickMasks | uint64 | |
- * IsodiamondRecords | uint16 | | IsodiamondIsovertices | uint8 | | IsodiamondSamples (HD only) |
- * the input's samples | | IsodiamondErrors (HD only) | uint16, see isodiamond::ScalarHierarchy | |
- * IsodiamondMinima, IsodiamondMaxima (HD only) | of the samples' type |
+ * | IsodiamondHeader | int64: format version, model, shape, dimensions (3), m_r |
+ * | IsodiamondParameters | float64: isovalue, isorange (2), error scale, index to world (3x4) |
+ * | IsodiamondArrayName | string: name of the input's array |
+ * | IsodiamondBrickCounts, ...BrickIndices | uint32, see isodiamond::EncodingArrays |
+ * | IsodiamondBrickMasks | uint64 |
+ * | IsodiamondRecords | uint16 |
+ * | IsodiamondIsovertices | uint8 |
+ * | IsodiamondInsideValues (interval volumes only) | of the samples' type |
+ * | IsodiamondInteriorCodes (where the interior can be refined) | uint16 |
+ * | IsodiamondSamples (HD only) | the input's samples |
+ * | IsodiamondErrors (HD only) | uint16, see isodiamond::ScalarHierarchy |
+ * | IsodiamondMinima, IsodiamondMaxima (HD only) | of the samples' type |
  */
 namespace vtkIsodiamond
 {
@@ -37,7 +43,8 @@ namespace vtkIsodiamond
 struct State
 {
   int Model = 0; ///< as isodiamond::Model
-  double Isovalue = 0.0;
+  /** What RI and MI are of; of an HD the default of queries. */
+  Choice Chosen;
   std::string ArrayName;
   isodiamond::AffineMap World;
   std::int64_t StorageSize = 0;
@@ -60,12 +67,12 @@ std::shared_ptr<const State> ReadState(vtkFieldData* fieldData);
 bool IsCurrent(const State& state, vtkFieldData* fieldData);
 
 /** Puts an RI or MI into a data set; its geometry becomes the outline of the grid. */
-void WriteIsodiamonds(const isodiamond::Encoding& encoding, const isodiamond::AffineMap& world,
-  const std::string& arrayName, vtkPolyData* output);
+void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
+  const isodiamond::AffineMap& world, const std::string& arrayName, vtkPolyData* output);
 
-/** Puts an HD into a data set. @param isovalue the default of queries */
-void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Volume& volume, double isovalue,
-  vtkPolyData* output);
+/** Puts an HD into a data set. @param choice the default of queries */
+void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choice,
+  const Volume& volume, vtkPolyData* output);
 
 }
 

@@ -6,18 +6,42 @@
 #include "Encoder.h"
 #include "FieldError.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace isodiamond
 {
 namespace
 {
 
-/** The code of a diamond's own error, 0 if the surface does not cross its domain. */
-using TriggerFunction = std::function<ErrorCode::Type(const Place&)>;
-
-std::vector<ErrorCode::Type> Triggers(
-  const DiamondSet& members, const TriggerFunction& trigger, const ParallelFor& parallelFor)
+/** Where the samples, errors and ranges of a build come from. */
+struct Source
 {
-  std::vector<ErrorCode::Type> triggers(members.Size(), 0);
+  const Grid& Domain;
+  const AnySamples& Samples;
+  ErrorCode Code;
+  /** The code of a diamond's own error, and the range of its domain. */
+  std::function<std::pair<ErrorCode::Type, ValueRange>(const Place&)> Summary;
+};
+
+/** Codes by rank: of own errors where they count, else 0, or thresholds made of these. For the
+ *  tolerance, and for the interior tolerance. */
+struct DiamondCodes
+{
+  std::vector<ErrorCode::Type> Surface;
+  std::vector<ErrorCode::Type> Interior; ///< empty without refinement of the interior
+
+  explicit DiamondCodes(std::int64_t size, bool refineInterior)
+    : Surface(size, 0)
+    , Interior(refineInterior ? size : 0, 0)
+  {
+  }
+};
+
+DiamondCodes Triggers(const Source& source, const Isoregion& region, const DiamondSet& members,
+  bool refineInterior, const ParallelFor& parallelFor)
+{
+  DiamondCodes triggers(members.Size(), refineInterior);
   for (int scale = members.ScaleCount() - 1; scale >= 0; --scale)
   {
     const std::vector<Brick>& bricks = members.Level(scale).Bricks;
@@ -27,11 +51,52 @@ std::vector<ErrorCode::Type> Triggers(
         for (std::int64_t i = begin; i < end; ++i)
         {
           members.ForEachInBrick(scale, bricks[i],
-            [&](const Place& place, std::uint32_t rank) { triggers[rank] = trigger(place); });
+            [&](const Place& place, std::uint32_t rank)
+            {
+              const auto [code, range] = source.Summary(place);
+              if (IsTriggered(region, source.Domain, range, place))
+              {
+                triggers.Surface[rank] = code;
+              }
+              if (refineInterior &&
+                HasAllVerticesInside(region, source.Domain, source.Samples, place))
+              {
+                triggers.Interior[rank] = code;
+              }
+            });
         }
       });
   }
   return triggers;
+}
+
+/** Raises the codes of all ancestors: the interior tolerance subdivides whatever exceeds it. */
+void SaturateUpward(
+  const Grid& grid, const DiamondSet& members, std::vector<ErrorCode::Type>& codes)
+{
+  for (int scale = 0; scale < grid.Depth(); ++scale)
+  {
+    for (int diamondClass = 2; diamondClass >= 0; --diamondClass)
+    {
+      for (const Brick& brick : members.Level(scale).Bricks)
+      {
+        members.ForEachInBrick(scale, brick,
+          [&](const Place& place, std::uint32_t rank)
+          {
+            const TypeTable& shape = ShapeOf(place.Position);
+            for (int i = 0; shape.DiamondClass == diamondClass && i < shape.ParentCount; ++i)
+            {
+              const Place parent = ParentPlace(shape, place, i);
+              if (parent.Scale < grid.Depth() && grid.IsValid(parent.Position, parent.Scale))
+              {
+                ErrorCode::Type& code = codes[members.Rank(parent)];
+                code = std::max(code, codes[rank]);
+              }
+            }
+          });
+      }
+    }
+  }
 }
 
 /** The part of the members that a model stores, and their thresholds; the base cube's corners
@@ -39,14 +104,16 @@ std::vector<ErrorCode::Type> Triggers(
 struct Selection
 {
   DiamondSet Set;
-  std::vector<ErrorCode::Type> Thresholds;
+  DiamondCodes Thresholds;
 
   Selection(const Grid& grid, Model model, const DiamondSet& members,
-    const std::vector<ErrorCode::Type>& thresholds, const Classification& kinds)
+    const DiamondCodes& thresholds, const Classification& kinds)
     : Set(grid)
-    , Thresholds(8, ErrorCode::Always)
+    , Thresholds(0, false)
   {
     this->Set.Append(grid.Depth(), 0, CornerBrick());
+    this->Thresholds.Surface.assign(8, ErrorCode::Always);
+    this->Thresholds.Interior.assign(thresholds.Interior.empty() ? 0 : 8, ErrorCode::Always);
     for (int scale = grid.Depth() - 1; scale >= 0; --scale)
     {
       for (const Brick& brick : members.Level(scale).Bricks)
@@ -68,75 +135,89 @@ struct Selection
   }
 
 private:
-  void Add(int scale, const Brick& brick, const BrickMask& mask,
-    const std::vector<ErrorCode::Type>& thresholds)
+  void Add(int scale, const Brick& brick, const BrickMask& mask, const DiamondCodes& thresholds)
   {
     this->Set.Append(scale, brick.BoxIndex, mask);
     for (int z = 0; z < 8; ++z)
     {
-      ForEachBit(
-        mask[z], [&](int bit) { this->Thresholds.push_back(thresholds[brick.Rank(z, bit)]); });
+      ForEachBit(mask[z],
+        [&](int bit)
+        {
+          const std::uint32_t rank = brick.Rank(z, bit);
+          this->Thresholds.Surface.push_back(thresholds.Surface[rank]);
+          if (!thresholds.Interior.empty())
+          {
+            this->Thresholds.Interior.push_back(thresholds.Interior[rank]);
+          }
+        });
     }
   }
 };
 
-Encoding Build(EncodingHeader header, const AnySamples& samples, const TriggerFunction& trigger,
+Encoding Build(Model model, const Source& source, const Isoregion& region, bool refineInterior,
   const ParallelFor& parallelFor)
 {
-  const Grid grid(header.Dimensions);
+  const Grid& grid = source.Domain;
+  refineInterior = refineInterior && region.IsVolume();
   Classification kinds = [&]
   {
-    const SignLattice signs(grid, samples, header.Isovalue, parallelFor);
-    return Classify(grid, signs, parallelFor);
+    const SignLattice signs(grid, source.Samples, region, parallelFor);
+    return Classify(grid, signs, parallelFor, refineInterior);
   }();
   const DiamondSet members(grid, kinds.Members);
   kinds.Members = DiamondMask();
-  const std::vector<ErrorCode::Type> thresholds =
-    ActivationThresholds(grid, members, Triggers(members, trigger, parallelFor));
-  header.RelevantCount = members.Size() - kinds.Active.Size();
-  const Selection selection(grid, header.Kind, members, thresholds, kinds);
-  return Encode(header, grid, samples, selection.Set, selection.Thresholds, parallelFor);
+  DiamondCodes codes = Triggers(source, region, members, refineInterior, parallelFor);
+  codes.Surface = ActivationThresholds(grid, members, codes.Surface);
+  if (refineInterior)
+  {
+    SaturateUpward(grid, members, codes.Interior);
+  }
+  const EncodingHeader header{ model, grid.Dimensions(), region, source.Code.Scale(),
+    members.Size() - kinds.Active.Size() };
+  const Selection selection(grid, model, members, codes, kinds);
+  Encoding encoding =
+    Encode(header, grid, source.Samples, selection.Set, selection.Thresholds.Surface, parallelFor);
+  encoding.Arrays.InteriorCodes = selection.Thresholds.Interior;
+  return encoding;
 }
 
 }
 
-Encoding BuildIsodiamonds(
-  Model model, const AnySamples& samples, double isovalue, const ParallelFor& parallelFor)
+Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
+  const ParallelFor& parallelFor, bool refineInterior)
 {
   const ErrorCode code(FieldErrorScale(samples));
-  const std::array<int, 3> dimensions =
-    std::visit([](const auto& view) { return view.Dimensions(); }, samples);
-  const Grid grid(dimensions);
-  const TriggerFunction trigger = [&](const Place& place)
+  const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
+  const auto summary = [&](const Place& place)
   {
-    const DomainSummary summary = SummarizeDomain(grid, samples, place);
-    return summary.Range.Crosses(isovalue) ? code.Encode(summary.Error) : ErrorCode::Type{ 0 };
+    const DomainSummary domain = SummarizeDomain(grid, samples, place);
+    return std::make_pair(code.Encode(domain.Error), domain.Range);
   };
-  return Build({ model, dimensions, isovalue, code.Scale(), 0 }, samples, trigger, parallelFor);
+  return Build(model, { grid, samples, code, summary }, region, refineInterior, parallelFor);
 }
 
-Encoding BuildIsodiamonds(
-  Model model, const ScalarHierarchy& hierarchy, double isovalue, const ParallelFor& parallelFor)
+Encoding BuildIsodiamonds(Model model, const ScalarHierarchy& hierarchy, const Isoregion& region,
+  const ParallelFor& parallelFor, bool refineInterior)
 {
-  const TriggerFunction trigger = [&](const Place& place)
-  {
-    return hierarchy.Range(place).Crosses(isovalue) ? hierarchy.Error(place) : ErrorCode::Type{ 0 };
-  };
-  return Build({ model, hierarchy.Domain().Dimensions(), isovalue, hierarchy.Codes().Scale(), 0 },
-    hierarchy.Samples(), trigger, parallelFor);
+  const auto summary = [&](const Place& place)
+  { return std::make_pair(hierarchy.Error(place), hierarchy.Range(place)); };
+  return Build(model, { hierarchy.Domain(), hierarchy.Samples(), hierarchy.Codes(), summary },
+    region, refineInterior, parallelFor);
 }
 
-Encoding EncodeQuery(const ScalarHierarchy& hierarchy, double isovalue, double tolerance,
-  const ParallelFor& parallelFor)
+Encoding EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, double tolerance,
+  const ParallelFor& parallelFor, double interiorTolerance)
 {
   const Grid& grid = hierarchy.Domain();
+  const ErrorCode& codes = hierarchy.Codes();
   DiamondMask subdivided =
-    hierarchy.Refine(isovalue, hierarchy.Codes().Accepted(tolerance)).Subdivided;
+    hierarchy.Refine(region, codes.Accepted(tolerance), codes.Accepted(interiorTolerance))
+      .Subdivided;
   subdivided.Insert(grid.Depth(), 0, CornerBrick());
   const DiamondSet set(grid, subdivided);
   const std::vector<ErrorCode::Type> thresholds(set.Size(), ErrorCode::Always);
-  const EncodingHeader header{ Model::Relevant, grid.Dimensions(), isovalue,
-    hierarchy.Codes().Scale(), set.Size() };
+  const EncodingHeader header{ Model::Relevant, grid.Dimensions(), region, codes.Scale(),
+    set.Size() };
   return Encode(header, grid, hierarchy.Samples(), set, thresholds, parallelFor);
 }
 

@@ -25,7 +25,7 @@ DiamondMesh ExtractDiamondMesh(const RefinedSet& refined)
   {
     ForEachLeaf(
       refined, brick,
-      [&](std::uint32_t rank) { return onlyCrossed ? hierarchy.Edges(rank) : 0x3ffU; },
+      [&](std::uint32_t rank) { return onlyCrossed ? hierarchy.CarryingEdges(rank) : 0x3ffU; },
       [&](const Leaf& leaf)
       {
         const int h = 1 << leaf.Parent.Scale;

@@ -77,6 +77,9 @@ struct HalfTetrahedron
   std::uint16_t Mask = 0;                ///< the three vertices as an edge mask
   std::uint8_t Child = 0;                ///< index of the child diamond that it belongs to
   std::array<OuterEdge, 3> OuterEdges{}; ///< edge i lies opposite to vertex i
+  /** Indices of Vertices from the youngest to the oldest; the centre is younger than all. */
+  std::array<std::uint8_t, 3> ByAge{};
+  bool OddByAge = false; ///< whether that is an odd permutation
 };
 
 /** All that is known of a diamond from its type. */
@@ -273,6 +276,27 @@ inline constexpr Point ChildOf(const std::array<Point, 4>& corners)
   return middle;
 }
 
+/** Sorts the vertices of a half-tetrahedron by age; all ages in a tetrahedron differ. */
+inline constexpr void SortByAge(HalfTetrahedron& half, int parity, int highBits)
+{
+  std::array<int, 3> ages{};
+  for (int i = 0; i < 3; ++i)
+  {
+    ages[i] = AgeOf(parity, highBits, Parities[parity].Offsets[half.Vertices[i]]).Age;
+    half.ByAge[i] = static_cast<std::uint8_t>(i);
+  }
+  for (const int i : { 0, 1, 0 })
+  {
+    if (ages[half.ByAge[i]] > ages[half.ByAge[i + 1]])
+    {
+      const std::uint8_t older = half.ByAge[i];
+      half.ByAge[i] = half.ByAge[i + 1];
+      half.ByAge[i + 1] = older;
+      half.OddByAge = !half.OddByAge;
+    }
+  }
+}
+
 inline constexpr HalfTetrahedron MakeHalf(int parity, int highBits, int end, int r1, int r2)
 {
   const ParityTable& shape = Parities[parity];
@@ -285,6 +309,7 @@ inline constexpr HalfTetrahedron MakeHalf(int parity, int highBits, int end, int
   half.Mask = static_cast<std::uint16_t>((1 << end) | (1 << r1) | (1 << r2));
   half.OuterEdges = { MakeOuterEdge(parity, highBits, second, third),
     MakeOuterEdge(parity, highBits, third, end), MakeOuterEdge(parity, highBits, end, second) };
+  SortByAge(half, parity, highBits);
   return half;
 }
 

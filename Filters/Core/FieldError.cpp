@@ -298,6 +298,26 @@ DomainSummary Summarize(const Grid& grid, const SampleView<T>& samples, const Pl
 
 }
 
+bool HasAllVerticesInside(
+  const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
+{
+  const ParityTable& shape = tables::Parities[Parity(place.Position)];
+  bool any = false;
+  for (int i = 0; i < shape.VertexCount; ++i)
+  {
+    const Point vertex = (1 << place.Scale) * (place.Position + shape.Offsets[i]);
+    if (grid.IsSampled(vertex))
+    {
+      any = true;
+      if (region.SignOf(SampleAt(samples, vertex)) != InsideSign)
+      {
+        return false;
+      }
+    }
+  }
+  return any && region.IsVolume();
+}
+
 DomainSummary SummarizeDomain(const Grid& grid, const AnySamples& samples, const Place& place)
 {
   return std::visit([&](const auto& view) { return Summarize(grid, view, place); }, samples);

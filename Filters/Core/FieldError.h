@@ -3,7 +3,7 @@
 #define isodiamond_FieldError_h
 
 #include "DiamondTables.h"
-#include "Samples.h"
+#include "Isoregion.h"
 
 namespace isodiamond
 {
@@ -18,6 +18,21 @@ struct DomainSummary
   /** Range of the sampled lattice points of the domain. NaN counts as -infinity. */
   ValueRange Range;
 };
+
+/**
+ * Whether a diamond's own error counts: a surface crosses its domain, or it holds volume and
+ * sticks out of the grid, so that it must not be a leaf of the mesh.
+ */
+inline bool IsTriggered(
+  const Isoregion& region, const Grid& grid, const ValueRange& range, const Place& place)
+{
+  return region.Crosses(range) ||
+    (region.Holds(range) && grid.SticksOut(place.Position, place.Scale));
+}
+
+/** Whether all sampled vertices of a diamond, at least one, lie in the interval volume. */
+bool HasAllVerticesInside(
+  const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place);
 
 /** Visits every sampled lattice point of one diamond's domain. */
 DomainSummary SummarizeDomain(const Grid& grid, const AnySamples& samples, const Place& place);

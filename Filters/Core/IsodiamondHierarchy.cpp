@@ -43,9 +43,12 @@ BrickMask AllowedBits(const Grid& grid, int scale, const Point& origin)
 
 std::int64_t EncodingView::StorageSize() const
 {
+  const std::int64_t insideBytes = this->Header.Region.IsVolume()
+    ? SizeOf(this->InsideValues) * BytesOfSample(this->InsideValues)
+    : 0;
   return 4 * this->Arrays.BrickCounts.Size + 4 * this->Arrays.BrickIndices.Size +
     8 * this->Arrays.BrickMasks.Size + 2 * this->Arrays.Records.Size +
-    this->Arrays.Isovertices.Size;
+    this->Arrays.Isovertices.Size + 2 * this->Arrays.InteriorCodes.Size + insideBytes;
 }
 
 IsodiamondHierarchy::IsodiamondHierarchy(
@@ -62,7 +65,15 @@ IsodiamondHierarchy::IsodiamondHierarchy(
   this->ReadBricks();
   this->CheckRecords();
 
+  this->DeriveAllEdges(parallelFor);
+  this->CountByKind();
+  this->CountInsideValues();
+}
+
+void IsodiamondHierarchy::DeriveAllEdges(const ParallelFor& parallelFor)
+{
   this->EdgesAndKinds.resize(this->Set.Size());
+  this->EdgesOfUpper.resize(this->Region().IsVolume() ? this->Set.Size() : 0);
   for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
   {
     const std::vector<Brick>& bricks = this->Set.Level(scale).Bricks;
@@ -71,31 +82,59 @@ IsodiamondHierarchy::IsodiamondHierarchy(
       {
         for (std::int64_t i = begin; i < end; ++i)
         {
-          this->DeriveEdges(scale, bricks[i]);
+          this->Set.ForEachInBrick(scale, bricks[i],
+            [&](const Place& place, std::uint32_t rank) { this->DeriveDiamond(place, rank); });
         }
       });
   }
+}
 
-  // Where each diamond's isovertices begin, and the counts by kind.
+/** Where each diamond's isovertices begin, and the counts by kind. */
+void IsodiamondHierarchy::CountByKind()
+{
   this->FirstIsovertex.resize(this->Set.Size());
   std::int64_t isovertices = 0;
   for (std::int64_t rank = 0; rank < this->Set.Size(); ++rank)
   {
     this->FirstIsovertex[rank] = static_cast<std::uint32_t>(isovertices);
     isovertices += PopCount(this->Edges(rank));
+    isovertices += this->Region().IsVolume() ? PopCount(this->UpperEdges(rank)) : 0;
     this->Counts[static_cast<int>(this->KindOf(rank))] += rank < 8 ? 0 : 1;
   }
-  Require(isovertices == encoding.Arrays.Isovertices.Size,
+  Require(isovertices == this->View.Arrays.Isovertices.Size,
     "the number of isovertices does not match the signs");
-  Require(
-    encoding.Header.RelevantCount >= this->Count(Kind::Relevant) + this->Count(Kind::Creation),
+  Require(this->Header().RelevantCount >= this->Count(Kind::Relevant) + this->Count(Kind::Creation),
     "there are more relevant isodiamonds than the header says");
+}
+
+/** Where each brick's inside values begin. */
+void IsodiamondHierarchy::CountInsideValues()
+{
+  if (!this->Region().IsVolume())
+  {
+    return;
+  }
+  std::int64_t values = 0;
+  for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    for (const Brick& brick : this->Set.Level(scale).Bricks)
+    {
+      this->FirstInside.push_back(values);
+      for (std::uint32_t rank = brick.First; rank < brick.First + brick.Size(); ++rank)
+      {
+        values += this->Sign(rank) == InsideSign ? 1 : 0;
+      }
+    }
+  }
+  this->FirstInside.push_back(values);
+  Require(values == SizeOf(this->View.InsideValues),
+    "the number of inside values does not match the signs");
 }
 
 std::int64_t IsodiamondHierarchy::DerivedSize() const
 {
-  std::int64_t size =
-    static_cast<std::int64_t>(2 * this->EdgesAndKinds.size() + 4 * this->FirstIsovertex.size());
+  std::int64_t size = static_cast<std::int64_t>(2 * this->EdgesAndKinds.size() +
+    2 * this->EdgesOfUpper.size() + 8 * this->FirstInside.size() + 4 * this->FirstIsovertex.size());
   for (int scale = 0; scale < this->Set.ScaleCount(); ++scale)
   {
     const BrickLevel& level = this->Set.Level(scale);
@@ -148,11 +187,21 @@ void IsodiamondHierarchy::CheckRecords() const
   Require(records.Size == this->Set.Size(), "the number of records does not match the bricks");
   Require(this->View.Arrays.Isovertices.Size <= std::numeric_limits<std::uint32_t>::max(),
     "more than 2^32 - 1 isovertices");
+  // Without a surface below, only an interior tolerance subdivides a diamond.
+  const bool interior = this->RefinesInterior();
+  Require(!interior ||
+      (this->Region().IsVolume() && this->View.Arrays.InteriorCodes.Size == records.Size),
+    "the number of interior codes does not match the bricks");
+  const ErrorCode::Type least = interior ? ErrorCode::Type{ 0 } : ErrorCode::Least;
   bool valid = true;
   for (std::int64_t rank = 0; rank < records.Size; ++rank)
   {
-    valid =
-      valid && Record::Code(records[rank]) >= ErrorCode::Least && Record::Sign(records[rank]) <= 1;
+    valid = valid && Record::Code(records[rank]) >= least &&
+      Record::Sign(records[rank]) <= this->Region().SurfaceCount();
+  }
+  for (std::int64_t rank = 0; interior && rank < records.Size; ++rank)
+  {
+    valid = valid && this->InteriorThreshold(rank) <= ErrorCode::Always;
   }
   Require(valid, "a record has an invalid error code or sign");
   for (std::int64_t i = 0; i < this->View.Arrays.Isovertices.Size; ++i)
@@ -185,35 +234,42 @@ int IsodiamondHierarchy::SignAt(const Place& place) const
   }
 }
 
-void IsodiamondHierarchy::DeriveEdges(int scale, const Brick& brick)
-{
-  this->Set.ForEachInBrick(scale, brick,
-    [&](const Place& place, std::uint32_t rank)
-    { this->EdgesAndKinds[rank] = this->DeriveDiamond(place, rank); });
-}
-
-std::uint16_t IsodiamondHierarchy::DeriveDiamond(const Place& place, std::int64_t rank) const
+void IsodiamondHierarchy::DeriveDiamond(const Place& place, std::int64_t rank)
 {
   const ParityTable& shape = tables::Parities[Parity(place.Position)];
-  std::uint32_t above = 0;
-  std::uint32_t below = 0;
+  const int surfaces = this->Region().SurfaceCount();
+  std::array<std::uint32_t, 2> above{}; // by surface, the vertices above it
+  std::uint32_t sampled = 0;
   for (int i = 0; i < shape.VertexCount; ++i)
   {
     const Point vertex = place.Position + shape.Offsets[i];
     if (this->TheGrid.IsSampled((1 << place.Scale) * vertex))
     {
-      const bool isAbove = this->SignAt({ place.Scale, vertex }) != 0;
-      (isAbove ? above : below) |= 1U << i;
+      const int sign = this->SignAt({ place.Scale, vertex });
+      sampled |= 1U << i;
+      above[0] |= (sign > 0 ? 1U : 0U) << i;
+      above[1] |= (sign > 1 ? 1U : 0U) << i;
     }
   }
-  std::uint32_t edges = 0;
-  if (this->TheGrid.IsSampled(Centre(place)))
+  const bool hasCentre = this->TheGrid.IsSampled(Centre(place));
+  std::array<std::uint32_t, 2> edges{};
+  bool mixed = false;
+  for (int surface = 0; surface < surfaces; ++surface)
   {
-    edges = this->Sign(rank) != 0 ? below : above;
+    const std::uint32_t below = sampled & ~above[surface];
+    mixed = mixed || (above[surface] != 0 && below != 0);
+    edges[surface] = this->Sign(rank) > surface ? below : above[surface];
+    edges[surface] = hasCentre ? edges[surface] : 0;
   }
+  const bool inside = surfaces == 2 && above[0] != 0 && above[1] == 0;
   const Kind kind =
-    above != 0 && below != 0 ? Kind::Active : (edges != 0 ? Kind::Creation : Kind::Relevant);
-  return static_cast<std::uint16_t>(edges | (static_cast<std::uint32_t>(kind) << 12));
+    mixed || inside ? Kind::Active : ((edges[0] | edges[1]) != 0 ? Kind::Creation : Kind::Relevant);
+  this->EdgesAndKinds[rank] =
+    static_cast<std::uint16_t>(edges[0] | (static_cast<std::uint32_t>(kind) << 12));
+  if (surfaces == 2)
+  {
+    this->EdgesOfUpper[rank] = static_cast<std::uint16_t>(edges[1]);
+  }
 }
 
 }

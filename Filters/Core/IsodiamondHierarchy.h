@@ -4,6 +4,7 @@
 
 #include "DiamondSet.h"
 #include "ErrorCode.h"
+#include "Isoregion.h"
 #include "Parallel.h"
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 /**
  * @file IsodiamondHierarchy.h
- * The relevant (RI) and the minimal (MI) isodiamond hierarchy of one isosurface.
+ * The relevant (RI) and the minimal (MI) isodiamond hierarchy of an isosurface or interval volume.
  *
  * There are two forms. The *encoding* is what is kept and saved: flat arrays of bricks, 2-byte
  * records and 1-byte isovertices. The *hierarchy* is a view of an encoding with what queries want
@@ -81,7 +82,7 @@ struct EncodingHeader
 {
   Model Kind = Model::Minimal;
   std::array<int, 3> Dimensions = { 2, 2, 2 };
-  double Isovalue = 0.0;
+  Isoregion Region = 0.0;
   double ErrorScale = 1.0; ///< of ErrorCode
   /** m_r: the relevant isodiamonds that there are, creation ones included, stored or not. */
   std::int64_t RelevantCount = 0;
@@ -98,7 +99,11 @@ struct EncodingArrays
   Array<std::uint32_t> BrickIndices; ///< one a brick: its index in its scale's box
   Array<std::uint64_t> BrickMasks;   ///< eight a brick
   Array<std::uint16_t> Records;      ///< one a diamond: error code and sign of the centre
-  Array<std::uint8_t> Isovertices;   ///< one an active subdivision edge: its coefficient
+  /** Coefficients, by diamond: those of its edges that cross surface 0, then surface 1. */
+  Array<std::uint8_t> Isovertices;
+  /** Of an interval volume that is to be refined inside: one a diamond, the code of the interior
+   *  tolerance below which it is subdivided, 0 for never. Else empty. */
+  Array<ErrorCode::Type> InteriorCodes;
 };
 
 template <typename T>
@@ -108,18 +113,23 @@ struct Encoding
 {
   EncodingHeader Header;
   EncodingArrays<OwnedArray> Arrays;
+  /** The samples at the diamonds' centres that lie inside the interval volume, by rank; none for
+   *  an isosurface. */
+  AnyValues InsideValues;
 };
 
 struct EncodingView
 {
   EncodingHeader Header;
   EncodingArrays<ArrayView> Arrays;
+  AnySamples InsideValues; ///< a row
 
   EncodingView() = default;
   EncodingView(const Encoding& encoding) // NOLINT(google-explicit-constructor): it is a view
     : Header(encoding.Header)
     , Arrays{ encoding.Arrays.BrickCounts, encoding.Arrays.BrickIndices, encoding.Arrays.BrickMasks,
-      encoding.Arrays.Records, encoding.Arrays.Isovertices }
+      encoding.Arrays.Records, encoding.Arrays.Isovertices, encoding.Arrays.InteriorCodes }
+    , InsideValues(ViewOf(encoding.InsideValues))
   {
   }
 
@@ -140,6 +150,8 @@ public:
   const DiamondSet& Diamonds() const { return this->Set; }
   const isodiamond::ErrorCode& Codes() const { return this->Code; }
 
+  const Isoregion& Region() const { return this->View.Header.Region; }
+
   /** Threshold of the diamond of a rank. Corners of the base cube have the top code. */
   ErrorCode::Type Threshold(std::int64_t rank) const
   {
@@ -147,18 +159,46 @@ public:
   }
   int Sign(std::int64_t rank) const { return Record::Sign(this->View.Arrays.Records[rank]); }
 
-  /** Mask of the subdivision edges that the surface crosses. */
+  /** Whether diamonds have thresholds for an interior tolerance. */
+  bool RefinesInterior() const { return this->View.Arrays.InteriorCodes.Size > 0; }
+  ErrorCode::Type InteriorThreshold(std::int64_t rank) const
+  {
+    return this->View.Arrays.InteriorCodes[rank];
+  }
+
+  /** Mask of the subdivision edges that the isosurface, or the lower surface, crosses. */
   std::uint32_t Edges(std::int64_t rank) const { return this->EdgesAndKinds[rank] & 0x3ffU; }
+
+  /** Mask of the subdivision edges that the upper surface crosses; interval volumes only. */
+  std::uint32_t UpperEdges(std::int64_t rank) const { return this->EdgesOfUpper[rank]; }
+
+  /** The subdivision edges that make a half-tetrahedron carry something: it does if it has one of
+   *  them. All if the centre lies inside the interval volume. */
+  std::uint32_t CarryingEdges(std::int64_t rank) const
+  {
+    if (!this->Region().IsVolume())
+    {
+      return this->Edges(rank);
+    }
+    return this->Sign(rank) == InsideSign ? 0x3ffU : this->Edges(rank) | this->UpperEdges(rank);
+  }
   Kind KindOf(std::int64_t rank) const
   {
     return static_cast<Kind>(this->EdgesAndKinds[rank] >> 12);
   }
 
-  /** The coefficients of a diamond's isovertices, in the order of its edges. */
+  /** The coefficients of a diamond's isovertices, in the order of its edges: those on surface 0,
+   *  then those on surface 1. */
   const std::uint8_t* Isovertices(std::int64_t rank) const
   {
     return this->View.Arrays.Isovertices.Data + this->FirstIsovertex[rank];
   }
+
+  /** The samples inside the interval volume, by rank of the centres, as a row. */
+  const AnySamples& InsideValues() const { return this->View.InsideValues; }
+
+  /** The number of those in bricks before a brick, numbered as AllBricks() does. */
+  std::int64_t FirstInsideValue(std::int64_t brick) const { return this->FirstInside[brick]; }
 
   /** Counts of the isodiamonds by kind; corners of the base cube do not count. */
   std::int64_t Count(Kind kind) const { return this->Counts[static_cast<int>(kind)]; }
@@ -171,15 +211,19 @@ public:
 private:
   void ReadBricks();
   void CheckRecords() const;
+  void DeriveAllEdges(const ParallelFor& parallelFor);
+  void CountByKind();
+  void CountInsideValues();
   int SignAt(const Place& place) const;
-  void DeriveEdges(int scale, const Brick& brick);
-  std::uint16_t DeriveDiamond(const Place& place, std::int64_t rank) const;
+  void DeriveDiamond(const Place& place, std::int64_t rank);
 
   EncodingView View;
   Grid TheGrid;
   DiamondSet Set;
   isodiamond::ErrorCode Code;
   std::vector<std::uint16_t> EdgesAndKinds;
+  std::vector<std::uint16_t> EdgesOfUpper; ///< interval volumes only
+  std::vector<std::int64_t> FirstInside;   ///< interval volumes only: by brick, and the total
   std::vector<std::uint32_t> FirstIsovertex;
   std::array<std::int64_t, 3> Counts{};
 };

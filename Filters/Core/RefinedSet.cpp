@@ -18,12 +18,14 @@ std::vector<BrickPlace> AllBricks(const DiamondSet& set)
   return all;
 }
 
-RefinedSet::RefinedSet(
-  const IsodiamondHierarchy& hierarchy, double tolerance, const ParallelFor& parallelFor)
+RefinedSet::RefinedSet(const IsodiamondHierarchy& hierarchy, double tolerance,
+  const ParallelFor& parallelFor, double interiorTolerance)
   : Source(hierarchy)
   , Masks(hierarchy.Diamonds().ScaleCount())
 {
   const ErrorCode::Type accepted = hierarchy.Codes().Accepted(tolerance);
+  const ErrorCode::Type acceptedInside = hierarchy.Codes().Accepted(interiorTolerance);
+  const bool interior = hierarchy.RefinesInterior();
   for (int scale = 0; scale < hierarchy.Diamonds().ScaleCount(); ++scale)
   {
     const std::vector<Brick>& bricks = hierarchy.Diamonds().Level(scale).Bricks;
@@ -35,7 +37,7 @@ RefinedSet::RefinedSet(
         {
           BrickMask& mask = this->Masks[scale][i];
           mask = bricks[i].Occupancy;
-          if (accepted < ErrorCode::Least)
+          if (accepted < ErrorCode::Least && !interior)
           {
             continue; // full resolution: all of them
           }
@@ -46,8 +48,10 @@ RefinedSet::RefinedSet(
             ForEachBit(word,
               [&](int bit)
               {
-                const bool above = hierarchy.Threshold(rank++) > accepted;
+                const bool above = hierarchy.Threshold(rank) > accepted ||
+                  (interior && hierarchy.InteriorThreshold(rank) > acceptedInside);
                 kept |= static_cast<std::uint64_t>(above) << bit;
+                ++rank;
               });
             word = kept;
           }

@@ -20,9 +20,11 @@ class RefinedSet
 {
 public:
   /** @param tolerance in the units of the hierarchy's metric; 0 is full resolution, infinity
-   *         leaves only what must always be subdivided; negative and NaN count as 0. */
-  RefinedSet(
-    const IsodiamondHierarchy& hierarchy, double tolerance, const ParallelFor& parallelFor);
+   *         leaves only what must always be subdivided; negative and NaN count as 0.
+   *  @param interiorTolerance of the field inside an interval volume; without effect if the
+   *         hierarchy has no thresholds for it */
+  RefinedSet(const IsodiamondHierarchy& hierarchy, double tolerance, const ParallelFor& parallelFor,
+    double interiorTolerance = HUGE_VAL);
 
   const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
 
@@ -65,6 +67,35 @@ struct BrickPlace
   std::int64_t Index = 0; ///< in its level's list
 };
 std::vector<BrickPlace> AllBricks(const DiamondSet& set);
+
+/** Of a refined diamond's subdivision edges, those that are edges of the current mesh: the diamond
+ *  centred at the edge's midpoint is not refined. */
+inline std::uint32_t AliveEdges(const RefinedSet& refined, const Place& place, std::uint32_t edges)
+{
+  if (place.Scale == 0)
+  {
+    return edges;
+  }
+  const ParityTable& shape = tables::Parities[Parity(place.Position)];
+  std::uint32_t alive = 0;
+  ForEachBit(edges,
+    [&](int edge)
+    {
+      const Place middle{ place.Scale - 1, 2 * place.Position + shape.Offsets[edge] };
+      alive |= static_cast<std::uint32_t>(!refined.Contains(middle)) << edge;
+    });
+  return alive;
+}
+
+/** The index-space position of the isovertex on a subdivision edge. */
+inline std::array<double, 3> IsovertexPosition(
+  const Place& place, const Point& offset, std::uint8_t coefficient)
+{
+  const double along = coefficient / 256.0;
+  const double h = 1 << place.Scale;
+  return { h * (place.Position[0] + along * offset[0]), h * (place.Position[1] + along * offset[1]),
+    h * (place.Position[2] + along * offset[2]) };
+}
 
 /** The vertices of a diamond that have a sample, as an edge mask. */
 inline std::uint32_t SampledVertices(const Grid& grid, const Place& place, const TypeTable& shape)

@@ -6,6 +6,29 @@
 namespace isodiamond
 {
 
+AnySamples ViewOf(const AnyValues& values)
+{
+  return std::visit(
+    [](const auto& array) -> AnySamples
+    {
+      using T = typename std::decay_t<decltype(array)>::value_type;
+      return SampleView<T>(array.data(), { static_cast<int>(array.size()), 1, 1 });
+    },
+    values);
+}
+
+std::int64_t SizeOf(const AnySamples& samples)
+{
+  return std::visit([](const auto& view) { return view.Size(); }, samples);
+}
+
+int BytesOfSample(const AnySamples& samples)
+{
+  return std::visit([](const auto& view)
+    { return static_cast<int>(sizeof(typename std::decay_t<decltype(view)>::Value)); },
+    samples);
+}
+
 ValueRange FiniteRange(const AnySamples& samples)
 {
   return std::visit(

@@ -4,10 +4,10 @@
 
 #include "Lattice.h"
 
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 namespace isodiamond
 {
@@ -59,6 +59,19 @@ using AnySamples = std::variant<SampleView<float>, SampleView<double>, SampleVie
   SampleView<std::int32_t>, SampleView<std::uint32_t>, SampleView<std::int64_t>,
   SampleView<std::uint64_t>>;
 
+/** Owned values of any of the scalar types. */
+using AnyValues = std::variant<std::vector<float>, std::vector<double>, std::vector<std::int8_t>,
+  std::vector<std::uint8_t>, std::vector<std::int16_t>, std::vector<std::uint16_t>,
+  std::vector<std::int32_t>, std::vector<std::uint32_t>, std::vector<std::int64_t>,
+  std::vector<std::uint64_t>>;
+
+/** A view of owned values as a row of samples. */
+AnySamples ViewOf(const AnyValues& values);
+
+/** The number of samples, and of bytes of one. */
+std::int64_t SizeOf(const AnySamples& samples);
+int BytesOfSample(const AnySamples& samples);
+
 /** The sample at a lattice point of the grid. */
 inline double SampleAt(const AnySamples& samples, const Point& point)
 {
@@ -70,41 +83,10 @@ struct ValueRange
 {
   double Minimum = 0.0;
   double Maximum = 0.0;
-
-  /** Whether values on both sides of the isovalue occur: some F > isovalue, some not. */
-  bool Crosses(double isovalue) const
-  {
-    return this->Maximum > isovalue && !(this->Minimum > isovalue);
-  }
 };
 
 /** The range of all finite samples. */
 ValueRange FiniteRange(const AnySamples& samples);
-
-/**
- * The sign of a value for an isovalue: 1 above it, 0 on or below it. NaN counts as below.
- * (The paper's formula in section 2.1 is misprinted; its text says this.)
- */
-inline int SignOf(double value, double isovalue)
-{
-  return value > isovalue ? 1 : 0;
-}
-
-/**
- * The coefficient of an isovertex on the edge from a diamond's centre to one of its vertices: the
- * position of the linear crossing in 1/256 of the edge, from the centre. Kept in 1..255 so that
- * isovertices never coincide with lattice vertices; 128 where an end is not finite.
- */
-inline std::uint8_t IsovertexCoefficient(double centre, double vertex, double isovalue)
-{
-  if (!std::isfinite(centre) || !std::isfinite(vertex))
-  {
-    return 128;
-  }
-  const double steps = std::floor(256.0 * ((isovalue - centre) / (vertex - centre)) + 0.5);
-  return static_cast<std::uint8_t>(
-    steps < 1.0 ? 1.0 : (steps > 255.0 ? 255.0 : (steps == steps ? steps : 128.0)));
-}
 
 }
 

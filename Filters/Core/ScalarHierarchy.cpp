@@ -75,28 +75,62 @@ ValueRange FinestRange(const Grid& grid, const AnySamples& samples, const Point&
 class Walk
 {
 public:
-  Walk(const ScalarHierarchy& hierarchy, double isovalue, ErrorCode::Type accepted)
+  Walk(const ScalarHierarchy& hierarchy, const Isoregion& region, ErrorCode::Type accepted)
     : Hierarchy(hierarchy)
-    , Isovalue(isovalue)
+    , Region(region)
     , Accepted(accepted)
     , Seen(hierarchy.Domain())
     , Result{ DiamondMask(hierarchy.Domain()), 0 }
   {
   }
 
-  ScalarHierarchy::WalkResult Run()
+  void RefineFront()
   {
     this->Visit(Place{ this->Hierarchy.Domain().Depth() - 1, { 1, 1, 1 } });
+    this->EmptyQueue();
+  }
+
+  /** Adds what has all vertices inside and a greater code, with all ancestors. */
+  void RefineInside(ErrorCode::Type accepted)
+  {
+    this->FollowsFront = false;
+    const Grid& grid = this->Hierarchy.Domain();
+    for (int scale = grid.Depth() - 1; scale >= 0; --scale)
+    {
+      const std::array<int, 3> count = grid.Positions(scale);
+      for (Point position{}; position[2] < count[2]; ++position[2])
+      {
+        for (position[1] = 0; position[1] < count[1]; ++position[1])
+        {
+          for (position[0] = 0; position[0] < count[0]; ++position[0])
+          {
+            const Place place{ scale, position };
+            if (Parity(position) != 0 && this->Hierarchy.Error(place) > accepted &&
+              HasAllVerticesInside(this->Region, grid, this->Hierarchy.Samples(), place))
+            {
+              this->Queue.push_back(place);
+            }
+          }
+        }
+      }
+    }
+    this->Result.Visited = ScalarHierarchy::CodeCount(grid);
+    this->EmptyQueue();
+  }
+
+  ScalarHierarchy::WalkResult TakeResult() { return std::move(this->Result); }
+
+private:
+  void EmptyQueue()
+  {
     while (!this->Queue.empty())
     {
       const Place place = this->Queue.back();
       this->Queue.pop_back();
       this->Subdivide(place);
     }
-    return std::move(this->Result);
   }
 
-private:
   void Visit(const Place& place)
   {
     const Grid& grid = this->Hierarchy.Domain();
@@ -106,7 +140,7 @@ private:
     }
     ++this->Result.Visited;
     if (this->Hierarchy.Error(place) > this->Accepted &&
-      this->Hierarchy.Range(place).Crosses(this->Isovalue))
+      IsTriggered(this->Region, grid, this->Hierarchy.Range(place), place))
     {
       this->Queue.push_back(place);
     }
@@ -130,31 +164,22 @@ private:
         this->Queue.push_back(parent);
       }
     }
-    for (int i = 0; i < shape.ChildCount && place.Scale >= shape.ChildStep; ++i)
+    for (int i = 0; this->FollowsFront && i < shape.ChildCount && place.Scale >= shape.ChildStep;
+         ++i)
     {
       this->Visit(ChildPlace(shape, place, i));
     }
   }
 
   const ScalarHierarchy& Hierarchy;
-  double Isovalue;
+  const Isoregion& Region;
   ErrorCode::Type Accepted;
+  bool FollowsFront = true; ///< whether the children of what is subdivided are looked at
   DiamondMask Seen;
   std::vector<Place> Queue;
   ScalarHierarchy::WalkResult Result;
 };
 
-}
-
-AnySamples ViewOf(const AnyValues& values)
-{
-  return std::visit(
-    [](const auto& array) -> AnySamples
-    {
-      using T = typename std::decay_t<decltype(array)>::value_type;
-      return SampleView<T>(array.data(), { static_cast<int>(array.size()), 1, 1 });
-    },
-    values);
 }
 
 double FieldErrorScale(const AnySamples& samples)
@@ -174,10 +199,8 @@ ScalarHierarchy::ScalarHierarchy(const AnySamples& samples, double errorScale,
   , Maxima(maxima)
   , FirstOfScale(this->TheGrid.Depth() + 1, 0)
 {
-  const auto size = [](const AnySamples& values)
-  { return std::visit([](const auto& view) { return view.Size(); }, values); };
-  if (codeCount != CodeCount(this->TheGrid) || size(minima) != RangeCount(this->TheGrid) ||
-    size(maxima) != size(minima) || minima.index() != samples.index() ||
+  if (codeCount != CodeCount(this->TheGrid) || SizeOf(minima) != RangeCount(this->TheGrid) ||
+    SizeOf(maxima) != SizeOf(minima) || minima.index() != samples.index() ||
     maxima.index() != samples.index())
   {
     throw std::invalid_argument("the errors or ranges do not match the samples");
@@ -225,9 +248,16 @@ ValueRange ScalarHierarchy::Range(const Place& place) const
   return { read(this->Minima), read(this->Maxima) };
 }
 
-ScalarHierarchy::WalkResult ScalarHierarchy::Refine(double isovalue, ErrorCode::Type accepted) const
+ScalarHierarchy::WalkResult ScalarHierarchy::Refine(
+  const Isoregion& region, ErrorCode::Type accepted, ErrorCode::Type acceptedInside) const
 {
-  return Walk(*this, isovalue, accepted).Run();
+  Walk walk(*this, region, accepted);
+  walk.RefineFront();
+  if (region.IsVolume() && acceptedInside < ErrorCode::Always - 1)
+  {
+    walk.RefineInside(acceptedInside);
+  }
+  return walk.TakeResult();
 }
 
 ScalarEncoding BuildScalarHierarchy(const AnySamples& samples, const ParallelFor& parallelFor)

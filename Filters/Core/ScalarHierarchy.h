@@ -4,14 +4,14 @@
 
 #include "DiamondSet.h"
 #include "ErrorCode.h"
+#include "Isoregion.h"
 #include "Parallel.h"
-#include "Samples.h"
 
 #include <vector>
 
 /**
  * @file ScalarHierarchy.h
- * HD, the hierarchy of diamonds over a scalar field, for any isovalue at query time.
+ * HD, the hierarchy of diamonds over a scalar field, for any isovalue or isorange at query time.
  *
  * Every diamond has a sample (that of its central vertex), a field error and a value range. The
  * arrays are dense, x fastest, one box of positions a scale, scales from N - 1 down to 0. Ranges
@@ -56,11 +56,16 @@ public:
   };
 
   /**
-   * The paper's selective refinement for one isovalue: the smallest closed set of diamonds that
-   * holds every diamond of the front whose own error code exceeds `accepted` and whose domain the
-   * isosurface crosses. The cost falls with the tolerance: only the front is visited.
+   * The paper's selective refinement: the smallest closed set of diamonds that holds every diamond
+   * of the front whose own error code exceeds `accepted` and whose domain a surface crosses. The
+   * cost falls with the tolerance: only the front is visited.
+   *
+   * @param acceptedInside with less than Always - 1, the set holds the diamonds too, on the front
+   *        or not, that have all vertices inside the interval volume and a greater code; then
+   *        every diamond is visited
    */
-  WalkResult Refine(double isovalue, ErrorCode::Type accepted) const;
+  WalkResult Refine(const Isoregion& region, ErrorCode::Type accepted,
+    ErrorCode::Type acceptedInside = ErrorCode::Always - 1) const;
 
 private:
   std::int64_t Offset(const Place& place) const;
@@ -73,15 +78,6 @@ private:
   AnySamples Maxima;
   std::vector<std::int64_t> FirstOfScale;
 };
-
-/** Owned arrays of an HD's ranges, of the samples' type. */
-using AnyValues = std::variant<std::vector<float>, std::vector<double>, std::vector<std::int8_t>,
-  std::vector<std::uint8_t>, std::vector<std::int16_t>, std::vector<std::uint16_t>,
-  std::vector<std::int32_t>, std::vector<std::uint32_t>, std::vector<std::int64_t>,
-  std::vector<std::uint64_t>>;
-
-/** A view of owned values as a row of samples. */
-AnySamples ViewOf(const AnyValues& values);
 
 /** The arrays of an HD but the samples. */
 struct ScalarEncoding

@@ -9,8 +9,8 @@ namespace
 {
 
 /** Threshold one row of samples into bits. */
-template <typename T>
-void PackRow(const T* row, int count, double isovalue, std::uint64_t* words)
+template <typename T, typename IsAbove>
+void PackRow(const T* row, int count, const IsAbove& isAbove, std::uint64_t* words)
 {
   for (int begin = 0; begin < count; begin += 64)
   {
@@ -18,8 +18,7 @@ void PackRow(const T* row, int count, double isovalue, std::uint64_t* words)
     std::uint64_t word = 0;
     for (int x = begin; x < end; ++x)
     {
-      const bool above = static_cast<double>(row[x]) > isovalue;
-      word |= static_cast<std::uint64_t>(above) << (x - begin);
+      word |= static_cast<std::uint64_t>(isAbove(static_cast<double>(row[x]))) << (x - begin);
     }
     words[begin / 64] = word;
   }
@@ -38,51 +37,77 @@ std::uint64_t EvenBits(std::uint64_t word)
 
 }
 
-SignLattice::SignLattice(
-  const Grid& grid, const AnySamples& samples, double isovalue, const ParallelFor& parallelFor)
-  : Levels(grid.Depth() + 1)
+SignLattice::SignLattice(const Grid& grid, const AnySamples& samples, const Isoregion& region,
+  const ParallelFor& parallelFor)
+  : Surfaces(region.SurfaceCount())
+  , Levels(grid.Depth() + 1)
 {
   for (int scale = 0; scale <= grid.Depth(); ++scale)
   {
     Level& level = this->Levels[scale];
     level.Count = grid.SampledPositions(scale);
     level.Words = (level.Count[0] + 63) / 64;
-    level.Bits.resize(level.Words * level.Count[1] * level.Count[2]);
+    for (int surface = 0; surface < this->Surfaces; ++surface)
+    {
+      level.Bits[surface].resize(level.Words * level.Count[1] * level.Count[2]);
+    }
   }
+  for (int surface = 0; surface < this->Surfaces; ++surface)
+  {
+    this->PackSamples(samples, region, surface, parallelFor);
+    for (int scale = 1; scale <= grid.Depth(); ++scale)
+    {
+      Coarsen(this->Levels[scale - 1], surface, this->Levels[scale]);
+    }
+  }
+}
 
-  // The samples' own scale: a threshold.
+/** The samples' own scale: a threshold. */
+void SignLattice::PackSamples(
+  const AnySamples& samples, const Isoregion& region, int surface, const ParallelFor& parallelFor)
+{
   Level& finest = this->Levels[0];
-  const std::int64_t rows = std::int64_t{ 1 } * finest.Count[1] * finest.Count[2];
+  const double isovalue = region.Isovalue(surface);
+  const bool closed = region.IsAbove(surface, isovalue); // the region's own rule for equal values
+  const auto pack = [&](const auto& view, const auto& isAbove)
+  {
+    parallelFor(std::int64_t{ 1 } * finest.Count[1] * finest.Count[2], 256,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t row = begin; row < end; ++row)
+        {
+          PackRow(view.Pointer() + row * finest.Count[0], finest.Count[0], isAbove,
+            finest.Bits[surface].data() + row * finest.Words);
+        }
+      });
+  };
   std::visit(
     [&](const auto& view)
     {
-      parallelFor(rows, 256,
-        [&](std::int64_t begin, std::int64_t end)
-        {
-          for (std::int64_t row = begin; row < end; ++row)
-          {
-            PackRow(view.Pointer() + row * finest.Count[0], finest.Count[0], isovalue,
-              finest.Bits.data() + row * finest.Words);
-          }
-        });
+      if (closed)
+      {
+        pack(view, [isovalue](double value) { return value >= isovalue; });
+      }
+      else
+      {
+        pack(view, [isovalue](double value) { return value > isovalue; });
+      }
     },
     samples);
+}
 
-  // Every coarser one: every second bit of every second row of every second slice.
-  for (int scale = 1; scale <= grid.Depth(); ++scale)
+/** Every second bit of every second row of every second slice. */
+void SignLattice::Coarsen(const Level& fine, int surface, Level& level)
+{
+  for (int z = 0; z < level.Count[2]; ++z)
   {
-    const Level& fine = this->Levels[scale - 1];
-    Level& level = this->Levels[scale];
-    for (int z = 0; z < level.Count[2]; ++z)
+    for (int y = 0; y < level.Count[1]; ++y)
     {
-      for (int y = 0; y < level.Count[1]; ++y)
+      const std::uint64_t* from = fine.Bits[surface].data() + fine.RowIndex(2 * y, 2 * z);
+      std::uint64_t* to = level.Bits[surface].data() + level.RowIndex(y, z);
+      for (std::int64_t word = 0; word < fine.Words; ++word)
       {
-        const std::uint64_t* from = fine.Bits.data() + fine.RowIndex(2 * y, 2 * z);
-        std::uint64_t* to = level.Bits.data() + level.RowIndex(y, z);
-        for (std::int64_t word = 0; word < fine.Words; ++word)
-        {
-          to[word / 2] |= EvenBits(from[word]) << (32 * (word % 2));
-        }
+        to[word / 2] |= EvenBits(from[word]) << (32 * (word % 2));
       }
     }
   }
@@ -96,7 +121,7 @@ SignLattice::Row SignLattice::Load(int scale, int x0, int y, int z) const
   {
     return row;
   }
-  const std::uint64_t* words = level.Bits.data() + level.RowIndex(y, z);
+  const std::int64_t first = level.RowIndex(y, z);
   for (int i = 0; i < 3; ++i) // the sign before the brick's row, its eight, the one after
   {
     const int x = i == 0 ? x0 - 1 : (i == 1 ? x0 : x0 + 8);
@@ -107,7 +132,11 @@ SignLattice::Row SignLattice::Load(int scale, int x0, int y, int z) const
     const int at = i == 0 ? 0 : (i == 1 ? 1 : 9);
     const int count = i == 1 ? std::min(8, level.Count[0] - x0) : 1;
     const std::uint32_t mask = (1U << count) - 1U;
-    row.Signs |= (static_cast<std::uint32_t>(words[x >> 6] >> (x & 63)) & mask) << at;
+    for (int surface = 0; surface < this->Surfaces; ++surface)
+    {
+      const std::uint64_t word = level.Bits[surface][first + (x >> 6)];
+      row.Above[surface] |= (static_cast<std::uint32_t>(word >> (x & 63)) & mask) << at;
+    }
     row.Sampled |= mask << at;
   }
   return row;

@@ -63,23 +63,6 @@ SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFo
     });
 }
 
-std::uint32_t SurfaceExtraction::AliveEdges(const Place& place, std::uint32_t edges) const
-{
-  if (place.Scale == 0)
-  {
-    return edges;
-  }
-  const ParityTable& shape = tables::Parities[Parity(place.Position)];
-  std::uint32_t alive = 0;
-  ForEachBit(edges,
-    [&](int edge)
-    {
-      const Place middle{ place.Scale - 1, 2 * place.Position + shape.Offsets[edge] };
-      alive |= static_cast<std::uint32_t>(!this->Refined.Contains(middle)) << edge;
-    });
-  return alive;
-}
-
 void SurfaceExtraction::CountBrick(std::int64_t brickNumber)
 {
   const BrickPlace& place = this->Bricks[brickNumber];
@@ -94,8 +77,8 @@ void SurfaceExtraction::CountBrick(std::int64_t brickNumber)
       [&](int bit)
       {
         const std::uint32_t rank = brick.Rank(z, bit);
-        const std::uint32_t alive =
-          this->AliveEdges({ place.Scale, PositionOf(origin, z, bit) }, this->Source.Edges(rank));
+        const std::uint32_t alive = AliveEdges(
+          this->Refined, { place.Scale, PositionOf(origin, z, bit) }, this->Source.Edges(rank));
         this->Slots[rank] = { points, alive };
         points += static_cast<std::uint32_t>(PopCount(alive));
       });
@@ -126,13 +109,9 @@ void SurfaceExtraction::WritePoints(const AffineMap& world, float* points) const
           ForEachBit(this->Slots[rank].Alive,
             [&](int edge)
             {
-              const Point& offset = shape.Offsets[edge];
-              const double along = coefficients[PopCount(edges & ((1U << edge) - 1U))] / 256.0;
-              const double h = 1 << place.Scale;
-              const std::array<double, 3> position =
-                world(h * (place.Position[0] + along * offset[0]),
-                  h * (place.Position[1] + along * offset[1]),
-                  h * (place.Position[2] + along * offset[2]));
+              const std::array<double, 3> inside = IsovertexPosition(
+                place, shape.Offsets[edge], coefficients[PopCount(edges & ((1U << edge) - 1U))]);
+              const std::array<double, 3> position = world(inside[0], inside[1], inside[2]);
               for (int axis = 0; axis < 3; ++axis)
               {
                 *next++ = static_cast<float>(position[axis]);

@@ -55,7 +55,6 @@ private:
     }
   };
 
-  std::uint32_t AliveEdges(const Place& place, std::uint32_t edges) const;
   void CountBrick(std::int64_t brick);
 
   template <typename Id>

@@ -36,7 +36,7 @@ TEST(FieldError, EqualsBruteForce)
       }
       const reference::ValueRange range = reference::DomainRange(hierarchy, samples, i);
       EXPECT_EQ(scalars.Hierarchy->Range(place).Maximum, range.Maximum);
-      EXPECT_EQ(scalars.Hierarchy->Range(place).Crosses(field.Isovalue),
+      EXPECT_EQ(Isoregion(field.Isovalue).Crosses(scalars.Hierarchy->Range(place)),
         reference::IsCrossed(hierarchy, samples, field.Isovalue, i));
       if (field.Name.rfind("broken", 0) != 0)
       {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The paper's Table 2, exactly, on its own volumes, padded with zeros to (2^N + 1)^3. The files
 // are found by the environment's ISODIAMONDS_DATA_DIR.
-#include "CoreTestTools.h"
+#include "IntervalTestTools.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
@@ -17,13 +18,13 @@ struct Row
 {
   const char* File;
   int Size;
-  double Isovalue;
+  Isoregion Region;
   std::int64_t Isovertices;
   std::int64_t Relevant;
   std::int64_t Creation;
   std::int64_t Active;
   std::size_t Vertices;
-  std::size_t Triangles;
+  std::size_t Cells; ///< triangles or tetrahedra
 };
 
 void CheckRow(const Row& row)
@@ -47,17 +48,27 @@ void CheckRow(const Row& row)
   ASSERT_TRUE(file);
   const SampleView<std::uint8_t> view(samples.data(), { n, n, n });
   const test::Built relevant(
-    BuildIsodiamonds(Model::Relevant, view, row.Isovalue, SerialFor), SerialFor);
+    BuildIsodiamonds(Model::Relevant, view, row.Region, SerialFor), SerialFor);
   const test::Built minimal(
-    BuildIsodiamonds(Model::Minimal, view, row.Isovalue, SerialFor), SerialFor);
+    BuildIsodiamonds(Model::Minimal, view, row.Region, SerialFor), SerialFor);
   EXPECT_EQ(minimal.Hierarchy->IsovertexCount(), row.Isovertices);
   EXPECT_EQ(minimal.Hierarchy->Count(Kind::Active), row.Active);
   EXPECT_EQ(minimal.Hierarchy->Count(Kind::Creation), row.Creation);
   EXPECT_EQ(relevant.Hierarchy->Count(Kind::Relevant) + relevant.Hierarchy->Count(Kind::Creation),
     row.Relevant);
+  if (row.Region.IsVolume())
+  {
+    const test::Volume volume = test::ExtractVolume(*minimal.Hierarchy, 0.0);
+    EXPECT_EQ(volume.Points.size() -
+        static_cast<std::size_t>(std::count(volume.Surfaces.begin(), volume.Surfaces.end(), 0)),
+      row.Vertices);
+    EXPECT_EQ(volume.Tetrahedra.size(), row.Cells);
+    EXPECT_EQ(test::FindFault(volume, { n, n, n }), "");
+    return;
+  }
   const test::Mesh mesh = test::Extract(*minimal.Hierarchy, 0.0);
   EXPECT_EQ(mesh.Points.size(), row.Vertices);
-  EXPECT_EQ(mesh.Triangles.size(), row.Triangles);
+  EXPECT_EQ(mesh.Triangles.size(), row.Cells);
 }
 
 }
@@ -71,4 +82,15 @@ TEST(PaperCounts, HydrogenAtom)
 {
   CheckRow(
     { "hydrogen_atom_128x128x128_uint8.raw", 128, 24.0, 75792, 22314, 1, 33596, 56878, 113744 });
+}
+
+TEST(PaperCounts, FuelInterval)
+{
+  CheckRow({ "fuel_64x64x64_uint8.raw", 64, { 7.2, 11.4 }, 45818, 5449, 2, 10770, 35286, 109126 });
+}
+
+TEST(PaperCounts, HydrogenAtomInterval)
+{
+  CheckRow({ "hydrogen_atom_128x128x128_uint8.raw", 128, { 24.0, 48.0 }, 101022, 18277, 1, 53039,
+    75932, 375976 });
 }

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondSurface_h
-#define vtkIsodiamondSurface_h
+#ifndef vtkIsodiamondMesh_h
+#define vtkIsodiamondMesh_h
 
 #include "AffineMap.h"
-#include "IsodiamondHierarchy.h"
+#include "RefinedSet.h"
 
 #include "vtkSmartPointer.h"
 
 #include <string>
 
 class vtkCellArray;
+class vtkDataArray;
 class vtkFloatArray;
 class vtkPoints;
 class vtkSignedCharArray;
+class vtkUnstructuredGrid;
 
 namespace vtkIsodiamond
 {
@@ -25,13 +27,16 @@ struct Surface
   vtkSmartPointer<vtkSignedCharArray> Levels; ///< "Level", one a triangle
 };
 
-/** Extracts a surface from an RI or MI. Runs on the calling thread's vtkSMPTools scope. */
-Surface ExtractSurface(const isodiamond::IsodiamondHierarchy& hierarchy,
-  const isodiamond::AffineMap& world, double tolerance);
+/** Extracts a surface. Runs in the calling thread's vtkSMPTools scope, like all of these. */
+Surface ExtractSurface(const isodiamond::RefinedSet& refined, const isodiamond::AffineMap& world);
 
 /** The isovalue at every point, under the name of the input's array. */
 vtkSmartPointer<vtkFloatArray> ConstantScalars(
   const std::string& name, std::int64_t count, double isovalue);
+
+/** Extracts an isosurface or interval volume with all of its point and cell data. */
+void ExtractMesh(const isodiamond::RefinedSet& refined, const isodiamond::AffineMap& world,
+  const std::string& arrayName, vtkUnstructuredGrid* output);
 
 }
 

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IntervalExtraction.h"
+
+#include "IntervalPatches.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** A case of IntervalPatches() with every point listed once. */
+struct PatchTable
+{
+  std::vector<PatchPoint> Points;
+  std::vector<std::array<std::uint8_t, 4>> Tetrahedra; ///< indices of the points
+
+  PatchTable() = default;
+  explicit PatchTable(const std::vector<PatchTetrahedron>& patch)
+  {
+    for (const PatchTetrahedron& tetrahedron : patch)
+    {
+      std::array<std::uint8_t, 4> indices{};
+      for (int i = 0; i < 4; ++i)
+      {
+        const auto point = std::find(this->Points.begin(), this->Points.end(), tetrahedron[i]);
+        indices[i] = static_cast<std::uint8_t>(point - this->Points.begin());
+        if (point == this->Points.end())
+        {
+          this->Points.push_back(tetrahedron[i]);
+        }
+      }
+      this->Tetrahedra.push_back(indices);
+    }
+  }
+};
+
+const std::array<PatchTable, 81>& PatchTables()
+{
+  static const std::array<PatchTable, 81> tables = []
+  {
+    std::array<PatchTable, 81> all;
+    for (int code = 0; code < 81; ++code)
+    {
+      all[code] = PatchTable(IntervalPatches()[code]);
+    }
+    return all;
+  }();
+  return tables;
+}
+
+}
+
+template <typename Body>
+void IntervalExtraction::ForEachBrick(std::int64_t grain, Body&& body) const
+{
+  this->Parallel(static_cast<std::int64_t>(this->Bricks.size()), grain,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        body(i);
+      }
+    });
+}
+
+IntervalExtraction::IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
+  : Refined(refined)
+  , Source(refined.Hierarchy())
+  , Parallel(parallelFor)
+  , Bricks(AllBricks(refined.Hierarchy().Diamonds()))
+  , Slots(refined.Hierarchy().Diamonds().Size())
+  , FirstPoint(this->Bricks.size() + 1, 0)
+  , FirstTetrahedron(this->Bricks.size() + 1, 0)
+{
+  // Count the points and the tetrahedra of every brick.
+  this->ForEachBrick(16, [this](std::int64_t i) { this->CountBrick(i); });
+
+  // Prefix sums over the bricks.
+  for (std::size_t i = 0; i < this->Bricks.size(); ++i)
+  {
+    this->FirstPoint[i + 1] += this->FirstPoint[i];
+    this->FirstTetrahedron[i + 1] += this->FirstTetrahedron[i];
+  }
+  if (this->PointCount() > std::numeric_limits<std::uint32_t>::max())
+  {
+    throw std::length_error("more than 2^32 - 1 points");
+  }
+
+  // Turn the offsets within bricks into ids.
+  this->ForEachBrick(64,
+    [this](std::int64_t i)
+    {
+      const Brick& brick =
+        this->Source.Diamonds().Level(this->Bricks[i].Scale).Bricks[this->Bricks[i].Index];
+      for (std::uint32_t rank = brick.First; rank < brick.First + brick.Size(); ++rank)
+      {
+        this->Slots[rank].First += static_cast<std::uint32_t>(this->FirstPoint[i]);
+      }
+    });
+}
+
+void IntervalExtraction::CountBrick(std::int64_t brickNumber)
+{
+  const BrickPlace& place = this->Bricks[brickNumber];
+  const BrickLevel& level = this->Source.Diamonds().Level(place.Scale);
+  const Brick& brick = level.Bricks[place.Index];
+  const BrickMask& mask = this->Refined.Mask(place.Scale, place.Index);
+  const Point origin = level.Box.Origin(brick.BoxIndex);
+  std::uint32_t points = 0;
+  for (int z = 0; z < 8; ++z)
+  {
+    ForEachBit(mask[z],
+      [&](int bit)
+      {
+        const std::uint32_t rank = brick.Rank(z, bit);
+        const std::array<std::uint32_t, 2> edges = { this->Source.Edges(rank),
+          this->Source.UpperEdges(rank) };
+        const std::uint32_t alive = AliveEdges(
+          this->Refined, { place.Scale, PositionOf(origin, z, bit) }, edges[0] | edges[1]);
+        Slot& slot = this->Slots[rank];
+        slot.First = points;
+        slot.HasCentre = this->Source.Sign(rank) == InsideSign ? 1 : 0;
+        slot.Alive = { static_cast<std::uint16_t>(alive & edges[0]),
+          static_cast<std::uint16_t>(alive & edges[1]) };
+        points += slot.Size();
+      });
+  }
+  std::int64_t tetrahedra = 0;
+  ForEachLeaf(
+    this->Refined, place, [this](std::uint32_t rank) { return this->Source.CarryingEdges(rank); },
+    [&](const Leaf& leaf) {
+      tetrahedra += static_cast<std::int64_t>(PatchTables()[this->CaseOf(leaf)].Tetrahedra.size());
+    });
+  this->FirstPoint[brickNumber + 1] = points;
+  this->FirstTetrahedron[brickNumber + 1] = tetrahedra;
+}
+
+/** The signs of the outer vertices follow from the centre's and the crossings on the way there. */
+int IntervalExtraction::CaseOf(const Leaf& leaf) const
+{
+  const int centre = this->Source.Sign(leaf.Rank);
+  const std::uint32_t lower = this->Source.Edges(leaf.Rank);
+  const std::uint32_t upper = this->Source.UpperEdges(leaf.Rank);
+  PatchSigns signs{ centre, 0, 0, 0 };
+  for (int i = 0; i < 3; ++i)
+  {
+    const int edge = leaf.Half.Vertices[leaf.Half.ByAge[i]];
+    const int crossesLower = static_cast<int>((lower >> edge) & 1U);
+    const int crossesUpper = static_cast<int>((upper >> edge) & 1U);
+    const int change =
+      (centre > 0 ? -crossesLower : crossesLower) + (centre > 1 ? -crossesUpper : crossesUpper);
+    signs[i + 1] = centre + change;
+  }
+  return PatchCase(signs);
+}
+
+/** Calls body(id, position in index space, surface or -1 inside, brick's inside values so far). */
+template <typename Body>
+void IntervalExtraction::ForEachPoint(Body&& body) const
+{
+  this->ForEachBrick(16,
+    [&](std::int64_t i)
+    {
+      const BrickPlace& brickPlace = this->Bricks[i];
+      const Brick& brick = this->Source.Diamonds().Level(brickPlace.Scale).Bricks[brickPlace.Index];
+      std::int64_t id = this->FirstPoint[i];
+      std::int64_t insideValue = this->Source.FirstInsideValue(i);
+      this->Source.Diamonds().ForEachInBrick(brickPlace.Scale, brick,
+        [&](const Place& place, std::uint32_t rank)
+        {
+          const Slot& slot = this->Slots[rank];
+          if (slot.HasCentre != 0)
+          {
+            const Point centre = Centre(place);
+            const std::array<double, 3> position = { 1.0 * centre[0], 1.0 * centre[1],
+              1.0 * centre[2] };
+            body(id++, position, -1, insideValue);
+          }
+          insideValue += this->Source.Sign(rank) == InsideSign ? 1 : 0;
+          const std::uint8_t* coefficients = this->Source.Isovertices(rank);
+          const ParityTable& shape = tables::Parities[Parity(place.Position)];
+          for (int surface = 0; surface < 2; ++surface)
+          {
+            const std::uint32_t edges =
+              surface == 0 ? this->Source.Edges(rank) : this->Source.UpperEdges(rank);
+            ForEachBit(slot.Alive[surface],
+              [&](int edge)
+              {
+                const std::uint8_t coefficient =
+                  coefficients[PopCount(edges & ((1U << edge) - 1U))];
+                body(id++, IsovertexPosition(place, shape.Offsets[edge], coefficient), surface,
+                  insideValue);
+              });
+            coefficients += PopCount(edges);
+          }
+        });
+    });
+}
+
+template <typename Coordinate>
+void IntervalExtraction::WritePoints(const AffineMap& world, Coordinate* points) const
+{
+  this->ForEachPoint(
+    [&](std::int64_t id, const std::array<double, 3>& inside, int /*surface*/, std::int64_t)
+    {
+      const std::array<double, 3> position = world(inside[0], inside[1], inside[2]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        points[3 * id + axis] = static_cast<Coordinate>(position[axis]);
+      }
+    });
+}
+
+template <typename Value>
+void IntervalExtraction::WriteValues(Value* values, std::int8_t* surfaces) const
+{
+  std::visit(
+    [&](const auto& insideValues)
+    {
+      this->ForEachPoint(
+        [&](std::int64_t id, const std::array<double, 3>&, int surface, std::int64_t insideValue)
+        {
+          values[id] = surface < 0 ? static_cast<Value>(insideValues.Pointer()[insideValue])
+                                   : static_cast<Value>(this->Source.Region().Isovalue(surface));
+          surfaces[id] = static_cast<std::int8_t>(surface < 0 ? 0 : 2 * surface - 1);
+        });
+    },
+    this->Source.InsideValues());
+}
+
+/** Writes the tetrahedra of one brick's leaves, one after the other. */
+template <typename Id>
+class IntervalExtraction::TetrahedronWriter
+{
+public:
+  TetrahedronWriter(
+    const IntervalExtraction& extraction, bool mirrored, Id* connectivity, std::int8_t* levels)
+    : Extraction(extraction)
+    , Mirrored(mirrored)
+    , Next(connectivity)
+    , NextLevel(levels)
+  {
+  }
+
+  void Write(const Leaf& leaf)
+  {
+    if (leaf.Rank != this->Rank)
+    {
+      this->Rank = leaf.Rank;
+      this->Own = this->Extraction.Slots[leaf.Rank];
+      this->Known = 0;
+    }
+    const PatchTable& patch = PatchTables()[this->Extraction.CaseOf(leaf)];
+    for (std::size_t i = 0; i < patch.Points.size(); ++i)
+    {
+      this->Ids[i] = static_cast<Id>(this->IdOf(leaf, patch.Points[i]));
+    }
+    const bool flip = leaf.Half.OddByAge != this->Mirrored;
+    const int level = this->Extraction.Source.Domain().Depth() - 1 - leaf.Scale;
+    for (const std::array<std::uint8_t, 4>& tetrahedron : patch.Tetrahedra)
+    {
+      this->Next[0] = this->Ids[tetrahedron[0]];
+      this->Next[1] = this->Ids[tetrahedron[1]];
+      this->Next[2] = this->Ids[tetrahedron[flip ? 3 : 2]];
+      this->Next[3] = this->Ids[tetrahedron[flip ? 2 : 3]];
+      this->Next += 4;
+      *this->NextLevel++ = static_cast<std::int8_t>(level);
+    }
+  }
+
+private:
+  std::uint32_t IdOf(const Leaf& leaf, const PatchPoint& point)
+  {
+    if (point.IsVertex())
+    {
+      return point.Younger() == 0 ? this->Own.First
+                                  : this->SlotAt(leaf, VertexOf(leaf, point.Younger())).First;
+    }
+    if (point.Younger() == 0)
+    {
+      return this->Own.Id(point.Surface(), VertexOf(leaf, point.Older()));
+    }
+    // An outer edge lies opposite to the outer vertex that is none of its ends.
+    const int opposite = leaf.Half.ByAge[6 - point.Younger() - point.Older() - 1];
+    const OuterEdge& edge = leaf.Half.OuterEdges[opposite];
+    return this->SlotAt(leaf, edge.OwnerVertex).Id(point.Surface(), edge.OwnerEdge);
+  }
+
+  /** The parent's vertex that is a patch's vertex 1, 2 or 3. */
+  static int VertexOf(const Leaf& leaf, int vertex)
+  {
+    return leaf.Half.Vertices[leaf.Half.ByAge[vertex - 1]];
+  }
+
+  /** The points of the diamond that is centred at a vertex of the parent. */
+  const Slot& SlotAt(const Leaf& leaf, int vertex)
+  {
+    if (((this->Known >> vertex) & 1U) == 0)
+    {
+      this->Known |= 1U << vertex;
+      this->Owners[vertex] = this->Extraction.Slots[this->RankAt(leaf, vertex)];
+    }
+    return this->Owners[vertex];
+  }
+
+  std::int64_t RankAt(const Leaf& leaf, int vertex) const
+  {
+    const DiamondSet& set = this->Extraction.Source.Diamonds();
+    Place place{ leaf.Parent.Scale, leaf.Parent.Position + leaf.Shape.Offsets[vertex] };
+    if (Parity(place.Position) != 0)
+    {
+      const Brick& brick = set.Level(place.Scale).Bricks[leaf.Window.IndexAt(place.Position)];
+      return brick.Rank(place.Position[2] & 7, BitOf(place.Position));
+    }
+    while (Parity(place.Position) == 0 && place.Scale < this->Extraction.Source.Domain().Depth())
+    {
+      place = { place.Scale + 1,
+        { place.Position[0] >> 1, place.Position[1] >> 1, place.Position[2] >> 1 } };
+    }
+    return set.Rank(place);
+  }
+
+  const IntervalExtraction& Extraction;
+  bool Mirrored;
+  Id* Next;
+  std::int8_t* NextLevel;
+  std::array<Id, 16> Ids{};
+
+  // Of the current parent.
+  std::int64_t Rank = DiamondSet::None;
+  Slot Own;
+  std::uint32_t Known = 0; ///< vertices whose slots are in Owners
+  std::array<Slot, MaximumVertices> Owners{};
+};
+
+template <typename Id>
+void IntervalExtraction::WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const
+{
+  this->ForEachBrick(16,
+    [&](std::int64_t i)
+    {
+      TetrahedronWriter<Id> writer(*this, mirrored, connectivity + 4 * this->FirstTetrahedron[i],
+        levels + this->FirstTetrahedron[i]);
+      ForEachLeaf(
+        this->Refined, this->Bricks[i],
+        [this](std::uint32_t rank) { return this->Source.CarryingEdges(rank); },
+        [&](const Leaf& leaf) { writer.Write(leaf); });
+    });
+}
+
+template void IntervalExtraction::WritePoints(const AffineMap&, float*) const;
+template void IntervalExtraction::WritePoints(const AffineMap&, double*) const;
+template void IntervalExtraction::WriteValues(float*, std::int8_t*) const;
+template void IntervalExtraction::WriteValues(double*, std::int8_t*) const;
+template void IntervalExtraction::WriteTetrahedra(bool, std::int32_t*, std::int8_t*) const;
+template void IntervalExtraction::WriteTetrahedra(bool, long long*, std::int8_t*) const;
+
+}

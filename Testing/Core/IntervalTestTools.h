@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef IntervalTestTools_h
+#define IntervalTestTools_h
+
+#include "CoreTestTools.h"
+#include "IntervalExtraction.h"
+
+#include <limits>
+
+/** Interval volumes for the core's tests. */
+namespace test
+{
+
+/** An extracted interval volume in index space. */
+struct Volume
+{
+  std::vector<std::array<double, 3>> Points;
+  std::vector<double> Values;
+  std::vector<std::int8_t> Surfaces;
+  std::vector<std::array<std::int32_t, 4>> Tetrahedra;
+  std::vector<std::int8_t> Levels;
+
+  bool operator==(const Volume& other) const
+  {
+    return this->Points == other.Points && this->Values == other.Values &&
+      this->Surfaces == other.Surfaces && this->Tetrahedra == other.Tetrahedra &&
+      this->Levels == other.Levels;
+  }
+};
+Volume ExtractVolume(const isodiamond::IsodiamondHierarchy& hierarchy, double tolerance,
+  double interiorTolerance = std::numeric_limits<double>::infinity(),
+  const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
+
+/** Six times the signed volume of a tetrahedron. */
+double Determinant(const Volume& volume, const std::array<std::int32_t, 4>& tetrahedron);
+double TotalVolume(const Volume& volume);
+
+/**
+ * What a mesh fit for a solver must have: every tetrahedron has positive volume, every point is
+ * used, every face belongs to two tetrahedra or lies on the lower surface, the upper surface or the
+ * grid's boundary. @return the first fault in words, empty if there is none
+ */
+std::string FindFault(const Volume& volume, const std::array<int, 3>& dims);
+
+/** Points, as tetrahedra of sorted corners with their level: equal for equal meshes in any order.
+ */
+std::vector<std::pair<std::array<std::array<double, 3>, 4>, int>> PlacedTetrahedra(
+  const Volume& volume);
+
+/** A range that leaves a third of a field below it, and some above. */
+isodiamond::Isoregion RangeOf(const Field& field);
+
+}
+
+#endif
