@@ -58,10 +58,11 @@ public:
 
   ///@{
   /**
-   * The error that is tolerated where no surface is, inside an interval volume, in field units:
-   * in every tetrahedron with all vertices inside. Needs an HD or vtkIsodiamondBuilder's
-   * RefineInterior. Default: VTK_DOUBLE_MAX, as good as infinity: the inside is as coarse as its
-   * surfaces let it be.
+   * The error that is tolerated where no surface is, inside an interval volume, in field units.
+   * In tetrahedra with all vertices inside the error is at most the greater of this and of
+   * ErrorTolerance, which holds where their diamond carries a surface. Needs an HD or
+   * vtkIsodiamondBuilder's RefineInterior. Default: VTK_DOUBLE_MAX, as good as infinity: the inside
+   * is as coarse as its surfaces let it be.
    */
   vtkSetMacro(InteriorTolerance, double);
   vtkGetMacro(InteriorTolerance, double);

@@ -25,7 +25,8 @@ RefinedSet::RefinedSet(const IsodiamondHierarchy& hierarchy, double tolerance,
 {
   const ErrorCode::Type accepted = hierarchy.Codes().Accepted(tolerance);
   const ErrorCode::Type acceptedInside = hierarchy.Codes().Accepted(interiorTolerance);
-  const bool interior = hierarchy.RefinesInterior();
+  const bool interior = hierarchy.RefinesInterior() && acceptedInside < ErrorCode::Always - 1;
+  const bool all = accepted < ErrorCode::Least && !hierarchy.RefinesInterior();
   for (int scale = 0; scale < hierarchy.Diamonds().ScaleCount(); ++scale)
   {
     const std::vector<Brick>& bricks = hierarchy.Diamonds().Level(scale).Bricks;
@@ -37,9 +38,9 @@ RefinedSet::RefinedSet(const IsodiamondHierarchy& hierarchy, double tolerance,
         {
           BrickMask& mask = this->Masks[scale][i];
           mask = bricks[i].Occupancy;
-          if (accepted < ErrorCode::Least && !interior)
+          if (all)
           {
-            continue; // full resolution: all of them
+            continue; // full resolution
           }
           std::uint32_t rank = bricks[i].First;
           for (std::uint64_t& word : mask)

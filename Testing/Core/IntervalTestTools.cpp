@@ -87,6 +87,26 @@ bool IsBoundary(const Volume& volume, const Face& face, const std::array<int, 3>
 
 }
 
+std::size_t CountSurfaceFaces(const Volume& volume, int surface)
+{
+  std::map<Face, int> faces;
+  for (const std::array<std::int32_t, 4>& t : volume.Tetrahedra)
+  {
+    for (Face face : { Face{ t[1], t[2], t[3] }, Face{ t[0], t[3], t[2] }, Face{ t[0], t[1], t[3] },
+           Face{ t[0], t[2], t[1] } })
+    {
+      if (std::all_of(face.begin(), face.end(),
+            [&](std::int32_t point) { return volume.Surfaces[point] == surface; }))
+      {
+        std::sort(face.begin(), face.end());
+        ++faces[face];
+      }
+    }
+  }
+  return static_cast<std::size_t>(
+    std::count_if(faces.begin(), faces.end(), [](const auto& face) { return face.second == 1; }));
+}
+
 std::string FindFault(const Volume& volume, const std::array<int, 3>& dims)
 {
   std::ostringstream text;
@@ -148,7 +168,7 @@ std::vector<std::pair<std::array<std::array<double, 3>, 4>, int>> PlacedTetrahed
   return placed;
 }
 
-isodiamond::Isoregion RangeOf(const Field& field)
+std::vector<reference::Isorange> RangesOf(const Field& field)
 {
   std::vector<float> sorted;
   std::copy_if(field.Samples.begin(), field.Samples.end(), std::back_inserter(sorted),
@@ -156,7 +176,8 @@ isodiamond::Isoregion RangeOf(const Field& field)
   std::sort(sorted.begin(), sorted.end());
   const double low = sorted[sorted.size() / 3];
   const double high = sorted[sorted.size() * 7 / 8];
-  return low < high ? isodiamond::Isoregion(low, high) : isodiamond::Isoregion(low, low + 1.0);
+  return { { low, low < high ? high : low + 1.0 }, { 0.5, 2.5 },
+    { high, std::numeric_limits<double>::infinity() } };
 }
 
 }

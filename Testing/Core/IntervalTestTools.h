@@ -5,6 +5,8 @@
 #include "CoreTestTools.h"
 #include "IntervalExtraction.h"
 
+#include "ReferenceInterval.h"
+
 #include <limits>
 
 /** Interval volumes for the core's tests. */
@@ -42,13 +44,22 @@ double TotalVolume(const Volume& volume);
  */
 std::string FindFault(const Volume& volume, const std::array<int, 3>& dims);
 
+/** The number of faces of one tetrahedron alone on the lower (-1) or upper (1) surface. */
+std::size_t CountSurfaceFaces(const Volume& volume, int surface);
+
 /** Points, as tetrahedra of sorted corners with their level: equal for equal meshes in any order.
  */
 std::vector<std::pair<std::array<std::array<double, 3>, 4>, int>> PlacedTetrahedra(
   const Volume& volume);
 
-/** A range that leaves a third of a field below it, and some above. */
-isodiamond::Isoregion RangeOf(const Field& field);
+/** Ranges worth trying on a field: the middle of its values, a narrow one between the levels of
+ *  the fields of small integers, one with an open side. */
+std::vector<reference::Isorange> RangesOf(const Field& field);
+
+inline isodiamond::Isoregion RegionOf(const reference::Isorange& range)
+{
+  return { range.Lower, range.Upper };
+}
 
 }
 

@@ -138,28 +138,82 @@ TEST(IntervalPatches, MeetTheFansOfTheFaces)
   }
 }
 
+namespace
+{
+
+/** The three models of one field and range. */
+struct Models
+{
+  test::Built Relevant;
+  test::Built Minimal;
+  test::BuiltScalars Scalars;
+  Isoregion Region;
+
+  Models(const test::Field& field, const Isoregion& region, bool refineInterior = false)
+    : Relevant(BuildIsodiamonds(Model::Relevant, field.View(), region, SerialFor, refineInterior),
+        SerialFor)
+    , Minimal(BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, refineInterior),
+        SerialFor)
+    , Scalars(test::BuildScalars(field))
+    , Region(region)
+  {
+  }
+
+  /** Meshes of the three must be the same and without fault. */
+  void ExpectOneSoundMesh(
+    double tolerance, double interiorTolerance, const std::array<int, 3>& dims) const
+  {
+    const test::Volume volume =
+      test::ExtractVolume(*this->Minimal.Hierarchy, tolerance, interiorTolerance);
+    EXPECT_EQ(test::FindFault(volume, dims), "");
+    const auto placed = test::PlacedTetrahedra(volume);
+    EXPECT_TRUE(placed ==
+      test::PlacedTetrahedra(
+        test::ExtractVolume(*this->Relevant.Hierarchy, tolerance, interiorTolerance)));
+    const test::Built query(
+      EncodeQuery(*this->Scalars.Hierarchy, this->Region, tolerance, SerialFor, interiorTolerance),
+      SerialFor);
+    EXPECT_TRUE(placed == test::PlacedTetrahedra(test::ExtractVolume(*query.Hierarchy, 0.0)));
+  }
+};
+
+}
+
 TEST(Interval, IsFitForASolverAtEveryTolerance)
 {
   for (const test::Field& field : test::SmallFields())
   {
-    const Isoregion region = test::RangeOf(field);
-    const test::BuiltScalars scalars = test::BuildScalars(field);
-    const test::Built relevant(
-      BuildIsodiamonds(Model::Relevant, field.View(), region, SerialFor), SerialFor);
-    const test::Built minimal(
-      BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor), SerialFor);
-    for (const double tolerance : test::Tolerances(scalars.Encoding.ErrorScale))
+    for (const reference::Isorange& range : test::RangesOf(field))
     {
-      SCOPED_TRACE(field.Name + " tolerance " + std::to_string(tolerance));
-      const test::Volume volume = test::ExtractVolume(*minimal.Hierarchy, tolerance);
-      EXPECT_EQ(test::FindFault(volume, field.Dims), "");
-      EXPECT_EQ(volume.Tetrahedra.empty(), volume.Points.empty());
-      const auto placed = test::PlacedTetrahedra(volume);
-      EXPECT_TRUE(
-        placed == test::PlacedTetrahedra(test::ExtractVolume(*relevant.Hierarchy, tolerance)));
-      const test::Built query(
-        EncodeQuery(*scalars.Hierarchy, region, tolerance, SerialFor), SerialFor);
-      EXPECT_TRUE(placed == test::PlacedTetrahedra(test::ExtractVolume(*query.Hierarchy, 0.0)));
+      const Models models(field, test::RegionOf(range));
+      for (const double tolerance : test::Tolerances(models.Scalars.Encoding.ErrorScale))
+      {
+        SCOPED_TRACE(field.Name + " tolerance " + std::to_string(tolerance));
+        models.ExpectOneSoundMesh(tolerance, Infinity, field.Dims);
+      }
+    }
+  }
+}
+
+TEST(Interval, IsFitForASolverAtEveryInteriorTolerance)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    const Isoregion region = test::RegionOf(test::RangesOf(field)[0]);
+    const Models models(field, region, true);
+    const double scale = models.Scalars.Encoding.ErrorScale;
+    for (const double tolerance : { 0.0, 0.2 * scale, Infinity })
+    {
+      for (const double interior : { 0.0, 0.1 * scale, 0.3 * scale, Infinity })
+      {
+        SCOPED_TRACE(field.Name + " interior tolerance " + std::to_string(interior));
+        models.ExpectOneSoundMesh(tolerance, interior, field.Dims);
+      }
+      // What can be refined inside, but is not asked to, is as if it could not.
+      const test::Built plain(
+        BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor), SerialFor);
+      EXPECT_TRUE(test::PlacedTetrahedra(test::ExtractVolume(*plain.Hierarchy, tolerance)) ==
+        test::PlacedTetrahedra(test::ExtractVolume(*models.Minimal.Hierarchy, tolerance)));
     }
   }
 }
@@ -187,6 +241,140 @@ TEST(Interval, OfEverythingIsTheGridsBox)
         EXPECT_EQ(test::FindFault(volume, field.Dims), "");
         EXPECT_NEAR(test::TotalVolume(volume), box, 1e-9 * box);
       }
+    }
+  }
+}
+
+TEST(Interval, DoesNotDependOnThreads)
+{
+  const test::Field field = test::WaveField({ 33, 29, 40 });
+  const Isoregion region(-0.3, 0.6);
+  const Encoding expected = BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, true);
+  const IsodiamondHierarchy hierarchy(expected, SerialFor);
+  const test::Volume mesh = test::ExtractVolume(hierarchy, 0.1, 0.05);
+  EXPECT_GT(mesh.Tetrahedra.size(), 1000U);
+  for (const int threads : { 2, 7 })
+  {
+    const ParallelFor parallelFor = test::ThreadedFor(threads);
+    const Encoding encoding =
+      BuildIsodiamonds(Model::Minimal, field.View(), region, parallelFor, true);
+    EXPECT_EQ(encoding.Arrays.Records, expected.Arrays.Records);
+    EXPECT_EQ(encoding.Arrays.BrickMasks, expected.Arrays.BrickMasks);
+    EXPECT_EQ(encoding.Arrays.Isovertices, expected.Arrays.Isovertices);
+    EXPECT_EQ(encoding.Arrays.InteriorCodes, expected.Arrays.InteriorCodes);
+    EXPECT_EQ(encoding.InsideValues, expected.InsideValues);
+    const IsodiamondHierarchy other(encoding, parallelFor);
+    EXPECT_TRUE(test::ExtractVolume(other, 0.1, 0.05, parallelFor) == mesh);
+  }
+}
+
+TEST(Interval, HoldsTheInteriorTolerance)
+{
+  // At every sample in a tetrahedron that lies inside, field and interpolant differ by no more.
+  // Where the diamond of such a tetrahedron carries a surface, the other tolerance holds.
+  const test::Field field = test::WaveField({ 17, 17, 17 });
+  const Isoregion region(-0.8, Infinity);
+  const test::Built built(
+    BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, true), SerialFor);
+  std::size_t previous = 0;
+  for (const double tolerance : { 1.0, 0.2, 0.05 })
+  {
+    const test::Volume volume = test::ExtractVolume(*built.Hierarchy, 0.05, tolerance);
+    EXPECT_GT(volume.Tetrahedra.size(), previous);
+    previous = volume.Tetrahedra.size();
+    for (const std::array<std::int32_t, 4>& tetrahedron : volume.Tetrahedra)
+    {
+      if (std::any_of(tetrahedron.begin(), tetrahedron.end(),
+            [&](std::int32_t point) { return volume.Surfaces[point] != 0; }))
+      {
+        continue;
+      }
+      const double whole = test::Determinant(volume, tetrahedron);
+      std::array<double, 3> low = volume.Points[tetrahedron[0]];
+      std::array<double, 3> high = low;
+      for (const std::int32_t point : tetrahedron)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          low[axis] = std::min(low[axis], volume.Points[point][axis]);
+          high[axis] = std::max(high[axis], volume.Points[point][axis]);
+        }
+      }
+      for (double z = low[2]; z <= high[2]; ++z)
+      {
+        for (double y = low[1]; y <= high[1]; ++y)
+        {
+          for (double x = low[0]; x <= high[0]; ++x)
+          {
+            // Barycentric coordinates by volumes.
+            double interpolated = 0.0;
+            bool inside = true;
+            test::Volume point;
+            for (const std::int32_t corner : tetrahedron)
+            {
+              point.Points.push_back(volume.Points[corner]);
+            }
+            for (int corner = 0; corner < 4; ++corner)
+            {
+              const std::array<double, 3> kept = point.Points[corner];
+              point.Points[corner] = { x, y, z };
+              const double weight = test::Determinant(point, { 0, 1, 2, 3 }) / whole;
+              point.Points[corner] = kept;
+              inside = inside && weight >= -1e-12;
+              interpolated += weight * volume.Values[tetrahedron[corner]];
+            }
+            if (inside)
+            {
+              const double value = SampleAt(
+                field.View(), { static_cast<int>(x), static_cast<int>(y), static_cast<int>(z) });
+              ASSERT_LE(std::fabs(value - interpolated), tolerance + 1e-6);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+// Isovalues that equal no sample: the boundary at full resolution is both isosurfaces.
+TEST(Interval, IsBoundedByTheIsosurfaces)
+{
+  for (const test::Field& field : { test::WaveField({ 17, 17, 17 }), test::WaveField({ 14, 13, 9 }),
+         test::NoiseField({ 9, 9, 9 }, 21), test::SphereField({ 10, 12, 14 }) })
+  {
+    const std::array<double, 2> isovalues = { 0.4503, 1.2507 };
+    const test::Built built(BuildIsodiamonds(Model::Minimal, field.View(),
+                              Isoregion(isovalues[0], isovalues[1]), SerialFor),
+      SerialFor);
+    const test::Volume volume = test::ExtractVolume(*built.Hierarchy, 0.0);
+    for (int surface = 0; surface < 2; ++surface)
+    {
+      SCOPED_TRACE(field.Name + " surface " + std::to_string(surface));
+      const test::Built single(
+        BuildIsodiamonds(Model::Minimal, field.View(), isovalues[surface], SerialFor), SerialFor);
+      const test::Mesh mesh = test::Extract(*single.Hierarchy, 0.0);
+      std::vector<std::array<double, 3>> points;
+      for (std::size_t i = 0; i < volume.Points.size(); ++i)
+      {
+        if (volume.Surfaces[i] == 2 * surface - 1)
+        {
+          EXPECT_EQ(volume.Values[i], isovalues[surface]);
+          points.push_back(volume.Points[i]);
+        }
+      }
+      ASSERT_EQ(points.size(), mesh.Points.size());
+      for (const std::array<float, 3>& point : mesh.Points)
+      {
+        const auto distance = [&](const std::array<double, 3>& other)
+        { return std::hypot(other[0] - point[0], other[1] - point[1], other[2] - point[2]); };
+        double nearest = Infinity;
+        for (const std::array<double, 3>& other : points)
+        {
+          nearest = std::min(nearest, distance(other));
+        }
+        EXPECT_LE(nearest, 2.0 / 256.0 * std::sqrt(3.0));
+      }
+      EXPECT_EQ(test::CountSurfaceFaces(volume, 2 * surface - 1), mesh.Triangles.size());
     }
   }
 }
