@@ -12,6 +12,7 @@
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondExtractor.h"
 #include "vtkIsodiamondHierarchy.h"
+#include "vtkIsodiamondIntervalVolume.h"
 #include "vtkIsodiamondPoints.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -29,7 +30,7 @@ namespace
 
 constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
 
-/** Runs Contour and Builder on an image; both must say `cause` once and give nothing. */
+/** Runs the filters that take images; each must say `cause` once and give nothing. */
 void ExpectRefusal(const std::function<void(vtkAlgorithm*)>& prepare, const std::string& cause)
 {
   vtkNew<vtkIsodiamondContour> contour;
@@ -37,8 +38,10 @@ void ExpectRefusal(const std::function<void(vtkAlgorithm*)>& prepare, const std:
   contour->SetValue(0, 0.0);
   vtkNew<vtkIsodiamondBuilder> builder;
   builder->SetInputData(test::BallImage({ 9, 9, 9 }));
-  for (vtkAlgorithm* filter :
-    { static_cast<vtkAlgorithm*>(contour), static_cast<vtkAlgorithm*>(builder) })
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  volume->SetInputData(test::BallImage({ 9, 9, 9 }));
+  for (vtkAlgorithm* filter : { static_cast<vtkAlgorithm*>(contour),
+         static_cast<vtkAlgorithm*>(builder), static_cast<vtkAlgorithm*>(volume) })
   {
     filter->Update(); // a good run first: nothing of it may remain
     prepare(filter);
@@ -46,14 +49,14 @@ void ExpectRefusal(const std::function<void(vtkAlgorithm*)>& prepare, const std:
     filter->Update();
     EXPECT_EQ(messages->ErrorCount, 1) << messages->Errors;
     EXPECT_NE(messages->Errors.find(cause), std::string::npos) << messages->Errors;
-    EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
+    EXPECT_EQ(vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
     EXPECT_EQ(filter->GetOutputDataObject(0)->GetFieldData()->GetNumberOfArrays(), 0);
     // And it works again.
     filter->SetInputDataObject(0, test::BallImage({ 9, 9, 9 }));
     filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "density");
     filter->Update();
     EXPECT_EQ(messages->ErrorCount, 1) << messages->Errors;
-    EXPECT_GT(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
+    EXPECT_GT(vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondExtractor.h"
+#include "vtkIsodiamondIntervalVolume.h"
 #include "vtkIsodiamondPoints.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
@@ -144,4 +145,30 @@ TEST(Images, LevelsAndKindsAndDiamonds)
   actor->GetMapper()->SetScalarModeToUseCellFieldData();
   actor->GetProperty()->EdgeVisibilityOn();
   scene.Compare("LevelsAndKindsAndDiamonds");
+}
+
+// Clipped by whole cells: the inside coarse and graded, then refined where the field asks for it.
+TEST(Images, IntervalVolumes)
+{
+  Scene scene(2);
+  vtkNew<vtkIsodiamondIntervalVolume> volumes[2];
+  vtkNew<vtkExtractGeometry> halves[2];
+  const double interiorTolerances[2] = { VTK_DOUBLE_MAX, 0.005 };
+  for (int i = 0; i < 2; ++i)
+  {
+    volumes[i]->SetInputData(test::BallImage({ 33, 33, 33 }));
+    volumes[i]->SetIsorange(0.0, 10.0);
+    volumes[i]->SetErrorTolerance(0.02);
+    volumes[i]->SetInteriorTolerance(interiorTolerances[i]);
+    vtkNew<vtkPlane> plane;
+    plane->SetOrigin(16.0, 16.0, 16.0);
+    plane->SetNormal(0.0, -1.0, 0.0);
+    halves[i]->SetInputConnection(volumes[i]->GetOutputPort());
+    halves[i]->SetImplicitFunction(plane);
+    vtkActor* actor = scene.Add(halves[i]->GetOutputPort());
+    actor->GetProperty()->EdgeVisibilityOn();
+    ColourBy(actor, "Level", 6);
+    actor->GetMapper()->SetScalarModeToUseCellFieldData();
+  }
+  scene.Compare("IntervalVolumes");
 }

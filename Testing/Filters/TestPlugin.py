@@ -50,6 +50,31 @@ mesh = DiamondMesh(hierarchy)
 mesh.UpdatePipeline()
 assert mesh.GetDataInformation().GetNumberOfCells() > 0
 
+# Interval volumes: defaults of the array's range, tolerances that can be set.
+volume = IsodiamondIntervalVolume(wavelet)
+data_range = wavelet.PointData["RTData"].GetRange()
+assert all(abs(a - b) < 1e-3 for a, b in zip(volume.Isorange, data_range)), volume.Isorange
+assert abs(volume.InteriorTolerance - extent) < 1e-3, volume.InteriorTolerance
+volume.Isorange = [120, 180]
+volume.UpdatePipeline()
+tetrahedra = volume.GetDataInformation().GetNumberOfCells()
+assert tetrahedra > 0
+assert sorted(volume.PointData.keys()) == ["RTData", "Surface"]
+volume.ErrorTolerance = 20
+volume.UpdatePipeline()
+coarse = volume.GetDataInformation().GetNumberOfCells()
+assert 0 < coarse < tetrahedra
+volume.InteriorTolerance = 5
+volume.UpdatePipeline()
+assert volume.GetDataInformation().GetNumberOfCells() > coarse
+fresh = IsodiamondIntervalVolume(Input=Wavelet(), Isorange=[120, 180])
+fresh.UpdatePipeline()
+assert fresh.GetDataInformation().GetNumberOfCells() == tetrahedra
+tetrahedra_builder = IsodiamondHierarchy(wavelet, Shape="Interval Volume", Isorange=[120, 180])
+extract = IsodiamondExtract(tetrahedra_builder)
+extract.UpdatePipeline()
+assert extract.GetDataInformation().GetNumberOfCells() == tetrahedra
+
 # Saved and opened again.
 path = os.path.join(sys.argv[1], "plugin.vtp")
 SaveData(path, proxy=hierarchy, DataMode="Binary")  # see README.md on files
