@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An isosurface of a volume at five error tolerances; run by demo.sh with pvpython."""
+"""An isosurface and an interval volume of a volume at several error tolerances; run by demo.sh."""
 
 import argparse
 import contextlib
+import math
 import os
 import statistics
 import sys
 import time
 
 from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
-from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes
+from vtkmodules.vtkCommonCore import vtkLogger, vtkLookupTable, vtkOutputWindow, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkPlane
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
+from vtkmodules.vtkFiltersExtraction import vtkExtractGeometry
 from vtkmodules.vtkIOImage import (
     vtkMetaImageReader,
     vtkNIFTIImageReader,
@@ -54,12 +56,16 @@ READERS = {
 }
 
 TOLERANCES = (0, 5, 10, 25, 50)  # percent of the range of the data
+SHOWN_VOLUMES = (3, 4)  # of the tolerances, in the picture of the interval volume
 
 PICTURE_SIZE = (2000, 940)
 OVERSAMPLING = 2  # for thin, smooth edges
 CAPTION_HEIGHT = 0.1  # of the picture
 WHOLE_HEIGHT = 0.41  # the row of whole surfaces, above the row of close-ups
 FRONT = (0.45, 1, 0)
+SIDE = (1, 0.25, 0.2)
+VOLUME_PICTURE_SIZE = (2000, 1000)
+VOLUME_CAPTION_HEIGHT = 0.09
 CLOSE_UP = (0.35, 0, 0.3)  # where in the surface's box, then moved onto the surface
 CLOSE_UP_SIZE = 0.16  # of the whole view
 EDGE_LIMIT = 150_000  # triangles of a whole surface; denser edges only blacken it
@@ -142,12 +148,13 @@ def use_scalars(algorithm):
     )
 
 
-def build(image, isovalue):
+def build(image, prepare):
+    """A minimal hierarchy, of what prepare(builder) says, and the seconds that it took."""
     builder = vtkIsodiamondBuilder()
     builder.SetInputData(image)
     use_scalars(builder)
     builder.SetModelToMinimal()
-    builder.SetIsovalue(isovalue)
+    prepare(builder)
     milliseconds = timed(builder)
     return builder.GetHierarchy(), milliseconds / 1000
 
@@ -158,6 +165,18 @@ def extract(hierarchy, tolerance):
     extractor.SetErrorTolerance(tolerance)
     milliseconds = median_time(extractor)
     return extractor.GetOutput(), milliseconds
+
+
+def extract_levels(hierarchy, extent, noun):
+    """Extracts and lists all levels. Yields each mesh with its caption."""
+    print(f"{'tolerance':>18} {noun:>12} {'ms':>8}")
+    for percent in TOLERANCES:
+        tolerance = percent / 100 * extent
+        mesh, milliseconds = extract(hierarchy, tolerance)
+        cells = mesh.GetNumberOfCells()
+        label = f"{tolerance:.4g} ({percent} %)"
+        print(f"{label:>18} {cells:>12,} {milliseconds:>8.1f}", flush=True)
+        yield mesh, f"tolerance {label}\n{cells:,} {noun}"
 
 
 def print_flying_edges(image, isovalue):
@@ -174,8 +193,8 @@ def print_flying_edges(image, isovalue):
     )
 
 
-def print_sizes(hierarchy, full):
-    mesh_size = 12 * full.GetNumberOfPoints() + 12 * full.GetNumberOfCells()
+def print_sizes(hierarchy, points, cells, bytes_of_cell):
+    mesh_size = 12 * points + bytes_of_cell * cells
     size = hierarchy.GetStorageSize()
     print(
         f"Hierarchy: {size:,} bytes; indexed mesh of the full resolution: {mesh_size:,} bytes"
@@ -183,20 +202,29 @@ def print_sizes(hierarchy, full):
     )
 
 
-def write(writer, path, data):
-    writer.SetFileName(path)
-    writer.SetInputData(data)
-    if hasattr(writer, "SetDataModeToBinary"):
-        writer.SetDataModeToBinary()  # see README.md on files
-    writer.Write()
-    if writer.GetErrorCode():
-        raise DemoError(f"cannot write '{path}'")
-    return path
+class Files:
+    """What was written to the output folder."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.paths = []
+
+    def write(self, writer, name, data):
+        path = os.path.join(self.folder, name)
+        writer.SetFileName(path)
+        writer.SetInputData(data)
+        if hasattr(writer, "SetDataModeToBinary"):
+            writer.SetDataModeToBinary()  # see README.md on files
+        writer.Write()
+        if writer.GetErrorCode():
+            raise DemoError(f"cannot write '{path}'")
+        self.paths.append(path)
+        return path
 
 
-def surface_actor(surface, edges):
+def mesh_actor(mesh, edges):
     mapper = vtkDataSetMapper()
-    mapper.SetInputData(surface)
+    mapper.SetInputData(mesh)
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
@@ -221,13 +249,14 @@ def caption(text, center):
     return actor
 
 
-def front_camera(surface, aspect):
+def front_camera(surface, aspect, direction=FRONT):
     """A camera that the surface fills, from the front of a NIfTI head (y to the nose, z up).
-    @param aspect width by height of the view."""
+    @param aspect width by height of the view.
+    @param direction from the surface to the camera."""
     camera = vtkCamera()
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(0, 0, 0)
-    camera.SetPosition(FRONT)
+    camera.SetPosition(direction)
     camera.SetViewUp(0, 0, 1)
     to_view = vtkTransform()
     to_view.SetMatrix(camera.GetViewTransformMatrix())
@@ -236,7 +265,7 @@ def front_camera(surface, aspect):
     x0, x1, y0, y1, z0, z1 = points.GetBounds()
     center = to_view.GetInverse().TransformPoint((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2)
     camera.SetParallelScale(1.12 * max(y1 - y0, (x1 - x0) / aspect) / 2)
-    return look_at(camera, center, surface.GetLength())
+    return look_at(camera, center, surface.GetLength(), direction)
 
 
 def close_up_camera(surface, whole):
@@ -255,9 +284,9 @@ def close_up_camera(surface, whole):
     return look_at(camera, surface.GetPoint(surface.FindPoint(target)), surface.GetLength())
 
 
-def look_at(camera, point, distance):
+def look_at(camera, point, distance, direction=FRONT):
     camera.SetFocalPoint(point)
-    camera.SetPosition([p + distance * f for p, f in zip(point, FRONT)])
+    camera.SetPosition([p + distance * d for p, d in zip(point, direction)])
     return camera
 
 
@@ -274,24 +303,66 @@ def add_view(window, viewport, camera, actor):
 def draw(surfaces, captions):
     """The surfaces side by side: whole, closer with all edges, and a caption under each."""
     count = len(surfaces)
-    width, height = (OVERSAMPLING * size for size in PICTURE_SIZE)
-    window = vtkRenderWindow()
-    window.OffScreenRenderingOn()
-    window.SetSize(width, height)
-    text = vtkRenderer()
-    text.SetBackground(BACKGROUND)
-    text.SetViewport(0, 0, 1, CAPTION_HEIGHT)
-    window.AddRenderer(text)
-    whole = front_camera(surfaces[0], width / count / (height * WHOLE_HEIGHT))
+    window, text = make_window(PICTURE_SIZE, CAPTION_HEIGHT)
+    whole = front_camera(surfaces[0], PICTURE_SIZE[0] / count / (PICTURE_SIZE[1] * WHOLE_HEIGHT))
     closer = close_up_camera(surfaces[0], whole)
     for i, surface in enumerate(surfaces):
         left, right = i / count, (i + 1) / count
         middle = 1 - WHOLE_HEIGHT
-        actor = surface_actor(surface, surface.GetNumberOfCells() < EDGE_LIMIT)
+        actor = mesh_actor(surface, surface.GetNumberOfCells() < EDGE_LIMIT)
         add_view(window, (left, middle, right, 1), whole, actor)
-        actor = surface_actor(surface, True)
+        actor = mesh_actor(surface, True)
         add_view(window, (left, CAPTION_HEIGHT, right, middle), closer, actor)
         text.AddActor(caption(captions[i], (i + 0.5) / count))
+    return grab_window(window)
+
+
+def draw_volumes(volumes, captions, bounds, value_range):
+    """Interval volumes side by side, cut open between their tetrahedra, coloured by value."""
+    count = len(volumes)
+    window, text = make_window(VOLUME_PICTURE_SIZE, VOLUME_CAPTION_HEIGHT)
+    # The left half, seen from the right.
+    plane = vtkPlane()
+    plane.SetOrigin([(bounds[2 * axis] + bounds[2 * axis + 1]) / 2 for axis in range(3)])
+    plane.SetNormal(1, 0, 0)
+    colours = vtkLookupTable()
+    colours.SetHueRange(0.05, 0.12)
+    colours.SetSaturationRange(0.45, 0.15)
+    colours.SetValueRange(0.75, 1)
+    camera = None
+    for i, volume in enumerate(volumes):
+        half = vtkExtractGeometry()
+        half.SetInputData(volume)
+        half.SetImplicitFunction(plane)
+        half.Update()
+        actor = mesh_actor(half.GetOutput(), True)
+        mapper = actor.GetMapper()
+        mapper.ScalarVisibilityOn()
+        mapper.InterpolateScalarsBeforeMappingOn()
+        mapper.SetScalarRange(value_range)
+        mapper.SetLookupTable(colours)
+        if camera is None:
+            width, height = VOLUME_PICTURE_SIZE
+            aspect = width / count / (height * (1 - VOLUME_CAPTION_HEIGHT))
+            camera = front_camera(half.GetOutput(), aspect, SIDE)
+        add_view(window, (i / count, VOLUME_CAPTION_HEIGHT, (i + 1) / count, 1), camera, actor)
+        text.AddActor(caption(captions[i], (i + 0.5) / count))
+    return grab_window(window)
+
+
+def make_window(size, caption_height):
+    """A window, and the renderer of the captions at its foot."""
+    window = vtkRenderWindow()
+    window.OffScreenRenderingOn()
+    window.SetSize([OVERSAMPLING * s for s in size])
+    text = vtkRenderer()
+    text.SetBackground(BACKGROUND)
+    text.SetViewport(0, 0, 1, caption_height)
+    window.AddRenderer(text)
+    return window, text
+
+
+def grab_window(window):
     grab = vtkWindowToImageFilter()
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
@@ -311,7 +382,7 @@ def check_reload(path, full):
     sizes = [(mesh.GetNumberOfPoints(), mesh.GetNumberOfCells()) for mesh in (full, again)]
     if sizes[0] != sizes[1]:
         raise DemoError(f"the reloaded hierarchy gives another surface: {sizes[1]}, not {sizes[0]}")
-    print("reloaded hierarchy: same surface")
+    print("Reloaded hierarchy: same surface")
 
 
 def run(arguments, errors):
@@ -326,35 +397,54 @@ def run(arguments, errors):
         raise DemoError(f"the surface of {isovalue:g} is empty: values go from {low:g} to {high:g}")
     print(f"{path}: {' x '.join(map(str, image.GetDimensions()))} samples, isovalue {isovalue:g}")
 
-    hierarchy, seconds = build(image, isovalue)
-    print(f"Built in {seconds:.2f} s\n")
-    print(f"{'tolerance':>18} {'triangles':>12} {'ms':>8}")
-    surfaces = []
-    captions = []
-    for percent in TOLERANCES:
-        tolerance = percent / 100 * (high - low)
-        surface, milliseconds = extract(hierarchy, tolerance)
-        triangles = surface.GetNumberOfCells()
-        label = f"{tolerance:.4g} ({percent} %)"
-        print(f"{label:>18} {triangles:>12,} {milliseconds:>8.1f}")
-        surfaces.append(surface)
-        captions.append(f"tolerance {label}\n{triangles:,} triangles")
-    print()
-    print_sizes(hierarchy, surfaces[0])
-    print_flying_edges(image, isovalue)
+    os.makedirs(arguments.output, exist_ok=True)
+    files = Files(arguments.output)
+    run_surface(image, isovalue, high - low, files)
+    run_volume(image, isovalue, (low, high), files)
     if errors.count:
         raise DemoError("VTK reported errors")
+    print("Written:", *files.paths, sep="\n  ")
 
-    os.makedirs(arguments.output, exist_ok=True)
-    hierarchy_path = os.path.join(arguments.output, "hierarchy.vtp")
-    files = [write(vtkXMLPolyDataWriter(), hierarchy_path, hierarchy)]
+
+def run_surface(image, isovalue, extent, files):
+    hierarchy, seconds = build(image, lambda builder: builder.SetIsovalue(isovalue))
+    print(f"Isosurface, hierarchy built in {seconds:.2f} s\n")
+    surfaces, captions = zip(*extract_levels(hierarchy, extent, "triangles"))
+    full = surfaces[0]
+    print()
+    print_sizes(hierarchy, full.GetNumberOfPoints(), full.GetNumberOfCells(), 12)
+    print_flying_edges(image, isovalue)
+    path = files.write(vtkXMLPolyDataWriter(), "hierarchy.vtp", hierarchy)
     for i, surface in enumerate(surfaces):
-        surface_path = os.path.join(arguments.output, f"surface-{i}.vtu")
-        files.append(write(vtkXMLUnstructuredGridWriter(), surface_path, surface))
-    picture_path = os.path.join(arguments.output, "levels.png")
-    files.append(write(vtkPNGWriter(), picture_path, draw(surfaces, captions)))
-    check_reload(hierarchy_path, surfaces[0])
-    print("Written:", *files, sep="\n  ")
+        files.write(vtkXMLUnstructuredGridWriter(), f"surface-{i}.vtu", surface)
+    files.write(vtkPNGWriter(), "levels.png", draw(surfaces, captions))
+    check_reload(path, full)
+
+
+def run_volume(image, isovalue, value_range, files):
+    """All that lies above the isovalue, as tetrahedra."""
+
+    def prepare(builder):
+        builder.SetShapeToIntervalVolume()
+        builder.SetIsorange(isovalue, math.inf)
+
+    hierarchy, seconds = build(image, prepare)
+    print(f"\nInterval volume from {isovalue:g} up, hierarchy built in {seconds:.2f} s\n")
+    low, high = value_range
+    shown, captions = [], []
+    points = cells = 0
+    for i, (volume, text) in enumerate(extract_levels(hierarchy, high - low, "tetrahedra")):
+        if i == 0:
+            points, cells = volume.GetNumberOfPoints(), volume.GetNumberOfCells()
+        if i in SHOWN_VOLUMES:
+            files.write(vtkXMLUnstructuredGridWriter(), f"volume-{i}.vtu", volume)
+            shown.append(volume)
+            captions.append(text)
+    print()
+    print_sizes(hierarchy, points, cells, 16)
+    files.write(vtkXMLPolyDataWriter(), "volume-hierarchy.vtp", hierarchy)
+    picture = draw_volumes(shown, captions, image.GetBounds(), (isovalue, high))
+    files.write(vtkPNGWriter(), "volume.png", picture)
 
 
 def main():

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds a hierarchy of a volume, extracts five levels of detail and draws them side by side.
+# Builds hierarchies of a volume, extracts five levels of detail and draws them side by side.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -9,7 +9,8 @@ usage() {
   cat <<'END'
 Usage: scripts/demo.sh [--isovalue K] [--output DIR] [FILE]
 
-Installs what is missing, builds, and shows an isosurface of FILE at five error tolerances.
+Installs what is missing, builds, and shows an isosurface of FILE, and the interval volume above it,
+at five error tolerances.
 
   FILE          a volume: .vti, .nrrd, .nhdr, .mhd, .mha, .nii, .nii.gz or .vtk (structured points)
                 [the MRI head of Debian's mricron-data]

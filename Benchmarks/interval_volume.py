@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An interval volume of a synthetic field by Isodiamonds and by ParaView's vtkIsoVolume.
+
+    PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/interval_volume.py [SIZE]
+
+One thread each, each in a process of its own, build included; medians of seconds, and the peak of
+memory above what the input took. vtkIsoVolume returns cells of several kinds, Isodiamonds
+tetrahedra only.
+"""
+import json
+import statistics
+import subprocess
+import sys
+import time
+
+import numpy
+from isodiamonds import vtkIsodiamondIntervalVolume
+from paraview.modules.vtkPVVTKExtensionsFiltersGeneral import vtkIsoVolume
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
+
+RUNS = 3
+
+
+def shell(size):
+    """A bumpy shell between two spheres."""
+    axis = numpy.linspace(-1, 1, size, dtype=numpy.float32)
+    z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
+    bumps = numpy.sin(12 * x) * numpy.sin(11 * y) * numpy.cos(10 * z)
+    return numpy.sqrt(x * x + y * y + z * z) + numpy.float32(0.05) * bumps, (0.5, 0.7)
+
+
+def gyroid(size):
+    """Sheets all over the volume."""
+    w = numpy.linspace(0, 6 * numpy.pi, size, dtype=numpy.float32)
+    z, y, x = numpy.meshgrid(w, w, w, indexing="ij", sparse=True)
+    sin, cos = numpy.sin, numpy.cos
+    return sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x), (-0.3, 0.3)
+
+
+FIELDS = {"shell": shell, "gyroid": gyroid}
+
+
+def memory(entry):
+    """VmRSS, what the process has in memory, or VmHWM, the most that it had, in MiB."""
+    with open("/proc/self/status", encoding="ascii") as status:
+        line = next(line for line in status if line.startswith(entry))
+    return int(line.split()[1]) / 1024
+
+
+def forget_peak():
+    with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
+        file.write("5")
+
+
+def measure(kind, name, size):
+    """Seconds, MiB above the input and number of cells of one run."""
+    field, isorange = FIELDS[name](size)
+    image = vtkImageData()
+    image.SetDimensions(size, size, size)
+    scalars = numpy_to_vtk(field.ravel(), deep=True)
+    scalars.SetName("F")
+    image.GetPointData().SetScalars(scalars)
+    if kind == "vtkIsoVolume":
+        volume = vtkIsoVolume()
+        volume.ThresholdBetween(*isorange)
+        volume.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "F")
+    else:
+        volume = vtkIsodiamondIntervalVolume()
+        volume.SetIsorange(isorange)
+        volume.SetNumberOfThreads(1)
+    volume.SetInputData(image)
+    forget_peak()
+    before = memory("VmRSS")
+    start = time.perf_counter()
+    volume.Update()
+    seconds = time.perf_counter() - start
+    return seconds, memory("VmHWM") - before, volume.GetOutput().GetNumberOfCells()
+
+
+def main():
+    if len(sys.argv) == 4:
+        print(json.dumps(measure(sys.argv[1], sys.argv[2], int(sys.argv[3]))))
+        return
+    size = int(sys.argv[1]) if len(sys.argv) > 1 else 128
+    print(f"{size}^3 floats, medians of {RUNS}")
+    for name in FIELDS:
+        results = {"Isodiamonds": [], "vtkIsoVolume": []}
+        for _ in range(RUNS):
+            for kind, rows in results.items():
+                command = ["pvpython", __file__, kind, name, str(size)]
+                output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+                rows.append(json.loads(output.splitlines()[-1]))
+        seconds = {k: statistics.median(r[0] for r in rows) for k, rows in results.items()}
+        peaks = {k: statistics.median(r[1] for r in rows) for k, rows in results.items()}
+        for kind, rows in results.items():
+            print(
+                f"{name:>8} {kind:>14}: {seconds[kind]:.3f} s, {peaks[kind]:.0f} MiB,"
+                f" {rows[0][2]:,} cells"
+            )
+        print(
+            f"{name:>8} ratios: time {seconds['Isodiamonds'] / seconds['vtkIsoVolume']:.2f},"
+            f" memory {peaks['Isodiamonds'] / peaks['vtkIsoVolume']:.2f}"
+        )
+
+
+main()
