@@ -2,14 +2,11 @@
 #include "vtkDiamondMesh.h"
 
 #include "DiamondMesh.h"
-#include "vtkIsodiamondInput.h"
-#include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondState.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
@@ -33,9 +30,23 @@ void AddArray(vtkUnstructuredGrid* output, const char* name, const std::vector<s
   output->GetCellData()->AddArray(array);
 }
 
-void WriteMesh(const isodiamond::DiamondMesh& mesh, const isodiamond::AffineMap& world,
-  vtkUnstructuredGrid* output)
+}
+
+//------------------------------------------------------------------------------
+vtkDiamondMesh::vtkDiamondMesh() = default;
+
+//------------------------------------------------------------------------------
+void vtkDiamondMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
+  this->Superclass::PrintSelf(os, indent);
+}
+
+//------------------------------------------------------------------------------
+void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
+  const isodiamond::RefinedSet& refined, vtkUnstructuredGrid* output)
+{
+  const isodiamond::DiamondMesh mesh = isodiamond::ExtractDiamondMesh(refined);
+  const isodiamond::AffineMap& world = state.World;
   vtkNew<vtkPoints> points;
   points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.Points.size()));
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
@@ -57,39 +68,4 @@ void WriteMesh(const isodiamond::DiamondMesh& mesh, const isodiamond::AffineMap&
   output->SetCells(VTK_TETRA, cells);
   AddArray(output, "Level", mesh.Levels);
   AddArray(output, "Class", mesh.Classes);
-}
-
-}
-
-//------------------------------------------------------------------------------
-vtkDiamondMesh::vtkDiamondMesh() = default;
-
-//------------------------------------------------------------------------------
-void vtkDiamondMesh::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}
-
-//------------------------------------------------------------------------------
-int vtkDiamondMesh::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
-  if (!vtkIsodiamond::IsFirstPiece(outputVector->GetInformationObject(0)))
-  {
-    return 1; // the first piece has all of it
-  }
-  try
-  {
-    vtkIsodiamond::RunQuery(this, vtkPolyData::GetData(inputVector[0]), this->GetQuery(),
-      this->NumberOfThreads,
-      [&](const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined)
-      { WriteMesh(isodiamond::ExtractDiamondMesh(refined), state.World, output); });
-  }
-  catch (const std::exception& problem)
-  {
-    output->Initialize();
-    vtkErrorMacro(<< problem.what());
-  }
-  return 1;
 }

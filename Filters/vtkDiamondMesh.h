@@ -28,8 +28,8 @@ protected:
   vtkDiamondMesh();
   ~vtkDiamondMesh() override = default;
 
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  void WriteMesh(const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined,
+    vtkUnstructuredGrid* output) override;
 
 private:
   vtkDiamondMesh(const vtkDiamondMesh&) = delete;

@@ -117,7 +117,7 @@ int vtkIsodiamondExtractor::RequestData(
     vtkIsodiamond::RunQuery(this, vtkPolyData::GetData(inputVector[0]), this->GetQuery(),
       this->NumberOfThreads,
       [&](const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined)
-      { vtkIsodiamond::ExtractMesh(refined, state.World, state.ArrayName, output); });
+      { this->WriteMesh(state, refined, output); });
   }
   catch (const std::exception& problem)
   {
@@ -125,4 +125,11 @@ int vtkIsodiamondExtractor::RequestData(
     vtkErrorMacro(<< problem.what());
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
+  const isodiamond::RefinedSet& refined, vtkUnstructuredGrid* output)
+{
+  vtkIsodiamond::ExtractMesh(refined, state.World, state.ArrayName, output);
 }

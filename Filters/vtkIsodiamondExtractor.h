@@ -26,9 +26,14 @@
 #include "vtkIsodiamondHierarchy.h"     // for the shapes
 #include "vtkUnstructuredGridAlgorithm.h"
 
+namespace isodiamond
+{
+class RefinedSet;
+}
 namespace vtkIsodiamond
 {
 struct Query;
+struct State;
 }
 
 class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondExtractor : public vtkUnstructuredGridAlgorithm
@@ -119,6 +124,10 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+
+  /** Makes the output of a query. */
+  virtual void WriteMesh(const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined,
+    vtkUnstructuredGrid* output);
 
   /** What the properties ask of a hierarchy. */
   vtkIsodiamond::Query GetQuery() const;

@@ -115,4 +115,18 @@ void DiamondSet::Append(int scale, std::int64_t brickIndex, const BrickMask& mas
   level.Bricks.push_back(brick);
 }
 
+std::vector<BrickPlace> AllBricks(const DiamondSet& set)
+{
+  std::vector<BrickPlace> all;
+  for (int scale = set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    const std::int64_t count = static_cast<std::int64_t>(set.Level(scale).Bricks.size());
+    for (std::int64_t index = 0; index < count; ++index)
+    {
+      all.push_back({ scale, index });
+    }
+  }
+  return all;
+}
+
 }

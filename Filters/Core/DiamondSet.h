@@ -309,6 +309,16 @@ private:
   std::int64_t Count = 0;
 };
 
+/** A brick of a set: the unit of work of encoding and extraction. */
+struct BrickPlace
+{
+  int Scale = 0;
+  std::int64_t Index = 0; ///< in its level's list
+};
+
+/** Every brick, coarse to fine: the order of the ranks. */
+std::vector<BrickPlace> AllBricks(const DiamondSet& set);
+
 }
 
 #endif

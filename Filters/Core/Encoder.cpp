@@ -11,26 +11,6 @@ namespace isodiamond
 namespace
 {
 
-/** A brick with its scale: all bricks of a set in one list, so that one loop covers them. */
-struct ScaledBrick
-{
-  int Scale = 0;
-  const Brick* Bricks = nullptr;
-};
-
-std::vector<ScaledBrick> AllBricks(const DiamondSet& set)
-{
-  std::vector<ScaledBrick> all;
-  for (int scale = set.ScaleCount() - 1; scale >= 0; --scale)
-  {
-    for (const Brick& brick : set.Level(scale).Bricks)
-    {
-      all.push_back({ scale, &brick });
-    }
-  }
-  return all;
-}
-
 /** Reads signs, isovertices and inside values of diamonds off the samples. */
 template <typename T>
 class BrickEncoder
@@ -130,7 +110,7 @@ void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const Sample
   const ParallelFor& parallelFor, Encoding& encoding)
 {
   const BrickEncoder<T> encoder(header.Region, grid, samples);
-  const std::vector<ScaledBrick> bricks = AllBricks(set);
+  const std::vector<BrickPlace> bricks = AllBricks(set);
   const std::int64_t brickCount = static_cast<std::int64_t>(bricks.size());
   const auto forEachDiamond = [&](const auto& body)
   {
@@ -139,7 +119,7 @@ void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const Sample
       {
         for (std::int64_t i = begin; i < end; ++i)
         {
-          set.ForEachInBrick(bricks[i].Scale, *bricks[i].Bricks,
+          set.ForEachInBrick(bricks[i].Scale, set.Level(bricks[i].Scale).Bricks[bricks[i].Index],
             [&](const Place& place, std::uint32_t rank) { body(i, place, rank); });
         }
       });

@@ -4,8 +4,6 @@
 #include "IntervalPatches.h"
 
 #include <algorithm>
-#include <limits>
-#include <stdexcept>
 
 namespace isodiamond
 {
@@ -54,58 +52,18 @@ const std::array<PatchTable, 81>& PatchTables()
 
 }
 
-template <typename Body>
-void IntervalExtraction::ForEachBrick(std::int64_t grain, Body&& body) const
-{
-  this->Parallel(static_cast<std::int64_t>(this->Bricks.size()), grain,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        body(i);
-      }
-    });
-}
-
 IntervalExtraction::IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
   : Refined(refined)
   , Source(refined.Hierarchy())
-  , Parallel(parallelFor)
-  , Bricks(AllBricks(refined.Hierarchy().Diamonds()))
+  , Passes(refined, parallelFor)
   , Slots(refined.Hierarchy().Diamonds().Size())
-  , FirstPoint(this->Bricks.size() + 1, 0)
-  , FirstTetrahedron(this->Bricks.size() + 1, 0)
 {
-  // Count the points and the tetrahedra of every brick.
-  this->ForEachBrick(16, [this](std::int64_t i) { this->CountBrick(i); });
-
-  // Prefix sums over the bricks.
-  for (std::size_t i = 0; i < this->Bricks.size(); ++i)
-  {
-    this->FirstPoint[i + 1] += this->FirstPoint[i];
-    this->FirstTetrahedron[i + 1] += this->FirstTetrahedron[i];
-  }
-  if (this->PointCount() > std::numeric_limits<std::uint32_t>::max())
-  {
-    throw std::length_error("more than 2^32 - 1 points");
-  }
-
-  // Turn the offsets within bricks into ids.
-  this->ForEachBrick(64,
-    [this](std::int64_t i)
-    {
-      const Brick& brick =
-        this->Source.Diamonds().Level(this->Bricks[i].Scale).Bricks[this->Bricks[i].Index];
-      for (std::uint32_t rank = brick.First; rank < brick.First + brick.Size(); ++rank)
-      {
-        this->Slots[rank].First += static_cast<std::uint32_t>(this->FirstPoint[i]);
-      }
-    });
+  this->Passes.CountPoints(this->Slots, [this](std::int64_t i) { return this->CountBrick(i); });
 }
 
-void IntervalExtraction::CountBrick(std::int64_t brickNumber)
+ExtractionPasses::Counts IntervalExtraction::CountBrick(std::int64_t brickNumber)
 {
-  const BrickPlace& place = this->Bricks[brickNumber];
+  const BrickPlace& place = this->Passes.PlaceOf(brickNumber);
   const BrickLevel& level = this->Source.Diamonds().Level(place.Scale);
   const Brick& brick = level.Bricks[place.Index];
   const BrickMask& mask = this->Refined.Mask(place.Scale, place.Index);
@@ -135,8 +93,7 @@ void IntervalExtraction::CountBrick(std::int64_t brickNumber)
     [&](const Leaf& leaf) {
       tetrahedra += static_cast<std::int64_t>(PatchTables()[this->CaseOf(leaf)].Tetrahedra.size());
     });
-  this->FirstPoint[brickNumber + 1] = points;
-  this->FirstTetrahedron[brickNumber + 1] = tetrahedra;
+  return { points, tetrahedra };
 }
 
 /** The signs of the outer vertices follow from the centre's and the crossings on the way there. */
@@ -162,14 +119,13 @@ int IntervalExtraction::CaseOf(const Leaf& leaf) const
 template <typename Body>
 void IntervalExtraction::ForEachPoint(Body&& body) const
 {
-  this->ForEachBrick(16,
+  this->Passes.ForEachBrick(16,
     [&](std::int64_t i)
     {
-      const BrickPlace& brickPlace = this->Bricks[i];
-      const Brick& brick = this->Source.Diamonds().Level(brickPlace.Scale).Bricks[brickPlace.Index];
-      std::int64_t id = this->FirstPoint[i];
+      const Brick& brick = this->Passes.BrickAt(i);
+      std::int64_t id = this->Passes.FirstOf(i).Points;
       std::int64_t insideValue = this->Source.FirstInsideValue(i);
-      this->Source.Diamonds().ForEachInBrick(brickPlace.Scale, brick,
+      this->Source.Diamonds().ForEachInBrick(this->Passes.PlaceOf(i).Scale, brick,
         [&](const Place& place, std::uint32_t rank)
         {
           const Slot& slot = this->Slots[rank];
@@ -340,13 +296,13 @@ private:
 template <typename Id>
 void IntervalExtraction::WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const
 {
-  this->ForEachBrick(16,
+  this->Passes.ForEachBrick(16,
     [&](std::int64_t i)
     {
-      TetrahedronWriter<Id> writer(*this, mirrored, connectivity + 4 * this->FirstTetrahedron[i],
-        levels + this->FirstTetrahedron[i]);
+      TetrahedronWriter<Id> writer(*this, mirrored,
+        connectivity + 4 * this->Passes.FirstOf(i).Cells, levels + this->Passes.FirstOf(i).Cells);
       ForEachLeaf(
-        this->Refined, this->Bricks[i],
+        this->Refined, this->Passes.PlaceOf(i),
         [this](std::uint32_t rank) { return this->Source.CarryingEdges(rank); },
         [&](const Leaf& leaf) { writer.Write(leaf); });
     });

@@ -3,7 +3,7 @@
 #define isodiamond_IntervalExtraction_h
 
 #include "AffineMap.h"
-#include "RefinedSet.h"
+#include "ExtractionPasses.h"
 
 #include <vector>
 
@@ -26,8 +26,8 @@ public:
    *  points. */
   IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
 
-  std::int64_t PointCount() const { return this->FirstPoint.back(); }
-  std::int64_t TetrahedronCount() const { return this->FirstTetrahedron.back(); }
+  std::int64_t PointCount() const { return this->Passes.Total().Points; }
+  std::int64_t TetrahedronCount() const { return this->Passes.Total().Cells; }
 
   /** Writes 3 coordinates a point; float or double. */
   template <typename Coordinate>
@@ -79,10 +79,8 @@ private:
   };
 
   int CaseOf(const Leaf& leaf) const;
-  void CountBrick(std::int64_t brick);
+  ExtractionPasses::Counts CountBrick(std::int64_t brick);
 
-  template <typename Body>
-  void ForEachBrick(std::int64_t grain, Body&& body) const;
   template <typename Body>
   void ForEachPoint(Body&& body) const;
   template <typename Id>
@@ -90,11 +88,8 @@ private:
 
   const RefinedSet& Refined;
   const IsodiamondHierarchy& Source;
-  ParallelFor Parallel;
-  std::vector<BrickPlace> Bricks;
-  std::vector<Slot> Slots;                    ///< by rank
-  std::vector<std::int64_t> FirstPoint;       ///< by brick, and the total
-  std::vector<std::int64_t> FirstTetrahedron; ///< by brick, and the total
+  ExtractionPasses Passes;
+  std::vector<Slot> Slots; ///< by rank
 };
 
 }

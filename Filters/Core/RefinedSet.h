@@ -60,14 +60,6 @@ private:
   std::vector<std::vector<BrickMask>> Masks;
 };
 
-/** Every brick of a hierarchy, coarse to fine: the unit of work of the extraction's passes. */
-struct BrickPlace
-{
-  int Scale = 0;
-  std::int64_t Index = 0; ///< in its level's list
-};
-std::vector<BrickPlace> AllBricks(const DiamondSet& set);
-
 /** Of a refined diamond's subdivision edges, those that are edges of the current mesh: the diamond
  *  centred at the edge's midpoint is not refined. */
 inline std::uint32_t AliveEdges(const RefinedSet& refined, const Place& place, std::uint32_t edges)

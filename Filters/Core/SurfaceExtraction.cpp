@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceExtraction.h"
 
-#include <limits>
-#include <stdexcept>
-
 namespace isodiamond
 {
 namespace
@@ -14,58 +11,18 @@ constexpr std::array<int, 4> TrianglesOfLeaf = { 0, 1, 2, 1 };
 
 }
 
-template <typename Body>
-void SurfaceExtraction::ForEachBrick(std::int64_t grain, Body&& body) const
-{
-  this->Parallel(static_cast<std::int64_t>(this->Bricks.size()), grain,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        body(i);
-      }
-    });
-}
-
 SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
   : Refined(refined)
   , Source(refined.Hierarchy())
-  , Parallel(parallelFor)
-  , Bricks(AllBricks(refined.Hierarchy().Diamonds()))
+  , Passes(refined, parallelFor)
   , Slots(refined.Hierarchy().Diamonds().Size())
-  , FirstPoint(this->Bricks.size() + 1, 0)
-  , FirstTriangle(this->Bricks.size() + 1, 0)
 {
-  // Count the alive isovertices and the triangles of every brick.
-  this->ForEachBrick(16, [this](std::int64_t i) { this->CountBrick(i); });
-
-  // Prefix sums over the bricks.
-  for (std::size_t i = 0; i < this->Bricks.size(); ++i)
-  {
-    this->FirstPoint[i + 1] += this->FirstPoint[i];
-    this->FirstTriangle[i + 1] += this->FirstTriangle[i];
-  }
-  if (this->PointCount() > std::numeric_limits<std::uint32_t>::max())
-  {
-    throw std::length_error("more than 2^32 - 1 points");
-  }
-
-  // Turn the offsets within bricks into ids.
-  this->ForEachBrick(64,
-    [this](std::int64_t i)
-    {
-      const Brick& brick =
-        this->Source.Diamonds().Level(this->Bricks[i].Scale).Bricks[this->Bricks[i].Index];
-      for (std::uint32_t rank = brick.First; rank < brick.First + brick.Size(); ++rank)
-      {
-        this->Slots[rank].First += static_cast<std::uint32_t>(this->FirstPoint[i]);
-      }
-    });
+  this->Passes.CountPoints(this->Slots, [this](std::int64_t i) { return this->CountBrick(i); });
 }
 
-void SurfaceExtraction::CountBrick(std::int64_t brickNumber)
+ExtractionPasses::Counts SurfaceExtraction::CountBrick(std::int64_t brickNumber)
 {
-  const BrickPlace& place = this->Bricks[brickNumber];
+  const BrickPlace& place = this->Passes.PlaceOf(brickNumber);
   const BrickLevel& level = this->Source.Diamonds().Level(place.Scale);
   const Brick& brick = level.Bricks[place.Index];
   const BrickMask& mask = this->Refined.Mask(place.Scale, place.Index);
@@ -88,19 +45,17 @@ void SurfaceExtraction::CountBrick(std::int64_t brickNumber)
     this->Refined, place, [this](std::uint32_t rank) { return this->Source.Edges(rank); },
     [&](const Leaf& leaf)
     { triangles += TrianglesOfLeaf[PopCount(this->Source.Edges(leaf.Rank) & leaf.Half.Mask)]; });
-  this->FirstPoint[brickNumber + 1] = points;
-  this->FirstTriangle[brickNumber + 1] = triangles;
+  return { points, triangles };
 }
 
 void SurfaceExtraction::WritePoints(const AffineMap& world, float* points) const
 {
-  this->ForEachBrick(16,
+  this->Passes.ForEachBrick(16,
     [&](std::int64_t i)
     {
-      const BrickPlace& brickPlace = this->Bricks[i];
-      const Brick& brick = this->Source.Diamonds().Level(brickPlace.Scale).Bricks[brickPlace.Index];
-      float* next = points + 3 * this->FirstPoint[i];
-      this->Source.Diamonds().ForEachInBrick(brickPlace.Scale, brick,
+      const Brick& brick = this->Passes.BrickAt(i);
+      float* next = points + 3 * this->Passes.FirstOf(i).Points;
+      this->Source.Diamonds().ForEachInBrick(this->Passes.PlaceOf(i).Scale, brick,
         [&](const Place& place, std::uint32_t rank)
         {
           const std::uint32_t edges = this->Source.Edges(rank);
@@ -236,13 +191,13 @@ private:
 template <typename Id>
 void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const
 {
-  this->ForEachBrick(16,
+  this->Passes.ForEachBrick(16,
     [&](std::int64_t i)
     {
-      TriangleWriter<Id> writer(*this, mirrored, connectivity + 3 * this->FirstTriangle[i],
-        levels + this->FirstTriangle[i]);
+      TriangleWriter<Id> writer(*this, mirrored, connectivity + 3 * this->Passes.FirstOf(i).Cells,
+        levels + this->Passes.FirstOf(i).Cells);
       ForEachLeaf(
-        this->Refined, this->Bricks[i],
+        this->Refined, this->Passes.PlaceOf(i),
         [this](std::uint32_t rank) { return this->Source.Edges(rank); },
         [&](const Leaf& leaf) { writer.Write(leaf); });
     });

@@ -3,7 +3,7 @@
 #define isodiamond_SurfaceExtraction_h
 
 #include "AffineMap.h"
-#include "RefinedSet.h"
+#include "ExtractionPasses.h"
 
 #include <vector>
 
@@ -25,8 +25,8 @@ public:
    *  points. */
   SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
 
-  std::int64_t PointCount() const { return this->FirstPoint.back(); }
-  std::int64_t TriangleCount() const { return this->FirstTriangle.back(); }
+  std::int64_t PointCount() const { return this->Passes.Total().Points; }
+  std::int64_t TriangleCount() const { return this->Passes.Total().Cells; }
 
   /** Writes 3 coordinates a point. */
   void WritePoints(const AffineMap& world, float* points) const;
@@ -55,21 +55,15 @@ private:
     }
   };
 
-  void CountBrick(std::int64_t brick);
+  ExtractionPasses::Counts CountBrick(std::int64_t brick);
 
   template <typename Id>
   class TriangleWriter;
 
-  template <typename Body>
-  void ForEachBrick(std::int64_t grain, Body&& body) const;
-
   const RefinedSet& Refined;
   const IsodiamondHierarchy& Source;
-  ParallelFor Parallel;
-  std::vector<BrickPlace> Bricks;
-  std::vector<Slot> Slots;                 ///< by rank
-  std::vector<std::int64_t> FirstPoint;    ///< by brick, and the total
-  std::vector<std::int64_t> FirstTriangle; ///< by brick, and the total
+  ExtractionPasses Passes;
+  std::vector<Slot> Slots; ///< by rank
 };
 
 }

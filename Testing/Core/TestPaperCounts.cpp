@@ -64,6 +64,12 @@ void CheckRow(const Row& row)
       row.Vertices);
     EXPECT_EQ(volume.Tetrahedra.size(), row.Cells);
     EXPECT_EQ(test::FindFault(volume, { n, n, n }), "");
+    for (const double tolerance : { 1.0, 10.0, 60.0 })
+    {
+      const test::Volume coarser = test::ExtractVolume(*minimal.Hierarchy, tolerance);
+      EXPECT_LT(coarser.Tetrahedra.size(), volume.Tetrahedra.size());
+      EXPECT_EQ(test::FindFault(coarser, { n, n, n }), "");
+    }
     return;
   }
   const test::Mesh mesh = test::Extract(*minimal.Hierarchy, 0.0);
