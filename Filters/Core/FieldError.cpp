@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace isodiamond
 {
@@ -109,6 +110,21 @@ public:
     }
   }
 
+  /** The slope along x on a piece of a row between two knots. @param doubledX begin + end, twice a
+   *  place inside of the piece. */
+  double SlopeAlongX(int doubledX, int y, int z)
+  {
+    switch (this->Shape.DiamondClass)
+    {
+      case 0:
+        return this->SlopeInCube(doubledX, y, z);
+      case 1:
+        return this->SlopeInSquareBipyramid(doubledX, y, z);
+      default:
+        return this->SlopeInRingBipyramid(doubledX, y, z);
+    }
+  }
+
   /** Half the extent of the domain along x for given y and z offsets; negative if empty. */
   int Reach(int y, int z) const
   {
@@ -188,6 +204,18 @@ private:
     return sum / (2 * this->Half);
   }
 
+  double SlopeInCube(int doubledX, int y, int z)
+  {
+    // Over an edge along x, from where the axes that are farther along the spine have moved.
+    Point corner = -1 * this->End;
+    const int x = this->End[0] * doubledX;
+    corner[1] = 2 * this->End[1] * y > x ? this->End[1] : corner[1];
+    corner[2] = 2 * this->End[2] * z > x ? this->End[2] : corner[2];
+    const double before = this->At(corner);
+    corner[0] = this->End[0];
+    return this->End[0] * (this->At(corner) - before) / (2 * this->Half);
+  }
+
   /** Class 1: a square cut by the spine into two triangles, and an apex on either side. */
   double InSquareBipyramid(const Point& offset)
   {
@@ -205,6 +233,22 @@ private:
       std::abs(alongA - alongB) * (this->At(corner) - this->Middle) +
       2.0 * std::abs(offset[this->SingleAxis]) * (this->At(apex) - this->Middle);
     return this->Middle + sum / (2 * this->Half);
+  }
+
+  double SlopeInSquareBipyramid(int doubledX, int y, int z)
+  {
+    const int side = doubledX > 0 ? 1 : -1;
+    if (this->SingleAxis == 0)
+    {
+      return side * (this->At({ side, 0, 0 }) - this->Middle) / this->Half;
+    }
+    const int other = 3 - this->SingleAxis;
+    const bool ahead = this->End[0] * doubledX > 2 * this->End[other] * (other == 1 ? y : z);
+    Point corner = { ahead ? this->End[0] : -this->End[0], 0, 0 };
+    corner[other] = ahead ? -this->End[other] : this->End[other];
+    const double spine = 0.5 * (this->At(this->End) - this->At(-1 * this->End));
+    const double outward = this->At(corner) - this->Middle;
+    return this->End[0] * (ahead ? spine + outward : spine - outward) / (2 * this->Half);
   }
 
   /** Class 2: eight triangles around the spine. */
@@ -234,6 +278,27 @@ private:
     return this->Middle + sum / this->Half;
   }
 
+  double SlopeInRingBipyramid(int doubledX, int y, int z)
+  {
+    if (this->SingleAxis == 0)
+    {
+      const double spine = 0.5 * (this->At(this->End) - this->At(-1 * this->End));
+      return this->End[0] * spine / this->Half;
+    }
+    const int other = 3 - this->SingleAxis;
+    const int across = other == 1 ? y : z;
+    const int side = doubledX > 0 ? 1 : -1;
+    if (std::abs(doubledX) > 2 * std::abs(across))
+    {
+      return side * (this->At({ side, 0, 0 }) - this->Middle) / this->Half;
+    }
+    Point onAxis = { 0, 0, 0 };
+    onAxis[other] = across > 0 ? 1 : -1;
+    const double before = this->At(onAxis);
+    onAxis[0] = side;
+    return side * (this->At(onAxis) - before) / this->Half;
+  }
+
   int Half;
   const TypeTable& Shape;
   int OddAxes = 0;
@@ -250,19 +315,20 @@ void AddRow(Interpolant<T>& interpolant, const T* centre, int y, int z, int firs
 {
   std::array<int, 3> knots{};
   const int count = interpolant.Knots(y, z, knots);
-  int begin = first;
-  for (int piece = 0; piece <= count && begin <= last; ++piece)
+  // Evaluated once, continued from piece to piece: exact for integer samples.
+  double value = interpolant({ first, y, z });
+  sums.AddLine(centre + first, 1, value, 0.0);
+  int begin = first; // the last sample that was added
+  for (int piece = 0; piece <= count && begin < last; ++piece)
   {
     const int end = piece < count ? std::min(knots[piece], last) : last;
-    if (end < begin)
+    if (end > begin)
     {
-      continue;
+      const double slope = interpolant.SlopeAlongX(begin + end, y, z);
+      sums.AddLine(centre + begin + 1, end - begin, value + slope, slope);
+      value += slope * (end - begin);
+      begin = end;
     }
-    // The slope as a difference of two values of one piece: exact for integer samples.
-    const double start = interpolant({ begin, y, z });
-    const double slope = end > begin ? interpolant({ begin + 1, y, z }) - start : 0.0;
-    sums.AddLine(centre + begin, end - begin + 1, start, slope);
-    begin = end + 1;
   }
 }
 
@@ -298,6 +364,110 @@ DomainSummary Summarize(const Grid& grid, const SampleView<T>& samples, const Pl
 
 }
 
+namespace
+{
+
+/** A lattice point in the middle of an edge, and the edge's ends, as indices of samples. */
+struct EdgeMiddle
+{
+  std::uint8_t Middle = 0;
+  std::array<std::uint8_t, 2> Ends{};
+};
+
+/**
+ * A diamond of scale 0. Its domain has no lattice points but its vertices, where the interpolant is
+ * exact, and the middles of its edges, where it is the mean of the ends. 7 of 8 diamonds are of
+ * this scale.
+ */
+struct FinestShape
+{
+  std::vector<Point> Points; ///< all lattice points of the domain, as offsets from the centre
+  std::vector<EdgeMiddle> Middles;
+
+  FinestShape() = default;
+  explicit FinestShape(const TypeTable& type)
+  {
+    if (!type.Valid)
+    {
+      return;
+    }
+    this->Points.assign(type.Offsets.begin(), type.Offsets.begin() + type.VertexCount);
+    this->AddEdge(type.Spine[0], type.Spine[1]);
+    for (int i = 0; i < type.HalfTetrahedronCount; ++i)
+    {
+      const std::array<std::uint8_t, 3>& v = type.HalfTetrahedra[i].Vertices;
+      this->AddEdge(v[0], v[1]);
+      this->AddEdge(v[1], v[2]);
+      this->AddEdge(v[2], v[0]);
+    }
+  }
+
+private:
+  void AddEdge(std::uint8_t a, std::uint8_t b)
+  {
+    const Point sum = this->Points[a] + this->Points[b];
+    const Point middle = { sum[0] / 2, sum[1] / 2, sum[2] / 2 };
+    const bool isLatticePoint = 2 * middle == sum;
+    if (isLatticePoint &&
+      std::find(this->Points.begin(), this->Points.end(), middle) == this->Points.end())
+    {
+      this->Middles.push_back({ static_cast<std::uint8_t>(this->Points.size()), { a, b } });
+      this->Points.push_back(middle);
+    }
+  }
+};
+
+const FinestShape& FinestShapeOf(const Point& position)
+{
+  static const std::array<FinestShape, 64> shapes = []
+  {
+    std::array<FinestShape, 64> all;
+    for (int type = 0; type < 64; ++type)
+    {
+      all[type] = FinestShape(tables::Types[type]);
+    }
+    return all;
+  }();
+  return shapes[TypeOf(position)];
+}
+
+/** The summary of a diamond of scale 0 that lies inside the grid with all of its vertices. */
+template <typename T>
+DomainSummary SummarizeFinest(const SampleView<T>& samples, const Point& centre)
+{
+  const FinestShape& shape = FinestShapeOf(centre);
+  const T* middle = samples.Pointer() + samples.Index(centre);
+  const std::int64_t row = samples.Dimensions()[0];
+  const std::int64_t slice = row * samples.Dimensions()[1];
+  std::array<double, 27> values;
+  DomainSummary summary{ 0.0, { Infinity, -Infinity } };
+  double invalid = 0.0;
+  for (std::size_t i = 0; i < shape.Points.size(); ++i)
+  {
+    const Point& offset = shape.Points[i];
+    const double value =
+      static_cast<double>(middle[offset[0] + offset[1] * row + offset[2] * slice]);
+    values[i] = value;
+    summary.Range.Minimum = value < summary.Range.Minimum ? value : summary.Range.Minimum;
+    summary.Range.Maximum = value > summary.Range.Maximum ? value : summary.Range.Maximum;
+    invalid += value - value;
+  }
+  for (const EdgeMiddle& edge : shape.Middles)
+  {
+    const double mean = 0.5 * (values[edge.Ends[0]] + values[edge.Ends[1]]);
+    const double error = std::fabs(values[edge.Middle] - mean);
+    summary.Error = error > summary.Error ? error : summary.Error;
+  }
+  if (!(invalid == 0.0)) // infinite samples and NaN leave a NaN here
+  {
+    summary.Error = Infinity;
+    summary.Range.Minimum = -Infinity;
+  }
+  return summary;
+}
+
+}
+
 bool HasAllVerticesInside(
   const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
 {
@@ -320,7 +490,11 @@ bool HasAllVerticesInside(
 
 DomainSummary SummarizeDomain(const Grid& grid, const AnySamples& samples, const Place& place)
 {
-  return std::visit([&](const auto& view) { return Summarize(grid, view, place); }, samples);
+  const bool isFinest = place.Scale == 0 && grid.IsSampled(place.Position + Point{ 1, 1, 1 }) &&
+    grid.IsSampled(place.Position + Point{ -1, -1, -1 });
+  return std::visit([&](const auto& view)
+    { return isFinest ? SummarizeFinest(view, place.Position) : Summarize(grid, view, place); },
+    samples);
 }
 
 }
