@@ -33,10 +33,16 @@ void vtkIsodiamondExtractor::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::SetIsovalue(double isovalue)
 {
-  if (!this->UseIsovalue || this->Isovalue != isovalue)
+  this->StoreIsovalue(isovalue);
+  this->UseIsovalueOn();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::StoreIsovalue(double isovalue)
+{
+  if (this->Isovalue != isovalue)
   {
     this->Isovalue = isovalue;
-    this->UseIsovalue = true;
     this->Modified();
   }
 }
@@ -44,11 +50,17 @@ void vtkIsodiamondExtractor::SetIsovalue(double isovalue)
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::SetIsorange(double lower, double upper)
 {
-  if (!this->UseIsorange || this->Isorange[0] != lower || this->Isorange[1] != upper)
+  this->StoreIsorange(lower, upper);
+  this->UseIsorangeOn();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::StoreIsorange(double lower, double upper)
+{
+  if (this->Isorange[0] != lower || this->Isorange[1] != upper)
   {
     this->Isorange[0] = lower;
     this->Isorange[1] = upper;
-    this->UseIsorange = true;
     this->Modified();
   }
 }
@@ -75,25 +87,30 @@ vtkIsodiamond::Query vtkIsodiamondExtractor::GetQuery() const
 }
 
 //------------------------------------------------------------------------------
-double* vtkIsodiamondExtractor::GetInteriorToleranceRange()
+vtkFieldData* vtkIsodiamondExtractor::FindHierarchy()
 {
   vtkPolyData* input = this->GetNumberOfInputConnections(0) > 0
     ? vtkPolyData::SafeDownCast(this->GetInputDataObject(0, 0))
     : nullptr;
-  const bool known = input && vtkIsodiamond::HasHierarchy(input->GetFieldData());
-  this->InteriorToleranceRange[1] =
-    known ? vtkIsodiamond::ErrorScale(input->GetFieldData()) : VTK_DOUBLE_MAX;
-  return this->InteriorToleranceRange;
+  return input && vtkIsodiamond::HasHierarchy(input->GetFieldData()) ? input->GetFieldData()
+                                                                     : nullptr;
 }
 
 //------------------------------------------------------------------------------
 double* vtkIsodiamondExtractor::GetErrorToleranceRange()
 {
-  vtkPolyData* input = this->GetNumberOfInputConnections(0) > 0
-    ? vtkPolyData::SafeDownCast(this->GetInputDataObject(0, 0))
-    : nullptr;
-  this->ErrorToleranceRange[1] = input ? vtkIsodiamond::ErrorScale(input->GetFieldData()) : 1.0;
+  vtkFieldData* hierarchy = this->FindHierarchy();
+  this->ErrorToleranceRange[1] = hierarchy ? vtkIsodiamond::ErrorScale(hierarchy) : 1.0;
   return this->ErrorToleranceRange;
+}
+
+//------------------------------------------------------------------------------
+double* vtkIsodiamondExtractor::GetInteriorToleranceRange()
+{
+  vtkFieldData* hierarchy = this->FindHierarchy();
+  this->InteriorToleranceRange[1] =
+    hierarchy ? vtkIsodiamond::ErrorScale(hierarchy) : VTK_DOUBLE_MAX;
+  return this->InteriorToleranceRange;
 }
 
 //------------------------------------------------------------------------------

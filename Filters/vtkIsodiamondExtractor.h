@@ -91,6 +91,8 @@ public:
    */
   void SetIsorange(double lower, double upper);
   void SetIsorange(double isorange[2]) { this->SetIsorange(isorange[0], isorange[1]); }
+  /** The same, but leaves UseIsorange as it is: for user interfaces that set both. */
+  void StoreIsorange(double lower, double upper);
   vtkGetVector2Macro(Isorange, double);
   vtkSetMacro(UseIsorange, bool);
   vtkGetMacro(UseIsorange, bool);
@@ -103,6 +105,8 @@ public:
    * on. RI and MI are of one isovalue: with them it warns and has no effect. Default: off.
    */
   void SetIsovalue(double isovalue);
+  /** The same, but leaves UseIsovalue as it is: for user interfaces that set both. */
+  void StoreIsovalue(double isovalue);
   vtkGetMacro(Isovalue, double);
   vtkSetMacro(UseIsovalue, bool);
   vtkGetMacro(UseIsovalue, bool);
@@ -142,6 +146,8 @@ protected:
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
   double InteriorToleranceRange[2] = { 0.0, VTK_DOUBLE_MAX };
+
+  vtkFieldData* FindHierarchy();
 
 private:
   vtkIsodiamondExtractor(const vtkIsodiamondExtractor&) = delete;

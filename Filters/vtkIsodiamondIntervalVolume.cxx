@@ -104,7 +104,7 @@ int vtkIsodiamondIntervalVolume::RequestData(
   try
   {
     vtkIsodiamond::CheckTolerance(this->ErrorTolerance);
-    vtkIsodiamond::CheckTolerance(this->InteriorTolerance);
+    vtkIsodiamond::CheckTolerance(this->InteriorTolerance, "interior");
     const isodiamond::Isoregion region(this->Isorange[0], this->Isorange[1]);
     vtkImageData* image = vtkImageData::GetData(inputVector[0]);
     const vtkIsodiamond::InputArray array = this->FindInputArray(image);

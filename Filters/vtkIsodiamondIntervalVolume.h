@@ -10,8 +10,8 @@
  * array or isorange builds a new one, and so does the first interior tolerance.
  *
  * Point data: the field's value under the input array's name, and `Surface`; cell data: `Level`;
- * see vtkIsodiamondExtractor. Points are floats, or doubles where floats could not keep apart what
- * lies 1/256 of a voxel apart.
+ * see vtkIsodiamondExtractor. Points are doubles: rounded to floats, the thinnest tetrahedra could
+ * turn over.
  *
  * The whole extent of the input is requested. In parallel the first piece holds the volume, the
  * others are empty.

@@ -17,8 +17,6 @@
 #include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace vtkIsodiamond
@@ -80,31 +78,6 @@ vtkSmartPointer<vtkPoints> WritePoints(
   return points;
 }
 
-/**
- * Whether float coordinates keep tetrahedra as small as a coefficient step, 1/256 of a voxel: the
- * largest coordinate must not be more than 2048 voxels away from the world's origin.
- */
-bool FitsFloat(const isodiamond::Grid& grid, const isodiamond::AffineMap& world)
-{
-  double farthest = 0.0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const std::array<double, 3> point = world((corner & 1) != 0 ? grid.Last(0) : 0,
-      (corner & 2) != 0 ? grid.Last(1) : 0, (corner & 4) != 0 ? grid.Last(2) : 0);
-    for (const double coordinate : point)
-    {
-      farthest = std::max(farthest, std::fabs(coordinate));
-    }
-  }
-  double voxel = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    voxel =
-      std::min(voxel, std::hypot(world.Rows[0][axis], world.Rows[1][axis], world.Rows[2][axis]));
-  }
-  return farthest <= 2048.0 * voxel;
-}
-
 /** Field values: floats unless the samples need more. */
 template <typename Array>
 void AddValues(const isodiamond::IntervalExtraction& extraction, const std::string& name,
@@ -129,9 +102,8 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const isodiamond::Affi
   const std::string& arrayName, vtkUnstructuredGrid* output)
 {
   const isodiamond::IntervalExtraction extraction(refined, SMPFor());
-  output->SetPoints(FitsFloat(refined.Hierarchy().Domain(), world)
-      ? WritePoints<vtkFloatArray>(extraction, world)
-      : WritePoints<vtkDoubleArray>(extraction, world));
+  // In floats the thinnest tetrahedra would turn over, even close to the world's origin.
+  output->SetPoints(WritePoints<vtkDoubleArray>(extraction, world));
   const auto levels = NewArray("Level", extraction.TetrahedronCount());
   output->SetCells(VTK_TETRA,
     WriteCells(extraction.TetrahedronCount(), 4,

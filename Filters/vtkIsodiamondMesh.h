@@ -10,7 +10,6 @@
 #include <string>
 
 class vtkCellArray;
-class vtkDataArray;
 class vtkFloatArray;
 class vtkPoints;
 class vtkSignedCharArray;

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 namespace vtkIsodiamond
 {
@@ -39,12 +40,12 @@ struct Query
 };
 
 /** @throws std::invalid_argument for a negative tolerance or NaN */
-inline void CheckTolerance(double tolerance)
+inline void CheckTolerance(double tolerance, const std::string& name = "error")
 {
   if (!(tolerance >= 0.0))
   {
     throw std::invalid_argument(
-      "The error tolerance must be 0 or greater; it is " + std::to_string(tolerance) + ".");
+      "The " + name + " tolerance must be 0 or greater; it is " + std::to_string(tolerance) + ".");
   }
 }
 
@@ -53,16 +54,16 @@ inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, cons
 {
   const isodiamond::IsodiamondHierarchy& hierarchy = *state.Isodiamonds;
   const Choice& own = state.Chosen;
-  const Choice asked = query.Override(own);
-  if (asked.Shape != own.Shape ||
-    (hierarchy.Region().IsVolume() ? asked.Isorange != own.Isorange
-                                   : asked.Isovalue != own.Isovalue))
+  const bool isVolume = hierarchy.Region().IsVolume();
+  if ((query.Shape && *query.Shape != own.Shape) ||
+    (query.Isovalue && (isVolume || *query.Isovalue != own.Isovalue)) ||
+    (query.Isorange && (!isVolume || *query.Isorange != own.Isorange)))
   {
     vtkWarningWithObjectMacro(filter,
       "A relevant or minimal hierarchy is of one isovalue or isorange; another shape, isovalue or "
       "isorange has no effect.");
   }
-  if (hierarchy.Region().IsVolume() && !hierarchy.RefinesInterior() &&
+  if (isVolume && !hierarchy.RefinesInterior() &&
     query.InteriorTolerance < hierarchy.Codes().Scale())
   {
     vtkWarningWithObjectMacro(filter,
@@ -81,7 +82,7 @@ void RunQuery(
   vtkAlgorithm* filter, vtkPolyData* input, const Query& query, int numberOfThreads, Use&& use)
 {
   CheckTolerance(query.ErrorTolerance);
-  CheckTolerance(query.InteriorTolerance);
+  CheckTolerance(query.InteriorTolerance, "interior");
   if (!input)
   {
     throw std::invalid_argument("There is no input hierarchy.");
@@ -91,7 +92,6 @@ void RunQuery(
   {
     WarnOfWhatHasNoEffect(filter, *state, query);
   }
-  const isodiamond::Isoregion region = query.Override(state->Chosen).Region();
   RunThreaded(numberOfThreads,
     [&]
     {
@@ -102,8 +102,9 @@ void RunQuery(
             *state->Isodiamonds, query.ErrorTolerance, SMPFor(), query.InteriorTolerance));
         return;
       }
-      const isodiamond::Encoding answer = isodiamond::EncodeQuery(
-        *state->Scalars, region, query.ErrorTolerance, SMPFor(), query.InteriorTolerance);
+      const isodiamond::Encoding answer =
+        isodiamond::EncodeQuery(*state->Scalars, query.Override(state->Chosen).Region(),
+          query.ErrorTolerance, SMPFor(), query.InteriorTolerance);
       const isodiamond::IsodiamondHierarchy hierarchy(answer, SMPFor());
       use(*state, isodiamond::RefinedSet(hierarchy, 0.0, SMPFor()));
     });

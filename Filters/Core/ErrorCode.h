@@ -14,7 +14,8 @@ namespace isodiamond
  * With `code = 512 e + m` the value is `scale * (1 + m / 512) * 2^(e - 31)`, where the scale is
  * the largest error that the volume and the metric allow. Decode(Encode(x)) >= x, so a test with
  * the code can subdivide too much (by 0.2 %), never too little. Code 0 means "no error of its
- * own" and is never stored; the top code decodes to infinity: always subdivided.
+ * own" and is stored only where an interior tolerance alone can subdivide; the top code decodes to
+ * infinity: always subdivided.
  */
 class ErrorCode
 {

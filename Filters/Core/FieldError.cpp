@@ -13,6 +13,12 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
+template <typename T>
+bool IsNaN(T value)
+{
+  return value != value;
+}
+
 /** Running maxima and minima in four lanes, so that the compiler can use vector instructions. */
 class Accumulator
 {
@@ -49,7 +55,6 @@ public:
     if (!(invalid == 0.0)) // infinite samples and NaN leave a NaN here
     {
       summary.Error = Infinity;
-      summary.Range.Minimum = -Infinity;
     }
     return summary;
   }
@@ -332,13 +337,23 @@ void AddRow(Interpolant<T>& interpolant, const T* centre, int y, int z, int firs
   }
 }
 
-template <typename T>
-DomainSummary Summarize(const Grid& grid, const SampleView<T>& samples, const Place& place)
+/** NaN counts as below every surface: it becomes the minimum, and the maximum if it is alone. */
+void CountNaN(ValueRange& range, bool hasNaN)
 {
-  Interpolant<T> interpolant(grid, samples, place);
-  const int half = 1 << place.Scale;
-  const Point centre = half * place.Position;
-  Accumulator sums;
+  if (hasNaN)
+  {
+    const bool alone = range.Minimum > range.Maximum;
+    range.Minimum = std::numeric_limits<double>::quiet_NaN();
+    range.Maximum = alone ? range.Minimum : range.Maximum;
+  }
+}
+
+/** Calls body(row, y, z, first, last) for the sampled part of every row of a domain; row[x] is the
+ *  sample at an offset (x, y, z) from the centre, first <= x <= last. */
+template <typename T, typename Body>
+void ForEachRow(const Grid& grid, const SampleView<T>& samples, const Point& centre,
+  const Interpolant<T>& interpolant, int half, Body&& body)
+{
   for (int z = std::max(-half, -centre[2]); z <= std::min(half, grid.Last(2) - centre[2]); ++z)
   {
     for (int y = std::max(-half, -centre[1]); y <= std::min(half, grid.Last(1) - centre[1]); ++y)
@@ -348,13 +363,32 @@ DomainSummary Summarize(const Grid& grid, const SampleView<T>& samples, const Pl
       const int last = std::min(reach, grid.Last(0) - centre[0]);
       if (reach >= 0 && first <= last)
       {
-        const T* row = samples.Pointer() +
-          samples.Index({ centre[0] + first, centre[1] + y, centre[2] + z }) - first;
-        AddRow(interpolant, row, y, z, first, last, sums);
+        const Point start = { centre[0] + first, centre[1] + y, centre[2] + z };
+        body(samples.Pointer() + samples.Index(start) - first, y, z, first, last);
       }
     }
   }
+}
+
+template <typename T>
+DomainSummary Summarize(const Grid& grid, const SampleView<T>& samples, const Place& place)
+{
+  Interpolant<T> interpolant(grid, samples, place);
+  const int half = 1 << place.Scale;
+  const Point centre = half * place.Position;
+  Accumulator sums;
+  ForEachRow(grid, samples, centre, interpolant, half,
+    [&](const T* row, int y, int z, int first, int last)
+    { AddRow(interpolant, row, y, z, first, last, sums); });
   DomainSummary summary = sums.Result();
+  if (summary.Error == Infinity)
+  {
+    bool hasNaN = false;
+    ForEachRow(grid, samples, centre, interpolant, half,
+      [&](const T* row, int, int, int first, int last)
+      { hasNaN = hasNaN || std::any_of(row + first, row + last + 1, IsNaN<T>); });
+    CountNaN(summary.Range, hasNaN);
+  }
   if (grid.SticksOut(place.Position, place.Scale))
   {
     summary.Error = Infinity;
@@ -461,7 +495,8 @@ DomainSummary SummarizeFinest(const SampleView<T>& samples, const Point& centre)
   if (!(invalid == 0.0)) // infinite samples and NaN leave a NaN here
   {
     summary.Error = Infinity;
-    summary.Range.Minimum = -Infinity;
+    CountNaN(summary.Range,
+      std::any_of(values.begin(), values.begin() + shape.Points.size(), IsNaN<double>));
   }
   return summary;
 }

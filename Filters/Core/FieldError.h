@@ -15,7 +15,8 @@ struct DomainSummary
    *  infinite where the interpolant is undefined: the diamond sticks out of the grid, or a sample
    *  of the domain is not finite. Paper, section 4.2. */
   double Error = 0.0;
-  /** Range of the sampled lattice points of the domain. NaN counts as -infinity. */
+  /** Range of the sampled lattice points of the domain; the minimum is NaN if one of them is.
+   *  Without any the minimum is the greater one. */
   ValueRange Range;
 };
 

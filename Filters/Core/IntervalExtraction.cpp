@@ -4,6 +4,8 @@
 #include "IntervalPatches.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace isodiamond
 {
@@ -174,6 +176,13 @@ void IntervalExtraction::WritePoints(const AffineMap& world, Coordinate* points)
 template <typename Value>
 void IntervalExtraction::WriteValues(Value* values, std::int8_t* surfaces) const
 {
+  std::array<Value, 2> isovalues{};
+  for (int surface = 0; surface < 2; ++surface)
+  {
+    const double isovalue = this->Source.Region().Isovalue(surface);
+    isovalues[surface] = std::isfinite(isovalue) ? static_cast<Value>(isovalue)
+                                                 : std::numeric_limits<Value>::quiet_NaN();
+  }
   std::visit(
     [&](const auto& insideValues)
     {
@@ -181,7 +190,7 @@ void IntervalExtraction::WriteValues(Value* values, std::int8_t* surfaces) const
         [&](std::int64_t id, const std::array<double, 3>&, int surface, std::int64_t insideValue)
         {
           values[id] = surface < 0 ? static_cast<Value>(insideValues.Pointer()[insideValue])
-                                   : static_cast<Value>(this->Source.Region().Isovalue(surface));
+                                   : isovalues[surface];
           surfaces[id] = static_cast<std::int8_t>(surface < 0 ? 0 : 2 * surface - 1);
         });
     },

@@ -36,8 +36,8 @@ public:
   /**
    * Writes what is known of the points.
    *
-   * @param values receives the field's value: the isovalue on a surface, the sample inside; float
-   *        or double
+   * @param values receives the field's value: the isovalue on a surface, the sample inside; NaN on
+   *        a surface without an isovalue, where an open side meets NaN; float or double
    * @param surfaces receives -1 on the lower surface, 1 on the upper one, else 0
    */
   template <typename Value>

@@ -74,8 +74,8 @@ public:
 
   int SignOf(double value) const
   {
-    return this->IsVolume() ? (value >= this->Limits[0] ? 1 : 0) + (value > this->Limits[1] ? 1 : 0)
-                            : (value > this->Limits[0] ? 1 : 0);
+    const int sign = this->IsAbove(0, value) ? 1 : 0;
+    return this->IsVolume() && this->IsAbove(1, value) ? sign + 1 : sign;
   }
 
   /** Whether a surface passes between the values of a range. */
@@ -87,7 +87,8 @@ public:
   /** Whether all values of a range lie in the interval volume. */
   bool Holds(const ValueRange& range) const
   {
-    return this->IsVolume() && this->SignOf(range.Maximum) == 1 && this->SignOf(range.Minimum) == 1;
+    return this->IsVolume() && range.Minimum <= range.Maximum && this->SignOf(range.Maximum) == 1 &&
+      this->SignOf(range.Minimum) == 1;
   }
 
 private:

@@ -25,50 +25,19 @@ std::int64_t LinearPosition(const Grid& grid, const Place& place)
     place.Position[0];
 }
 
-/** A range bound in the samples' type; -infinity (NaN in the domain) becomes the type's lowest. */
+/** A range bound in the samples' type; integers have no infinities. */
 template <typename T>
 T ToSampleType(double value)
 {
   if constexpr (std::is_integral_v<T>)
   {
-    constexpr double high = static_cast<double>(std::numeric_limits<T>::max());
-    return value >= high ? std::numeric_limits<T>::max() : static_cast<T>(value);
+    constexpr T lowest = std::numeric_limits<T>::lowest();
+    constexpr T highest = std::numeric_limits<T>::max();
+    return value >= static_cast<double>(highest)
+      ? highest
+      : (value <= static_cast<double>(lowest) ? lowest : static_cast<T>(value));
   }
   return static_cast<T>(value);
-}
-
-/** The sampled lattice points of a diamond of scale 0 are those of its 3x3x3 neighbourhood that
- *  lie in its domain: the cube, or a square and two apices. */
-bool IsInFinestDomain(int parity, const Point& offset)
-{
-  const int diamondClass = tables::Parities[parity].DiamondClass;
-  if (diamondClass == 0)
-  {
-    return true;
-  }
-  const int singleBit = diamondClass == 1 ? 7 & ~parity : parity;
-  const int single = singleBit == 1 ? 0 : (singleBit == 2 ? 1 : 2);
-  return offset[single] == 0 || (offset[(single + 1) % 3] == 0 && offset[(single + 2) % 3] == 0);
-}
-
-ValueRange FinestRange(const Grid& grid, const AnySamples& samples, const Point& position)
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  ValueRange range{ infinity, -infinity };
-  const int parity = Parity(position);
-  for (int code = 0; code < 27; ++code)
-  {
-    const Point offset = { code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1 };
-    const Point point = position + offset;
-    if (IsInFinestDomain(parity, offset) && grid.IsSampled(point))
-    {
-      const double value = SampleAt(samples, point);
-      range.Minimum =
-        value >= range.Minimum ? range.Minimum : (value < range.Minimum ? value : -infinity);
-      range.Maximum = value > range.Maximum ? value : range.Maximum;
-    }
-  }
-  return range;
 }
 
 /** The queue, front and closure of the paper's top-down refinement. */
@@ -237,7 +206,7 @@ ValueRange ScalarHierarchy::Range(const Place& place) const
 {
   if (place.Scale == 0)
   {
-    return FinestRange(this->TheGrid, this->Values, place.Position);
+    return SummarizeDomain(this->TheGrid, this->Values, place).Range;
   }
   const std::int64_t offset = this->Offset(place);
   const auto read = [offset](const AnySamples& values)

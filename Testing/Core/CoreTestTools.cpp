@@ -92,6 +92,16 @@ Field WaveField(const std::array<int, 3>& dims)
     { return std::sin(0.5 * x) + std::sin(0.6 * y + 0.2 * x) + std::cos(0.45 * z); });
 }
 
+Field SpikeField(const std::array<int, 3>& dims, double spike)
+{
+  return MakeField("spike", dims, 3.0,
+    [&](int x, int y, int z)
+    {
+      const bool isMiddle = x == dims[0] / 2 && y == dims[1] / 2 && z == dims[2] / 2;
+      return isMiddle ? spike : std::hypot(x - 3.3, y - 4.1, z - 3.8);
+    });
+}
+
 std::vector<Field> SmallFields()
 {
   std::vector<Field> fields;
@@ -105,6 +115,12 @@ std::vector<Field> SmallFields()
     fields.push_back(SparseField(dims, seed++));
     fields.push_back(BrokenField(dims, seed++));
     fields.push_back(WaveField(dims));
+  }
+  for (const double spike : { std::numeric_limits<double>::quiet_NaN(),
+         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() })
+  {
+    fields.push_back(SpikeField({ 9, 9, 9 }, spike));
+    fields.push_back(SpikeField({ 12, 17, 10 }, spike));
   }
   return fields;
 }

@@ -44,6 +44,8 @@ Field SphereField(const std::array<int, 3>& dims);
 Field SparseField(const std::array<int, 3>& dims, unsigned seed);
 /** Noise with NaN and infinities in it. */
 Field BrokenField(const std::array<int, 3>& dims, unsigned seed);
+/** A smooth field with one sample in the middle that is not finite. */
+Field SpikeField(const std::array<int, 3>& dims, double spike);
 /** A smooth wave of real values. */
 Field WaveField(const std::array<int, 3>& dims);
 

@@ -177,7 +177,9 @@ std::vector<reference::Isorange> RangesOf(const Field& field)
   const double low = sorted[sorted.size() / 3];
   const double high = sorted[sorted.size() * 7 / 8];
   return { { low, low < high ? high : low + 1.0 }, { 0.5, 2.5 },
-    { high, std::numeric_limits<double>::infinity() } };
+    { high, std::numeric_limits<double>::infinity() },
+    { -std::numeric_limits<double>::infinity(), low },
+    { -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() } };
 }
 
 }

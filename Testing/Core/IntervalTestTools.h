@@ -53,7 +53,7 @@ std::vector<std::pair<std::array<std::array<double, 3>, 4>, int>> PlacedTetrahed
   const Volume& volume);
 
 /** Ranges worth trying on a field: the middle of its values, a narrow one between the levels of
- *  the fields of small integers, one with an open side. */
+ *  the fields of small integers, with an open side, with two. */
 std::vector<reference::Isorange> RangesOf(const Field& field);
 
 inline isodiamond::Isoregion RegionOf(const reference::Isorange& range)

@@ -134,13 +134,34 @@ TEST(IntervalVolume, KeepsPositiveVolumesInTheWorld)
   const auto mirrored = MakeVolume(image, 0.0, Infinity);
   mirrored->Update();
   EXPECT_NEAR(PositiveVolume(mirrored->GetOutput()), 3.0 * volume, 1e-3 * volume);
-  EXPECT_EQ(mirrored->GetOutput()->GetPoints()->GetDataType(), VTK_FLOAT);
-  // So far from the origin floats could not keep the points apart.
+  // Far from the origin, where floats could not keep the points apart.
   image->SetOrigin(1e6, 2e6, 3e6);
   const auto far = MakeVolume(image, 0.0, Infinity);
   far->Update();
-  EXPECT_EQ(far->GetOutput()->GetPoints()->GetDataType(), VTK_DOUBLE);
   EXPECT_NEAR(PositiveVolume(far->GetOutput()), 3.0 * volume, 1e-3 * volume);
+}
+
+// Values far beyond the range put isovertices next to the lattice's vertices; a spacing that is no
+// power of two has every coordinate rounded.
+TEST(IntervalVolume, KeepsThinTetrahedraPositive)
+{
+  unsigned state = 1;
+  const auto image = test::MakeImage({ 20, 20, 20 },
+    [&state](double, double, double)
+    {
+      state = state * 1664525U + 1013904223U;
+      const double spread = (state >> 8) % 3 == 0 ? 1000.0 : 0.5;
+      return 0.5 + spread * ((state >> 10) % 1000 / 500.0 - 1.0);
+    });
+  for (const double spacing : { 0.3, 0.7 })
+  {
+    image->SetSpacing(spacing, spacing, spacing);
+    image->SetOrigin(600.0, -600.0, 300.0);
+    const auto volume = MakeVolume(image, 0.3, 0.7);
+    volume->Update();
+    EXPECT_GT(volume->GetOutput()->GetNumberOfCells(), 10000);
+    PositiveVolume(volume->GetOutput());
+  }
 }
 
 TEST(IntervalVolume, HasNoEmptyTetrahedraForIntegersOnItsEnds)
