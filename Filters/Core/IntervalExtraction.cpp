@@ -242,8 +242,8 @@ private:
   {
     if (point.IsVertex())
     {
-      return point.Younger() == 0 ? this->Own.First
-                                  : this->SlotAt(leaf, VertexOf(leaf, point.Younger())).First;
+      return point.Younger() == 0 ? this->Own.CentreId()
+                                  : this->SlotAt(leaf, VertexOf(leaf, point.Younger())).CentreId();
     }
     if (point.Younger() == 0)
     {
@@ -267,26 +267,10 @@ private:
     if (((this->Known >> vertex) & 1U) == 0)
     {
       this->Known |= 1U << vertex;
-      this->Owners[vertex] = this->Extraction.Slots[this->RankAt(leaf, vertex)];
+      const std::int64_t rank = RankAtVertex(this->Extraction.Source.Diamonds(), leaf, vertex);
+      this->Owners[vertex] = rank == DiamondSet::None ? Slot() : this->Extraction.Slots[rank];
     }
     return this->Owners[vertex];
-  }
-
-  std::int64_t RankAt(const Leaf& leaf, int vertex) const
-  {
-    const DiamondSet& set = this->Extraction.Source.Diamonds();
-    Place place{ leaf.Parent.Scale, leaf.Parent.Position + leaf.Shape.Offsets[vertex] };
-    if (Parity(place.Position) != 0)
-    {
-      const Brick& brick = set.Level(place.Scale).Bricks[leaf.Window.IndexAt(place.Position)];
-      return brick.Rank(place.Position[2] & 7, BitOf(place.Position));
-    }
-    while (Parity(place.Position) == 0 && place.Scale < this->Extraction.Source.Domain().Depth())
-    {
-      place = { place.Scale + 1,
-        { place.Position[0] >> 1, place.Position[1] >> 1, place.Position[2] >> 1 } };
-    }
-    return set.Rank(place);
   }
 
   const IntervalExtraction& Extraction;

@@ -63,8 +63,14 @@ private:
     std::uint16_t HasCentre = 0;
     std::array<std::uint16_t, 2> Alive{}; ///< by surface
 
+    /** Ids of points that there are not, which only a damaged file asks for, are 0. */
+    std::uint32_t CentreId() const { return this->HasCentre != 0 ? this->First : 0; }
     std::uint32_t Id(int surface, int edge) const
     {
+      if (((this->Alive[surface] >> edge) & 1U) == 0)
+      {
+        return 0;
+      }
       const std::uint32_t before = (1U << edge) - 1U;
       return this->First + this->HasCentre +
         static_cast<std::uint32_t>(surface == 0

@@ -203,6 +203,8 @@ void IsodiamondHierarchy::CheckRecords() const
   {
     valid = valid && this->InteriorThreshold(rank) <= ErrorCode::Always;
   }
+  this->Set.ForEach([&](const Place& place, std::uint32_t rank)
+    { valid = valid && (this->Sign(rank) == 0 || this->TheGrid.IsSampled(Centre(place))); });
   Require(valid, "a record has an invalid error code or sign");
   for (std::int64_t i = 0; i < this->View.Arrays.Isovertices.Size; ++i)
   {

@@ -113,6 +113,33 @@ struct Leaf
 };
 
 /**
+ * The rank of the diamond that is centred at a vertex of a leaf's parent. None only if a file is
+ * damaged: all vertices of a mesh that carry something are centres of stored diamonds.
+ */
+inline std::int64_t RankAtVertex(const DiamondSet& set, const Leaf& leaf, int vertex)
+{
+  Place place{ leaf.Parent.Scale, leaf.Parent.Position + leaf.Shape.Offsets[vertex] };
+  if (Parity(place.Position) != 0)
+  {
+    const std::int32_t index = leaf.Window.IndexAt(place.Position);
+    if (index < 0)
+    {
+      return DiamondSet::None;
+    }
+    const Brick& brick = set.Level(place.Scale).Bricks[index];
+    const int z = place.Position[2] & 7;
+    const int bit = BitOf(place.Position);
+    return brick.Contains(z, bit) ? std::int64_t{ brick.Rank(z, bit) } : DiamondSet::None;
+  }
+  while (Parity(place.Position) == 0 && place.Scale < set.ScaleCount() - 1)
+  {
+    place = { place.Scale + 1,
+      { place.Position[0] >> 1, place.Position[1] >> 1, place.Position[2] >> 1 } };
+  }
+  return set.Rank(place);
+}
+
+/**
  * Calls body(leaf) for the leaves of one brick's refined diamonds.
  *
  * @param crossed(rank) mask of the subdivision edges that make a half-tetrahedron wanted: it is

@@ -146,22 +146,10 @@ private:
     if (((this->Known >> vertex) & 1U) == 0)
     {
       this->Known |= 1U << vertex;
-      this->Owners[vertex] = this->Extraction.Slots[this->OwnerRank(leaf, edge)];
+      const std::int64_t rank = RankAtVertex(this->Source.Diamonds(), leaf, vertex);
+      this->Owners[vertex] = rank == DiamondSet::None ? Slot() : this->Extraction.Slots[rank];
     }
     return static_cast<Id>(this->Owners[vertex].Id(edge.OwnerEdge));
-  }
-
-  std::int64_t OwnerRank(const Leaf& leaf, const OuterEdge& edge) const
-  {
-    const Point vertex = leaf.Parent.Position + leaf.Shape.Offsets[edge.OwnerVertex];
-    const DiamondSet& set = this->Source.Diamonds();
-    if (edge.OwnerStep != 0)
-    {
-      return set.Rank(
-        { leaf.Parent.Scale + 1, { vertex[0] >> 1, vertex[1] >> 1, vertex[2] >> 1 } });
-    }
-    const BrickLevel& level = set.Level(leaf.Parent.Scale);
-    return level.Bricks[leaf.Window.IndexAt(vertex)].Rank(vertex[2] & 7, BitOf(vertex));
   }
 
   void Triangle(const Leaf& leaf, Id a, Id b, Id c)

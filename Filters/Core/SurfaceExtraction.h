@@ -49,9 +49,13 @@ private:
     std::uint32_t First = 0;
     std::uint32_t Alive = 0;
 
+    /** The id of a point that there is not, which only a damaged file asks for, is 0. */
     std::uint32_t Id(int edge) const
     {
-      return this->First + static_cast<std::uint32_t>(PopCount(this->Alive & ((1U << edge) - 1U)));
+      const std::uint32_t before = this->Alive & ((1U << edge) - 1U);
+      return ((this->Alive >> edge) & 1U) != 0
+        ? this->First + static_cast<std::uint32_t>(PopCount(before))
+        : 0;
     }
   };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The encoding: its size, and that damaged ones are refused.
-#include "CoreTestTools.h"
+#include "IntervalTestTools.h"
 
 #include <gtest/gtest.h>
 
@@ -92,6 +92,101 @@ TEST(Encoding, DamageIsRefused)
     damages[i](bad);
     EXPECT_THROW(IsodiamondHierarchy(bad, SerialFor), std::invalid_argument) << "damage " << i;
   }
+}
+
+namespace
+{
+
+/** Changes signs, masks and thresholds at random, then makes the lengths fit what they imply. */
+Encoding Damage(const Encoding& good, std::mt19937& random)
+{
+  Encoding bad = good;
+  for (std::uint32_t changes = 1 + random() % 4; changes > 0; --changes)
+  {
+    std::uint16_t& record = bad.Arrays.Records[random() % bad.Arrays.Records.size()];
+    record =
+      static_cast<std::uint16_t>(random() % 2 == 0 ? record ^ (1U + random() % 2) : random());
+    if (random() % 4 == 0)
+    {
+      bad.Arrays.BrickMasks[random() % bad.Arrays.BrickMasks.size()] &=
+        ~(std::uint64_t{ 1 } << (random() % 64));
+    }
+  }
+  std::int64_t diamonds = 0;
+  for (const std::uint64_t mask : bad.Arrays.BrickMasks)
+  {
+    diamonds += PopCount(mask);
+  }
+  bad.Arrays.Records.resize(diamonds, Record::Pack(ErrorCode::Always, 0));
+  std::vector<float> inside;
+  for (const std::uint16_t record : bad.Arrays.Records)
+  {
+    if (good.Header.Region.IsVolume() && Record::Sign(record) == InsideSign)
+    {
+      inside.push_back(1.0F);
+    }
+  }
+  bad.InsideValues = inside;
+  return bad;
+}
+
+}
+
+// Damage that keeps the lengths right is not always found, but never leads out of the arrays.
+TEST(Encoding, ConsistentDamageNeverHarms)
+{
+  const test::Field field = test::SphereField({ 17, 12, 9 });
+  std::mt19937 random(6);
+  int accepted = 0;
+  for (const Isoregion& region : { Isoregion(field.Isovalue), Isoregion(0.2, 1.5) })
+  {
+    for (const Model model : { Model::Minimal, Model::Relevant })
+    {
+      const Encoding good = BuildIsodiamonds(model, field.View(), region, SerialFor);
+      for (int i = 0; i < 200; ++i)
+      {
+        Encoding bad = Damage(good, random);
+        for (std::size_t size = good.Arrays.Isovertices.size() - 30;
+             size < good.Arrays.Isovertices.size() + 30; ++size)
+        {
+          bad.Arrays.Isovertices.resize(size, 100);
+          try
+          {
+            const IsodiamondHierarchy hierarchy(bad, SerialFor);
+            for (const double tolerance : { 0.0, 0.3 })
+            {
+              std::int32_t largest = -1;
+              std::size_t points = 0;
+              if (region.IsVolume())
+              {
+                const test::Volume volume = test::ExtractVolume(hierarchy, tolerance);
+                points = volume.Points.size();
+                for (const auto& t : volume.Tetrahedra)
+                {
+                  largest = std::max(largest, *std::max_element(t.begin(), t.end()));
+                }
+              }
+              else
+              {
+                const test::Mesh mesh = test::Extract(hierarchy, tolerance);
+                points = mesh.Points.size();
+                for (const auto& t : mesh.Triangles)
+                {
+                  largest = std::max(largest, *std::max_element(t.begin(), t.end()));
+                }
+              }
+              ASSERT_LT(largest, static_cast<std::int32_t>(points));
+            }
+            ++accepted;
+          }
+          catch (const std::invalid_argument&)
+          {
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(accepted, 100);
 }
 
 TEST(Encoding, RandomDamageNeverHarms)
