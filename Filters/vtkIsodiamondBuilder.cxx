@@ -33,6 +33,9 @@ void vtkIsodiamondBuilder::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Shape: " << this->Shape << "\n";
   os << indent << "Isovalue: " << this->Isovalue << "\n";
   os << indent << "Isorange: " << this->Isorange[0] << " " << this->Isorange[1] << "\n";
+  os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
+  os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
+  os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
   os << indent << "RefineInterior: " << (this->RefineInterior ? "On" : "Off") << "\n";
   os << indent << "CloseBoundary: " << (this->CloseBoundary ? "On" : "Off") << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
@@ -88,6 +91,7 @@ int vtkIsodiamondBuilder::RequestData(
   }
   try
   {
+    this->CheckModel();
     if (vtkPolyData* hierarchy = vtkPolyData::GetData(inputVector[0]))
     {
       this->BuildFromHierarchy(hierarchy, output);
@@ -124,6 +128,24 @@ vtkIsodiamond::Choice vtkIsodiamondBuilder::GetChoice() const
 }
 
 //------------------------------------------------------------------------------
+isodiamond::BuildOptions vtkIsodiamondBuilder::GetOptions(const isodiamond::AffineMap& world) const
+{
+  return { static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), this->ExactIsovertices,
+    this->PreserveFeatures, this->RefineInterior, world };
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondBuilder::CheckModel() const
+{
+  if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS &&
+    this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE)
+  {
+    throw std::invalid_argument("A hierarchy of diamonds (HD) supports the field metric only: the "
+                                "distance metric needs an isovalue or isorange.");
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkIsodiamondBuilder::BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output)
 {
   vtkImageData* image = vtkImageData::GetData(inputVector[0]);
@@ -137,15 +159,16 @@ void vtkIsodiamondBuilder::BuildFromImage(vtkInformationVector** inputVector, vt
     vtkIsodiamond::RunThreaded(this->NumberOfThreads,
       [&]
       { encoding = isodiamond::BuildScalarHierarchy(volume.Samples, vtkIsodiamond::SMPFor()); });
-    vtkIsodiamond::WriteScalars(encoding, choice, volume, output);
+    vtkIsodiamond::WriteScalars(encoding, choice, this->ExactIsovertices, volume, output);
     return;
   }
+  const isodiamond::BuildOptions options = this->GetOptions(volume.World);
   isodiamond::Encoding encoding;
   vtkIsodiamond::RunThreaded(this->NumberOfThreads,
     [&]
     {
       encoding = isodiamond::BuildIsodiamonds(static_cast<isodiamond::Model>(this->Model),
-        volume.Samples, region, vtkIsodiamond::SMPFor(), this->RefineInterior);
+        volume.Samples, region, vtkIsodiamond::SMPFor(), options);
     });
   vtkIsodiamond::WriteIsodiamonds(encoding, choice, volume.World, volume.ArrayName, output);
 }
@@ -167,12 +190,13 @@ void vtkIsodiamondBuilder::BuildFromHierarchy(vtkPolyData* input, vtkPolyData* o
     return;
   }
   const vtkIsodiamond::Choice choice = this->GetChoice();
+  const isodiamond::BuildOptions options = this->GetOptions(state->World);
   isodiamond::Encoding encoding;
   vtkIsodiamond::RunThreaded(this->NumberOfThreads,
     [&]
     {
       encoding = isodiamond::BuildIsodiamonds(static_cast<isodiamond::Model>(this->Model),
-        *state->Scalars, choice.Region(), vtkIsodiamond::SMPFor(), this->RefineInterior);
+        *state->Scalars, choice.Region(), vtkIsodiamond::SMPFor(), options);
     });
   vtkIsodiamond::WriteIsodiamonds(encoding, choice, state->World, state->ArrayName, output);
 }

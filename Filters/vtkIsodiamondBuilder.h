@@ -9,9 +9,8 @@
  * made, from which RI and MI come without the image. Output: a vtkIsodiamondHierarchy.
  *
  * An isosurface separates samples above the isovalue from the others; an interval volume holds the
- * samples within the isorange, its ends included. NaN counts as below. Errors are
- * in field units (the paper's metric): the largest difference between the field and its linear
- * interpolant at the lattice points of a diamond.
+ * samples within the isorange, its ends included. NaN counts as below. Errors, and so the
+ * tolerances of queries, are in the units of the error metric.
  *
  * The whole extent of the input is requested. In parallel the first piece holds the hierarchy,
  * the others are empty.
@@ -30,6 +29,11 @@
 #include "vtkIsodiamondHierarchy.h"     // for the models
 #include "vtkPolyDataAlgorithm.h"
 
+namespace isodiamond
+{
+struct AffineMap;
+struct BuildOptions;
+}
 namespace vtkIsodiamond
 {
 struct Choice;
@@ -91,6 +95,43 @@ public:
 
   ///@{
   /**
+   * How the error of a tolerance is measured. *Distance*: in world units, from the full-resolution
+   * surface to the mesh; no vertex of the one is farther from the other than the tolerance. *Field*
+   * (the paper's): in field units, between the field and its linear interpolant. An HD has the
+   * field's only: distances need an isovalue. Default: field.
+   */
+  vtkSetClampMacro(
+    ErrorMetric, int, vtkIsodiamondHierarchy::FIELD, vtkIsodiamondHierarchy::DISTANCE);
+  vtkGetMacro(ErrorMetric, int);
+  void SetErrorMetricToField() { this->SetErrorMetric(vtkIsodiamondHierarchy::FIELD); }
+  void SetErrorMetricToDistance() { this->SetErrorMetric(vtkIsodiamondHierarchy::DISTANCE); }
+  ///@}
+
+  ///@{
+  /**
+   * Put every vertex on the full-resolution surface, to 1/256 of its lattice edge (2/256 where an
+   * edge carries both surfaces of an interval volume). Off, vertices lie where the field would
+   * cross the isovalue if it were linear along the edge, as in the paper; at full resolution both
+   * are the same. Default: on.
+   */
+  vtkSetMacro(ExactIsovertices, bool);
+  vtkGetMacro(ExactIsovertices, bool);
+  vtkBooleanMacro(ExactIsovertices, bool);
+  ///@}
+
+  ///@{
+  /**
+   * With the distance metric, keep every piece of the surface at any tolerance. Off, pieces that
+   * are thinner than the tolerance may vanish, and the promise of the tolerance with them. Default:
+   * on.
+   */
+  vtkSetMacro(PreserveFeatures, bool);
+  vtkGetMacro(PreserveFeatures, bool);
+  vtkBooleanMacro(PreserveFeatures, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether an interval volume can be refined inside, where no surface is: keeps every diamond
    * that has all vertices inside, with its field error, for vtkIsodiamondExtractor's
    * InteriorTolerance. Takes memory in proportion to the volume inside. An HD can without.
@@ -141,6 +182,9 @@ protected:
   int Shape = vtkIsodiamondHierarchy::ISOSURFACE;
   double Isovalue = 0.0;
   double Isorange[2] = { 0.0, 1.0 };
+  int ErrorMetric = vtkIsodiamondHierarchy::FIELD;
+  bool ExactIsovertices = true;
+  bool PreserveFeatures = true;
   bool RefineInterior = false;
   bool CloseBoundary = false;
   int NumberOfThreads = 0;
@@ -151,6 +195,8 @@ private:
 
   vtkIsodiamond::InputArray FindInputArray(vtkDataObject* input);
   vtkIsodiamond::Choice GetChoice() const;
+  isodiamond::BuildOptions GetOptions(const isodiamond::AffineMap& world) const;
+  void CheckModel() const;
   void BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output);
   void BuildFromHierarchy(vtkPolyData* input, vtkPolyData* output);
 };

@@ -18,9 +18,10 @@ namespace vtkIsodiamond
 {
 
 /**
- * The minimal hierarchies that a one-step filter has built of its current volume. Volumes count as
- * the same when array (object and time), dimensions and padding are: geometry is applied on
- * extraction.
+ * The minimal hierarchies that a one-step filter has built of its current volume, in the way that
+ * it is told to. Volumes count as the same when array (object and time), dimensions and padding
+ * are; with the distance metric lengths in the world have to be, too. All other geometry is applied
+ * on extraction.
  */
 class Cache
 {
@@ -33,8 +34,10 @@ public:
     std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy;
   };
 
-  /** Forgets what does not belong to the volume. @param array the image's own, before padding */
-  void Prepare(vtkDataArray* array, const std::array<int, 3>& dimensions, bool closed);
+  /** Forgets what does not belong to the volume and the options. @param array the image's own,
+   *  before padding @param options RefineInterior is Get()'s */
+  void Prepare(vtkDataArray* array, const Volume& volume, bool closed,
+    const isodiamond::BuildOptions& options);
 
   /** Forgets the hierarchies that keep(region) is false for. */
   template <typename Keep>
@@ -59,6 +62,7 @@ private:
   vtkMTimeType ArrayTime = 0;
   std::array<int, 3> Dimensions{};
   bool Closed = false;
+  isodiamond::BuildOptions Options;
   vtkIdType NumberOfBuilds = 0;
 };
 

@@ -6,6 +6,7 @@
 #include "vtkIsodiamondInput.h"
 #include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondRegion.h"
 #include "vtkIsodiamondThreads.h"
 
 #include "vtkAppendPolyData.h"
@@ -41,6 +42,11 @@ void vtkIsodiamondContour::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
+  os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
+  os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
+  os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
+  vtkIsodiamond::PrintRegion(
+    os, indent, this->UseRegionOfInterest, this->RegionOfInterest, this->OutsideErrorTolerance);
   os << indent << "ComputeNormals: " << (this->ComputeNormals ? "On" : "Off") << "\n";
   os << indent << "ComputeScalars: " << (this->ComputeScalars ? "On" : "Off") << "\n";
   os << indent << "CloseBoundary: " << (this->CloseBoundary ? "On" : "Off") << "\n";
@@ -57,12 +63,43 @@ vtkMTimeType vtkIsodiamondContour::GetMTime()
 }
 
 //------------------------------------------------------------------------------
+void vtkIsodiamondContour::SetRegionOfInterestPosition(double x, double y, double z)
+{
+  if (vtkIsodiamond::MoveRegion(this->RegionOfInterest, { x, y, z }))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondContour::SetRegionOfInterestSize(double x, double y, double z)
+{
+  if (vtkIsodiamond::ResizeRegion(this->RegionOfInterest, { x, y, z }))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::Query vtkIsodiamondContour::GetQuery() const
+{
+  vtkIsodiamond::Query query;
+  query.ErrorTolerance = this->ErrorTolerance;
+  query.OutsideErrorTolerance = this->OutsideErrorTolerance;
+  if (this->UseRegionOfInterest)
+  {
+    query.Region = vtkIsodiamond::RegionBox(this->RegionOfInterest);
+  }
+  return query;
+}
+
+//------------------------------------------------------------------------------
 double* vtkIsodiamondContour::GetErrorToleranceRange()
 {
   vtkDataObject* input =
     this->GetNumberOfInputConnections(0) > 0 ? this->GetInputDataObject(0, 0) : nullptr;
-  this->ErrorToleranceRange[1] =
-    vtkIsodiamond::ExtentOfValues(this->FindInputArray(input).Array).value_or(1.0);
+  this->ErrorToleranceRange[1] = vtkIsodiamond::LargestTolerance(
+    static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), input, this->FindInputArray(input));
   return this->ErrorToleranceRange;
 }
 
@@ -116,14 +153,17 @@ int vtkIsodiamondContour::RequestData(
   }
   try
   {
-    vtkIsodiamond::CheckTolerance(this->ErrorTolerance);
+    const vtkIsodiamond::Query query = this->GetQuery();
+    vtkIsodiamond::CheckTolerances(query);
     vtkImageData* image = vtkImageData::GetData(inputVector[0]);
     const vtkIsodiamond::InputArray array = this->FindInputArray(image);
     const vtkIsodiamond::Volume volume =
       vtkIsodiamond::ReadVolume(image, array, this->CloseBoundary);
     const double* values = this->ContourValues->GetValues();
     const double* end = values + this->ContourValues->GetNumberOfContours();
-    this->Hierarchies->Prepare(array.Array, volume.Dimensions, this->CloseBoundary);
+    this->Hierarchies->Prepare(array.Array, volume, this->CloseBoundary,
+      { static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), this->ExactIsovertices,
+        this->PreserveFeatures, false, volume.World });
     this->Hierarchies->Retain([&](const isodiamond::Isoregion& region)
       { return std::find(values, end, region.Isovalue()) != end; });
     vtkNew<vtkAppendPolyData> append;
@@ -132,7 +172,8 @@ int vtkIsodiamondContour::RequestData(
       {
         for (int i = 0; i < this->ContourValues->GetNumberOfContours(); ++i)
         {
-          append->AddInputData(this->ExtractContour(volume, this->ContourValues->GetValue(i)));
+          append->AddInputData(
+            this->ExtractContour(volume, query, this->ContourValues->GetValue(i)));
         }
       });
     if (append->GetNumberOfInputConnections(0) == 1)
@@ -166,12 +207,14 @@ vtkIsodiamond::InputArray vtkIsodiamondContour::FindInputArray(vtkDataObject* in
 
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> vtkIsodiamondContour::ExtractContour(
-  const vtkIsodiamond::Volume& volume, double isovalue)
+  const vtkIsodiamond::Volume& volume, const vtkIsodiamond::Query& query, double isovalue)
 {
   vtkIsodiamond::Choice choice;
   choice.Isovalue = isovalue;
-  const isodiamond::RefinedSet refined(
-    this->Hierarchies->Get(volume, choice.Region()), this->ErrorTolerance, vtkIsodiamond::SMPFor());
+  const isodiamond::IsodiamondHierarchy& hierarchy =
+    this->Hierarchies->Get(volume, choice.Region());
+  const isodiamond::RefinedSet refined(hierarchy,
+    vtkIsodiamond::CoreQuery(query, hierarchy.Domain(), volume.World), vtkIsodiamond::SMPFor());
   const vtkIsodiamond::Surface surface = vtkIsodiamond::ExtractSurface(refined, volume.World);
   vtkSmartPointer<vtkPolyData> contour = vtkSmartPointer<vtkPolyData>::New();
   contour->SetPoints(surface.Points);

@@ -25,6 +25,7 @@
 
 #include "vtkContourValues.h"           // for the inline methods
 #include "vtkIsodiamondFiltersModule.h" // for export macro
+#include "vtkIsodiamondHierarchy.h"     // for the metrics
 #include "vtkNew.h"                     // for the contour values
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // for the result of a helper
@@ -34,6 +35,7 @@
 namespace vtkIsodiamond
 {
 class Cache;
+struct Query;
 struct InputArray;
 struct Volume;
 }
@@ -68,15 +70,78 @@ public:
 
   ///@{
   /**
-   * The error that is tolerated, in field units; 0 is full resolution. Negative values and NaN
-   * are errors. Default: 0.
+   * The error that is tolerated, in world units by the distance metric and in field units by the
+   * field metric; 0 is full resolution. Negative values and NaN are errors. Default: 0.
    */
   vtkSetMacro(ErrorTolerance, double);
   vtkGetMacro(ErrorTolerance, double);
   ///@}
 
-  /** From 0 to the extent of the array's values, beyond which a tolerance changes nothing; {0, 1}
-   *  while there is no array. */
+  ///@{
+  /**
+   * How the error of a tolerance is measured. *Distance*: in world units, from the full-resolution
+   * surface to the mesh; no vertex of the one is farther from the other than the tolerance. *Field*
+   * (the paper's): in field units, between the field and its linear interpolant. Default:
+   * distance.
+   */
+  vtkSetClampMacro(
+    ErrorMetric, int, vtkIsodiamondHierarchy::FIELD, vtkIsodiamondHierarchy::DISTANCE);
+  vtkGetMacro(ErrorMetric, int);
+  void SetErrorMetricToField() { this->SetErrorMetric(vtkIsodiamondHierarchy::FIELD); }
+  void SetErrorMetricToDistance() { this->SetErrorMetric(vtkIsodiamondHierarchy::DISTANCE); }
+  ///@}
+
+  ///@{
+  /**
+   * Put every vertex on the full-resolution surface, to 1/256 of its lattice edge (2/256 where an
+   * edge carries both surfaces of an interval volume). Off, vertices lie where the field would
+   * cross the isovalue if it were linear along the edge, as in the paper; at full resolution both
+   * are the same. Default: on.
+   */
+  vtkSetMacro(ExactIsovertices, bool);
+  vtkGetMacro(ExactIsovertices, bool);
+  vtkBooleanMacro(ExactIsovertices, bool);
+  ///@}
+
+  ///@{
+  /**
+   * With the distance metric, keep every piece of the surface at any tolerance. Off, pieces that
+   * are thinner than the tolerance may vanish, and the promise of the tolerance with them. Default:
+   * on.
+   */
+  vtkSetMacro(PreserveFeatures, bool);
+  vtkGetMacro(PreserveFeatures, bool);
+  vtkBooleanMacro(PreserveFeatures, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Finer in a region of interest: ErrorTolerance holds in the closed box RegionOfInterest (xmin,
+   * xmax, ymin, ymax, zmin, zmax, in the world), OutsideErrorTolerance elsewhere. Position is the
+   * box's lowest corner. A new region only extracts again. See vtkIsodiamondExtractor. Defaults:
+   * off, the unit cube, VTK_DOUBLE_MAX.
+   */
+  vtkSetMacro(UseRegionOfInterest, bool);
+  vtkGetMacro(UseRegionOfInterest, bool);
+  vtkBooleanMacro(UseRegionOfInterest, bool);
+  vtkSetVector6Macro(RegionOfInterest, double);
+  vtkGetVector6Macro(RegionOfInterest, double);
+  void SetRegionOfInterestPosition(double x, double y, double z);
+  void SetRegionOfInterestPosition(double position[3])
+  {
+    this->SetRegionOfInterestPosition(position[0], position[1], position[2]);
+  }
+  void SetRegionOfInterestSize(double x, double y, double z);
+  void SetRegionOfInterestSize(double size[3])
+  {
+    this->SetRegionOfInterestSize(size[0], size[1], size[2]);
+  }
+  vtkSetMacro(OutsideErrorTolerance, double);
+  vtkGetMacro(OutsideErrorTolerance, double);
+  ///@}
+
+  /** Tolerances that are worth trying: up to 2 % of the image's diagonal by the distance metric, to
+   *  the extent of the array's values by the field metric; {0, 1} while there is no input. */
   double* GetErrorToleranceRange() VTK_SIZEHINT(2);
 
   ///@{
@@ -131,6 +196,12 @@ protected:
 
   vtkNew<vtkContourValues> ContourValues;
   double ErrorTolerance = 0.0;
+  int ErrorMetric = vtkIsodiamondHierarchy::DISTANCE;
+  bool ExactIsovertices = true;
+  bool PreserveFeatures = true;
+  bool UseRegionOfInterest = false;
+  double RegionOfInterest[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+  double OutsideErrorTolerance = VTK_DOUBLE_MAX;
   vtkTypeBool ComputeNormals = 1;
   vtkTypeBool ComputeScalars = 1;
   bool CloseBoundary = false;
@@ -143,8 +214,12 @@ private:
 
   vtkIsodiamond::InputArray FindInputArray(vtkDataObject* input);
 
+  /** What the properties ask of a hierarchy. */
+  vtkIsodiamond::Query GetQuery() const;
+
   /** The surface of one isovalue; builds its hierarchy if there is none yet. */
-  vtkSmartPointer<vtkPolyData> ExtractContour(const vtkIsodiamond::Volume& volume, double isovalue);
+  vtkSmartPointer<vtkPolyData> ExtractContour(
+    const vtkIsodiamond::Volume& volume, const vtkIsodiamond::Query& query, double isovalue);
 
   std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
 };

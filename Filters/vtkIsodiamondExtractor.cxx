@@ -4,6 +4,7 @@
 #include "vtkIsodiamondInput.h"
 #include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondRegion.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -11,16 +12,41 @@
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <optional>
+
 vtkStandardNewMacro(vtkIsodiamondExtractor);
 
 //------------------------------------------------------------------------------
+struct vtkIsodiamondExtractor::Execution
+{
+  std::shared_ptr<const vtkIsodiamond::State> State;
+  vtkIsodiamond::Query Query;
+  std::optional<vtkIdType> Subdivided;
+  std::optional<vtkIdType> Front;
+
+  /** Asks again, and only counts. */
+  vtkIdType Count(std::int64_t (isodiamond::RefinedSet::*count)() const, int numberOfThreads) const
+  {
+    vtkIdType result = 0;
+    vtkIsodiamond::RefineState(*this->State, this->Query, numberOfThreads,
+      [&](const isodiamond::RefinedSet& refined) { result = (refined.*count)(); });
+    return result;
+  }
+};
+
+//------------------------------------------------------------------------------
 vtkIsodiamondExtractor::vtkIsodiamondExtractor() = default;
+
+//------------------------------------------------------------------------------
+vtkIsodiamondExtractor::~vtkIsodiamondExtractor() = default;
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
+  vtkIsodiamond::PrintRegion(
+    os, indent, this->UseRegionOfInterest, this->RegionOfInterest, this->OutsideErrorTolerance);
   os << indent << "InteriorTolerance: " << this->InteriorTolerance << "\n";
   os << indent << "Shape: " << this->Shape << "\n";
   os << indent << "Isorange: " << this->Isorange[0] << " " << this->Isorange[1] << "\n";
@@ -66,11 +92,56 @@ void vtkIsodiamondExtractor::StoreIsorange(double lower, double upper)
 }
 
 //------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::SetRegionOfInterestPosition(double x, double y, double z)
+{
+  if (vtkIsodiamond::MoveRegion(this->RegionOfInterest, { x, y, z }))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::SetRegionOfInterestSize(double x, double y, double z)
+{
+  if (vtkIsodiamond::ResizeRegion(this->RegionOfInterest, { x, y, z }))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondExtractor::GetNumberOfSubdividedDiamonds()
+{
+  if (this->Last && !this->Last->Subdivided)
+  {
+    this->Last->Subdivided =
+      this->Last->Count(&isodiamond::RefinedSet::Count, this->NumberOfThreads);
+  }
+  return this->Last ? *this->Last->Subdivided : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondExtractor::GetNumberOfFrontDiamonds()
+{
+  if (this->Last && !this->Last->Front)
+  {
+    this->Last->Front =
+      this->Last->Count(&isodiamond::RefinedSet::CountFront, this->NumberOfThreads);
+  }
+  return this->Last ? *this->Last->Front : 0;
+}
+
+//------------------------------------------------------------------------------
 vtkIsodiamond::Query vtkIsodiamondExtractor::GetQuery() const
 {
   vtkIsodiamond::Query query;
   query.ErrorTolerance = this->ErrorTolerance;
   query.InteriorTolerance = this->InteriorTolerance;
+  query.OutsideErrorTolerance = this->OutsideErrorTolerance;
+  if (this->UseRegionOfInterest)
+  {
+    query.Region = vtkIsodiamond::RegionBox(this->RegionOfInterest);
+  }
   if (this->Shape >= 0)
   {
     query.Shape = static_cast<isodiamond::Shape>(this->Shape);
@@ -100,7 +171,7 @@ vtkFieldData* vtkIsodiamondExtractor::FindHierarchy()
 double* vtkIsodiamondExtractor::GetErrorToleranceRange()
 {
   vtkFieldData* hierarchy = this->FindHierarchy();
-  this->ErrorToleranceRange[1] = hierarchy ? vtkIsodiamond::ErrorScale(hierarchy) : 1.0;
+  this->ErrorToleranceRange[1] = hierarchy ? vtkIsodiamond::LargestTolerance(hierarchy) : 1.0;
   return this->ErrorToleranceRange;
 }
 
@@ -109,7 +180,7 @@ double* vtkIsodiamondExtractor::GetInteriorToleranceRange()
 {
   vtkFieldData* hierarchy = this->FindHierarchy();
   this->InteriorToleranceRange[1] =
-    hierarchy ? vtkIsodiamond::ErrorScale(hierarchy) : VTK_DOUBLE_MAX;
+    hierarchy ? vtkIsodiamond::FieldScale(hierarchy) : VTK_DOUBLE_MAX;
   return this->InteriorToleranceRange;
 }
 
@@ -125,16 +196,21 @@ int vtkIsodiamondExtractor::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  this->Last.reset();
   if (!vtkIsodiamond::IsFirstPiece(outputVector->GetInformationObject(0)))
   {
     return 1; // the first piece has all of it
   }
   try
   {
-    vtkIsodiamond::RunQuery(this, vtkPolyData::GetData(inputVector[0]), this->GetQuery(),
-      this->NumberOfThreads,
-      [&](const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined)
-      { this->WriteMesh(state, refined, output); });
+    auto execution = std::make_unique<Execution>();
+    execution->Query = this->GetQuery();
+    execution->State =
+      vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), execution->Query);
+    vtkIsodiamond::RefineState(*execution->State, execution->Query, this->NumberOfThreads,
+      [&](const isodiamond::RefinedSet& refined)
+      { this->WriteMesh(*execution->State, refined, output); });
+    this->Last = std::move(execution);
   }
   catch (const std::exception& problem)
   {

@@ -26,6 +26,8 @@
 #include "vtkIsodiamondHierarchy.h"     // for the shapes
 #include "vtkUnstructuredGridAlgorithm.h"
 
+#include <memory> // for the last execution
+
 namespace isodiamond
 {
 class RefinedSet;
@@ -45,20 +47,75 @@ public:
 
   ///@{
   /**
-   * The error that is tolerated, in field units: at every sample in a tetrahedron that carries
-   * the surface, field and interpolant differ by no more. 0 is full resolution; infinity the
-   * coarsest. Negative values and NaN are errors. Default: 0.
+   * The error that is tolerated, in the units of the hierarchy's metric. *Distance*: world units;
+   * no vertex of the full-resolution surface is farther from the mesh. *Field* (the paper's): field
+   * units; at every sample in a tetrahedron that carries the surface, field and interpolant differ
+   * by no more. 0 is full resolution; infinity the coarsest. Negative values and NaN are errors.
+   * Default: 0.
    */
   vtkSetMacro(ErrorTolerance, double);
   vtkGetMacro(ErrorTolerance, double);
   ///@}
 
-  /** From 0 to the extent of the field's values, beyond which a tolerance changes nothing; {0, 1}
-   *  while there is no hierarchy. */
+  ///@{
+  /**
+   * Whether ErrorTolerance and InteriorTolerance hold in the region of interest only, and
+   * OutsideErrorTolerance elsewhere. Default: off.
+   */
+  vtkSetMacro(UseRegionOfInterest, bool);
+  vtkGetMacro(UseRegionOfInterest, bool);
+  vtkBooleanMacro(UseRegionOfInterest, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The region of interest, a closed box along the world's axes (xmin, xmax, ymin, ymax, zmin,
+   * zmax), whatever the image's direction. In it the mesh is the uniform one of ErrorTolerance,
+   * outside as coarse as OutsideErrorTolerance and conformity let it be. Bounds may be infinite; a
+   * box with a minimum greater than its maximum is empty. Position is its lowest corner; setting it
+   * keeps the size, setting the size keeps the position. Default: the unit cube [0, 1]^3.
+   */
+  vtkSetVector6Macro(RegionOfInterest, double);
+  vtkGetVector6Macro(RegionOfInterest, double);
+  void SetRegionOfInterestPosition(double x, double y, double z);
+  void SetRegionOfInterestPosition(double position[3])
+  {
+    this->SetRegionOfInterestPosition(position[0], position[1], position[2]);
+  }
+  void SetRegionOfInterestSize(double x, double y, double z);
+  void SetRegionOfInterestSize(double size[3])
+  {
+    this->SetRegionOfInterestSize(size[0], size[1], size[2]);
+  }
+  ///@}
+
+  ///@{
+  /**
+   * The error that is tolerated outside of the region of interest, in the units of ErrorTolerance.
+   * Default: VTK_DOUBLE_MAX, as good as infinity.
+   */
+  vtkSetMacro(OutsideErrorTolerance, double);
+  vtkGetMacro(OutsideErrorTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Of the last execution: how many stored diamonds were subdivided, and the size of the active
+   * front: diamonds that were not but have a subdivided parent, or the root alone. All diamonds of
+   * the domain count for HD and RI, stored ones for MI. 0 before the first execution and after an
+   * error. They are counted on demand: the front takes about as long as the extraction.
+   */
+  vtkIdType GetNumberOfSubdividedDiamonds();
+  vtkIdType GetNumberOfFrontDiamonds();
+  ///@}
+
+  /** Tolerances that are worth trying: field metric, from 0 to the extent of the field's values,
+   *  beyond which a tolerance changes nothing; distance metric, up to 2 % of the grid's diagonal.
+   *  {0, 1} while there is no hierarchy. */
   double* GetErrorToleranceRange() VTK_SIZEHINT(2);
 
-  /** The same for the interior tolerance; its maximum, which is as good as infinity, stays at
-   *  VTK_DOUBLE_MAX while there is no hierarchy. */
+  /** The same for the interior tolerance, in field units; its maximum, which is as good as
+   *  infinity, stays at VTK_DOUBLE_MAX while there is no hierarchy. */
   double* GetInteriorToleranceRange() VTK_SIZEHINT(2);
 
   ///@{
@@ -123,7 +180,7 @@ public:
 
 protected:
   vtkIsodiamondExtractor();
-  ~vtkIsodiamondExtractor() override = default;
+  ~vtkIsodiamondExtractor() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -137,6 +194,9 @@ protected:
   vtkIsodiamond::Query GetQuery() const;
 
   double ErrorTolerance = 0.0;
+  bool UseRegionOfInterest = false;
+  double RegionOfInterest[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+  double OutsideErrorTolerance = VTK_DOUBLE_MAX;
   double InteriorTolerance = VTK_DOUBLE_MAX;
   int Shape = -1;
   double Isorange[2] = { 0.0, 1.0 };
@@ -147,11 +207,15 @@ protected:
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
   double InteriorToleranceRange[2] = { 0.0, VTK_DOUBLE_MAX };
 
-  vtkFieldData* FindHierarchy();
-
 private:
   vtkIsodiamondExtractor(const vtkIsodiamondExtractor&) = delete;
   void operator=(const vtkIsodiamondExtractor&) = delete;
+
+  vtkFieldData* FindHierarchy();
+
+  /** The hierarchy, query and counts of the last execution. */
+  struct Execution;
+  std::unique_ptr<Execution> Last;
 };
 
 #endif

@@ -81,6 +81,13 @@ int vtkIsodiamondHierarchy::GetShape()
 }
 
 //------------------------------------------------------------------------------
+int vtkIsodiamondHierarchy::GetErrorMetric()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state ? static_cast<int>(state->Metric) : -1;
+}
+
+//------------------------------------------------------------------------------
 std::string vtkIsodiamondHierarchy::GetArrayName()
 {
   const vtkIsodiamond::State* state = this->GetState();

@@ -48,6 +48,13 @@ public:
     INTERVAL_VOLUME = 1 ///< of an isorange: tetrahedra
   };
 
+  /** How the errors of its diamonds were measured. */
+  enum ErrorMetrics
+  {
+    FIELD = 0,   ///< in field units, the paper's
+    DISTANCE = 1 ///< in world units
+  };
+
   ///@{
   /**
    * What the hierarchy is of; the shape of an HD is the default of queries. -1 if the arrays are
@@ -56,6 +63,9 @@ public:
   int GetModel();
   int GetShape();
   ///@}
+
+  /** The metric of its errors and so of tolerances; -1 as above. */
+  int GetErrorMetric();
 
   /** Name of the array that the hierarchy was built from. */
   std::string GetArrayName();

@@ -9,6 +9,7 @@
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace vtkIsodiamond
@@ -202,6 +203,33 @@ std::optional<double> ExtentOfValues(vtkDataArray* array)
   double range[2];
   array->GetFiniteRange(range);
   return range[1] > range[0] ? std::optional<double>(range[1] - range[0]) : std::nullopt;
+}
+
+double LargestTolerance(
+  isodiamond::ErrorMetric metric, vtkDataObject* input, const InputArray& array)
+{
+  if (metric == isodiamond::ErrorMetric::Field)
+  {
+    return ExtentOfValues(array.Array).value_or(1.0);
+  }
+  vtkImageData* image = vtkImageData::SafeDownCast(input);
+  if (!image || image->GetNumberOfPoints() == 0)
+  {
+    return 1.0;
+  }
+  std::array<int, 3> dimensions{};
+  image->GetDimensions(dimensions.data());
+  const isodiamond::AffineMap world = IndexToWorld(image, 0);
+  std::array<double, 3> diagonal{};
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      diagonal[i] += world.Rows[i][j] * (dimensions[j] - 1);
+    }
+  }
+  const double length = std::hypot(diagonal[0], diagonal[1], diagonal[2]);
+  return std::isfinite(length) && length > 0.0 ? DistanceOfInterest * length : 1.0;
 }
 
 Volume ReadVolume(vtkImageData* image, const InputArray& inputArray, bool closeBoundary)

@@ -3,6 +3,7 @@
 #define vtkIsodiamondInput_h
 
 #include "AffineMap.h"
+#include "IsodiamondHierarchy.h"
 #include "Samples.h"
 
 #include "vtkSmartPointer.h"
@@ -45,6 +46,14 @@ InputArray OrScalars(const InputArray& found, vtkInformation* request, vtkDataOb
 
 /** Largest less smallest finite value; nothing if there is no array, or if that is 0. */
 std::optional<double> ExtentOfValues(vtkDataArray* array);
+
+/** Distance tolerances beyond this part of the grid's diagonal are hardly of use. */
+inline constexpr double DistanceOfInterest = 0.02;
+
+/** The largest error tolerance that is worth trying on an image's array: by the distance metric
+ * part of the diagonal, by the field metric the extent of the values; 1 while there is no input. */
+double LargestTolerance(
+  isodiamond::ErrorMetric metric, vtkDataObject* input, const InputArray& array);
 
 /**
  * An image's array as samples.

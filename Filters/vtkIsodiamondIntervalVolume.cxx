@@ -5,6 +5,7 @@
 #include "vtkIsodiamondInput.h"
 #include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondRegion.h"
 #include "vtkIsodiamondThreads.h"
 
 #include "vtkDataSetAttributes.h"
@@ -33,6 +34,11 @@ void vtkIsodiamondIntervalVolume::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Isorange: " << this->Isorange[0] << " " << this->Isorange[1] << "\n";
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
+  os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
+  os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
+  os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
+  vtkIsodiamond::PrintRegion(
+    os, indent, this->UseRegionOfInterest, this->RegionOfInterest, this->OutsideErrorTolerance);
   os << indent << "InteriorTolerance: " << this->InteriorTolerance << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "NumberOfBuilds: " << this->GetNumberOfBuilds() << "\n";
@@ -45,10 +51,43 @@ vtkDataObject* vtkIsodiamondIntervalVolume::FindInput()
 }
 
 //------------------------------------------------------------------------------
+void vtkIsodiamondIntervalVolume::SetRegionOfInterestPosition(double x, double y, double z)
+{
+  if (vtkIsodiamond::MoveRegion(this->RegionOfInterest, { x, y, z }))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondIntervalVolume::SetRegionOfInterestSize(double x, double y, double z)
+{
+  if (vtkIsodiamond::ResizeRegion(this->RegionOfInterest, { x, y, z }))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::Query vtkIsodiamondIntervalVolume::GetQuery() const
+{
+  vtkIsodiamond::Query query;
+  query.ErrorTolerance = this->ErrorTolerance;
+  query.InteriorTolerance = this->InteriorTolerance;
+  query.OutsideErrorTolerance = this->OutsideErrorTolerance;
+  if (this->UseRegionOfInterest)
+  {
+    query.Region = vtkIsodiamond::RegionBox(this->RegionOfInterest);
+  }
+  return query;
+}
+
+//------------------------------------------------------------------------------
 double* vtkIsodiamondIntervalVolume::GetErrorToleranceRange()
 {
-  vtkDataArray* array = this->FindInputArray(this->FindInput()).Array;
-  this->ErrorToleranceRange[1] = vtkIsodiamond::ExtentOfValues(array).value_or(1.0);
+  this->ErrorToleranceRange[1] =
+    vtkIsodiamond::LargestTolerance(static_cast<isodiamond::ErrorMetric>(this->ErrorMetric),
+      this->FindInput(), this->FindInputArray(this->FindInput()));
   return this->ErrorToleranceRange;
 }
 
@@ -103,21 +142,26 @@ int vtkIsodiamondIntervalVolume::RequestData(
   }
   try
   {
-    vtkIsodiamond::CheckTolerance(this->ErrorTolerance);
-    vtkIsodiamond::CheckTolerance(this->InteriorTolerance, "interior");
+    const vtkIsodiamond::Query query = this->GetQuery();
+    vtkIsodiamond::CheckTolerances(query);
     const isodiamond::Isoregion region(this->Isorange[0], this->Isorange[1]);
     vtkImageData* image = vtkImageData::GetData(inputVector[0]);
     const vtkIsodiamond::InputArray array = this->FindInputArray(image);
     const vtkIsodiamond::Volume volume = vtkIsodiamond::ReadVolume(image, array, false);
-    this->Hierarchies->Prepare(array.Array, volume.Dimensions, false);
+    this->Hierarchies->Prepare(array.Array, volume, false,
+      { static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), this->ExactIsovertices,
+        this->PreserveFeatures, false, volume.World });
     this->Hierarchies->Retain([&](const isodiamond::Isoregion& kept) { return kept == region; });
     const bool refineInterior =
       this->InteriorTolerance < vtkIsodiamond::ExtentOfValues(array.Array).value_or(0.0);
     vtkIsodiamond::RunThreaded(this->NumberOfThreads,
       [&]
       {
-        const isodiamond::RefinedSet refined(this->Hierarchies->Get(volume, region, refineInterior),
-          this->ErrorTolerance, vtkIsodiamond::SMPFor(), this->InteriorTolerance);
+        const isodiamond::IsodiamondHierarchy& hierarchy =
+          this->Hierarchies->Get(volume, region, refineInterior);
+        const isodiamond::RefinedSet refined(hierarchy,
+          vtkIsodiamond::CoreQuery(query, hierarchy.Domain(), volume.World),
+          vtkIsodiamond::SMPFor());
         vtkIsodiamond::ExtractMesh(refined, volume.World, volume.ArrayName, output);
       });
   }

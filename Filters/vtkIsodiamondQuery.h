@@ -19,11 +19,14 @@
 namespace vtkIsodiamond
 {
 
-/** What the filters that read a hierarchy ask it. */
+/** What a filter's properties ask of a hierarchy. */
 struct Query
 {
   double ErrorTolerance = 0.0;
   double InteriorTolerance = HUGE_VAL;
+  /** In the world; the tolerances hold there. */
+  std::optional<isodiamond::Box> Region;
+  double OutsideErrorTolerance = HUGE_VAL;
   /** What to extract instead of the hierarchy's own; an HD can. */
   std::optional<isodiamond::Shape> Shape;
   std::optional<double> Isovalue;
@@ -49,6 +52,29 @@ inline void CheckTolerance(double tolerance, const std::string& name = "error")
   }
 }
 
+/** The same for all tolerances of a query. */
+inline void CheckTolerances(const Query& query)
+{
+  CheckTolerance(query.ErrorTolerance);
+  CheckTolerance(query.InteriorTolerance, "interior");
+  CheckTolerance(query.OutsideErrorTolerance, "outside error");
+}
+
+/** The query in terms of the core. @param world from the grid's index space */
+inline isodiamond::Query CoreQuery(
+  const Query& query, const isodiamond::Grid& grid, const isodiamond::AffineMap& world)
+{
+  isodiamond::Query result;
+  result.Tolerance = query.ErrorTolerance;
+  result.InteriorTolerance = query.InteriorTolerance;
+  result.OutsideTolerance = query.OutsideErrorTolerance;
+  if (query.Region)
+  {
+    result.Region.emplace(*query.Region, grid, world);
+  }
+  return result;
+}
+
 /** Says so where a relevant or minimal hierarchy cannot do what the query asks. */
 inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, const Query& query)
 {
@@ -64,7 +90,7 @@ inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, cons
       "isorange has no effect.");
   }
   if (isVolume && !hierarchy.RefinesInterior() &&
-    query.InteriorTolerance < hierarchy.Codes().Scale())
+    query.InteriorTolerance < hierarchy.InteriorCodes().Scale())
   {
     vtkWarningWithObjectMacro(filter,
       "The hierarchy was built without RefineInterior: the interior tolerance has no effect.");
@@ -72,42 +98,47 @@ inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, cons
 }
 
 /**
- * Calls use(state, refined) with the refined set of the RI or MI that a data set holds, or of the
- * answer of its HD to the query.
+ * Calls use(refined) with the refined set of an RI or MI, or of the answer of an HD to a query.
  *
- * @throws std::exception that says what is wrong with the input or the query
+ * @throws std::exception that says what is wrong with the query
  */
 template <typename Use>
-void RunQuery(
-  vtkAlgorithm* filter, vtkPolyData* input, const Query& query, int numberOfThreads, Use&& use)
+void RefineState(const State& state, const Query& query, int numberOfThreads, Use&& use)
 {
-  CheckTolerance(query.ErrorTolerance);
-  CheckTolerance(query.InteriorTolerance, "interior");
+  RunThreaded(numberOfThreads,
+    [&]
+    {
+      if (state.Isodiamonds)
+      {
+        const isodiamond::Grid& grid = state.Isodiamonds->Domain();
+        use(isodiamond::RefinedSet(
+          *state.Isodiamonds, CoreQuery(query, grid, state.World), SMPFor()));
+        return;
+      }
+      const isodiamond::Encoding answer =
+        isodiamond::EncodeQuery(*state.Scalars, query.Override(state.Chosen).Region(),
+          CoreQuery(query, state.Scalars->Domain(), state.World), state.ExactIsovertices, SMPFor());
+      const isodiamond::IsodiamondHierarchy hierarchy(answer, SMPFor());
+      use(isodiamond::RefinedSet(hierarchy, {}, SMPFor()));
+    });
+}
+
+/** The hierarchy that a data set holds, ready for a query.
+ *  @throws std::exception that says what is wrong with the input or the query */
+inline std::shared_ptr<const State> ReadForQuery(
+  vtkAlgorithm* filter, vtkPolyData* input, const Query& query)
+{
+  CheckTolerances(query);
   if (!input)
   {
     throw std::invalid_argument("There is no input hierarchy.");
   }
-  const std::shared_ptr<const State> state = vtkIsodiamondHierarchy::ReadState(input);
+  std::shared_ptr<const State> state = vtkIsodiamondHierarchy::ReadState(input);
   if (state->Isodiamonds)
   {
     WarnOfWhatHasNoEffect(filter, *state, query);
   }
-  RunThreaded(numberOfThreads,
-    [&]
-    {
-      if (state->Isodiamonds)
-      {
-        use(*state,
-          isodiamond::RefinedSet(
-            *state->Isodiamonds, query.ErrorTolerance, SMPFor(), query.InteriorTolerance));
-        return;
-      }
-      const isodiamond::Encoding answer =
-        isodiamond::EncodeQuery(*state->Scalars, query.Override(state->Chosen).Region(),
-          query.ErrorTolerance, SMPFor(), query.InteriorTolerance);
-      const isodiamond::IsodiamondHierarchy hierarchy(answer, SMPFor());
-      use(*state, isodiamond::RefinedSet(hierarchy, 0.0, SMPFor()));
-    });
+  return state;
 }
 
 }

@@ -25,10 +25,16 @@ namespace vtkIsodiamond
 namespace
 {
 
-constexpr int FormatVersion = 1;
-constexpr int HeaderCount = 7;
-constexpr int ParameterCount = 16;
+constexpr int FormatVersion = 2;
+constexpr int HeaderCount = 9;
+constexpr int ParameterCount = 17;
 constexpr const char* HeaderName = "IsodiamondHeader";
+constexpr const char* ParametersName = "IsodiamondParameters";
+constexpr int ErrorScaleAt = 3; ///< among the parameters
+constexpr int FieldScaleAt = 4;
+constexpr int WorldAt = 5;
+constexpr int MetricAt = 7; ///< in the header
+constexpr int ExactAt = 8;
 
 template <typename Array, typename T>
 void AddArray(vtkFieldData* fieldData, const char* name, const std::vector<T>& values)
@@ -99,14 +105,15 @@ void WriteHeader(const isodiamond::EncodingHeader& header, const Choice& choice,
   AddArray<vtkTypeInt64Array>(fieldData, HeaderName,
     std::vector<std::int64_t>{ FormatVersion, static_cast<int>(header.Kind),
       static_cast<int>(choice.Shape), header.Dimensions[0], header.Dimensions[1],
-      header.Dimensions[2], header.RelevantCount });
+      header.Dimensions[2], header.RelevantCount, static_cast<int>(header.Metric),
+      header.ExactIsovertices ? 1 : 0 });
   std::vector<double> parameters = { choice.Isovalue, choice.Isorange[0], choice.Isorange[1],
-    header.ErrorScale };
+    header.ErrorScale, header.FieldScale };
   for (const std::array<double, 4>& row : world.Rows)
   {
     parameters.insert(parameters.end(), row.begin(), row.end());
   }
-  AddArray<vtkDoubleArray>(fieldData, "IsodiamondParameters", parameters);
+  AddArray<vtkDoubleArray>(fieldData, ParametersName, parameters);
   vtkNew<vtkStringArray> name;
   name->SetName("IsodiamondArrayName");
   name->InsertNextValue(arrayName.c_str());
@@ -239,13 +246,14 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   {
     throw std::invalid_argument("the hierarchy has an unknown format version");
   }
-  if (header[1] < 0 || header[1] > 2 || header[2] < 0 || header[2] > 1)
+  if (header[1] < 0 || header[1] > 2 || header[2] < 0 || header[2] > 1 || header[MetricAt] < 0 ||
+    header[MetricAt] > 1)
   {
-    throw std::invalid_argument("the hierarchy is of an unknown model or shape");
+    throw std::invalid_argument("the hierarchy is of an unknown model, shape or metric");
   }
-  const isodiamond::ArrayView<double> parameters = reader.Values<double>("IsodiamondParameters");
+  const isodiamond::ArrayView<double> parameters = reader.Values<double>(ParametersName);
   if (parameters.Size != ParameterCount ||
-    !std::all_of(parameters.Data + 3, parameters.Data + parameters.Size,
+    !std::all_of(parameters.Data + ErrorScaleAt, parameters.Data + parameters.Size,
       [](double value) { return std::isfinite(value); }))
   {
     throw std::invalid_argument("the hierarchy's parameters are malformed");
@@ -261,11 +269,19 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
     { parameters[1], parameters[2] } };
   for (int i = 0; i < 12; ++i)
   {
-    state.World.Rows[i / 4][i % 4] = parameters[4 + i];
+    state.World.Rows[i / 4][i % 4] = parameters[WorldAt + i];
   }
-  const isodiamond::EncodingHeader core{ static_cast<isodiamond::Model>(header[1]),
-    { Dimension(header[3]), Dimension(header[4]), Dimension(header[5]) }, state.Chosen.Region(),
-    parameters[3], header[6] };
+  state.Metric = static_cast<isodiamond::ErrorMetric>(header[MetricAt]);
+  state.ExactIsovertices = header[ExactAt] != 0;
+  isodiamond::EncodingHeader core;
+  core.Kind = static_cast<isodiamond::Model>(header[1]);
+  core.Dimensions = { Dimension(header[3]), Dimension(header[4]), Dimension(header[5]) };
+  core.Region = state.Chosen.Region();
+  core.Metric = state.Metric;
+  core.ErrorScale = parameters[ErrorScaleAt];
+  core.FieldScale = parameters[FieldScaleAt];
+  core.ExactIsovertices = state.ExactIsovertices;
+  core.RelevantCount = header[6];
   if (core.Kind == isodiamond::Model::HierarchyOfDiamonds)
   {
     ReadScalars(reader, core, state);
@@ -276,6 +292,15 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   }
 }
 
+/** A scale among a hierarchy's parameters; 1 if there is no hierarchy. */
+double Parameter(vtkFieldData* fieldData, int index)
+{
+  vtkDataArray* parameters = fieldData ? fieldData->GetArray(ParametersName) : nullptr;
+  const bool valid = parameters && parameters->GetNumberOfTuples() == ParameterCount &&
+    parameters->GetNumberOfComponents() == 1;
+  return isodiamond::ErrorCode(valid ? parameters->GetTuple1(index) : 1.0).Scale();
+}
+
 }
 
 bool HasHierarchy(vtkFieldData* fieldData)
@@ -283,12 +308,18 @@ bool HasHierarchy(vtkFieldData* fieldData)
   return fieldData && fieldData->GetAbstractArray(HeaderName) != nullptr;
 }
 
-double ErrorScale(vtkFieldData* fieldData)
+double LargestTolerance(vtkFieldData* fieldData)
 {
-  vtkDataArray* parameters = fieldData ? fieldData->GetArray("IsodiamondParameters") : nullptr;
-  const bool valid = parameters && parameters->GetNumberOfTuples() == ParameterCount &&
-    parameters->GetNumberOfComponents() == 1;
-  return isodiamond::ErrorCode(valid ? parameters->GetTuple1(3) : 1.0).Scale();
+  vtkDataArray* header = fieldData ? fieldData->GetArray(HeaderName) : nullptr;
+  const bool isDistance = header && header->GetNumberOfComponents() == 1 &&
+    header->GetNumberOfTuples() == HeaderCount &&
+    header->GetTuple1(MetricAt) == static_cast<int>(isodiamond::ErrorMetric::Distance);
+  return (isDistance ? DistanceOfInterest : 1.0) * Parameter(fieldData, ErrorScaleAt);
+}
+
+double FieldScale(vtkFieldData* fieldData)
+{
+  return Parameter(fieldData, FieldScaleAt);
 }
 
 std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
@@ -341,15 +372,20 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice
 }
 
 void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choice,
-  const Volume& volume, vtkPolyData* output)
+  bool exactIsovertices, const Volume& volume, vtkPolyData* output)
 {
   const std::array<int, 3> dimensions =
     std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
   WriteOutline(dimensions, volume.World, output);
   vtkFieldData* fieldData = output->GetFieldData();
-  WriteHeader(
-    { isodiamond::Model::HierarchyOfDiamonds, dimensions, choice.Region(), encoding.ErrorScale, 0 },
-    choice, volume.World, volume.ArrayName, fieldData);
+  isodiamond::EncodingHeader header;
+  header.Kind = isodiamond::Model::HierarchyOfDiamonds;
+  header.Dimensions = dimensions;
+  header.Region = choice.Region();
+  header.ErrorScale = encoding.ErrorScale;
+  header.FieldScale = encoding.ErrorScale;
+  header.ExactIsovertices = exactIsovertices;
+  WriteHeader(header, choice, volume.World, volume.ArrayName, fieldData);
   // The input's own array under another name: shared memory would rename it for the input too.
   AddSamples(fieldData, "IsodiamondSamples", volume.Array->GetDataType(),
     volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());

@@ -23,8 +23,10 @@ class vtkPolyData;
  *
  * | array | values |
  * |---|---|
- * | IsodiamondHeader | int64: format version, model, shape, dimensions (3), m_r |
- * | IsodiamondParameters | float64: isovalue, isorange (2), error scale, index to world (3x4) |
+ * | IsodiamondHeader | int64: format version, model, shape, dimensions (3), m_r, metric, whether |
+ * | | isovertices are exact |
+ * | IsodiamondParameters | float64: isovalue, isorange (2), error scale, field scale, index to |
+ * | | world (3x4) |
  * | IsodiamondArrayName | string: name of the input's array |
  * | IsodiamondBrickCounts, ...BrickIndices | uint32, see isodiamond::EncodingArrays |
  * | IsodiamondBrickMasks | uint64 |
@@ -45,6 +47,8 @@ struct State
   int Model = 0; ///< as isodiamond::Model
   /** What RI and MI are of; of an HD the default of queries. */
   Choice Chosen;
+  isodiamond::ErrorMetric Metric = isodiamond::ErrorMetric::Field;
+  bool ExactIsovertices = true; ///< of an HD: those that queries make
   std::string ArrayName;
   isodiamond::AffineMap World;
   std::int64_t StorageSize = 0;
@@ -57,8 +61,11 @@ struct State
 /** Whether the field data has the header of a hierarchy. */
 bool HasHierarchy(vtkFieldData* fieldData);
 
-/** The largest error that the hierarchy's codes can tell; 1 if there is no hierarchy. */
-double ErrorScale(vtkFieldData* fieldData);
+/** The largest error tolerance that is worth trying; 1 if there is no hierarchy. */
+double LargestTolerance(vtkFieldData* fieldData);
+
+/** The extent of the field's values; 1 if there is no hierarchy. */
+double FieldScale(vtkFieldData* fieldData);
 
 /** Reads and checks a hierarchy. @throws std::exception saying what is wrong with it. */
 std::shared_ptr<const State> ReadState(vtkFieldData* fieldData);
@@ -70,9 +77,10 @@ bool IsCurrent(const State& state, vtkFieldData* fieldData);
 void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
   const isodiamond::AffineMap& world, const std::string& arrayName, vtkPolyData* output);
 
-/** Puts an HD into a data set. @param choice the default of queries */
+/** Puts an HD into a data set. @param choice,exactIsovertices the default of queries, and how they
+ *  place isovertices */
 void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choice,
-  const Volume& volume, vtkPolyData* output);
+  bool exactIsovertices, const Volume& volume, vtkPolyData* output);
 
 }
 

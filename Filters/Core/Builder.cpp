@@ -3,10 +3,12 @@
 
 #include "Activation.h"
 #include "Classification.h"
+#include "DistanceError.h"
 #include "Encoder.h"
 #include "FieldError.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace isodiamond
@@ -14,13 +16,13 @@ namespace isodiamond
 namespace
 {
 
-/** Where the samples, errors and ranges of a build come from. */
+/** Where the samples, field errors and ranges of a build come from. */
 struct Source
 {
   const Grid& Domain;
   const AnySamples& Samples;
-  ErrorCode Code;
-  /** The code of a diamond's own error, and the range of its domain. */
+  double FieldScale = 1.0;
+  /** The code of a diamond's own field error, and the range of its domain. */
   std::function<std::pair<ErrorCode::Type, ValueRange>(const Place&)> Summary;
 };
 
@@ -38,11 +40,11 @@ struct DiamondCodes
   }
 };
 
-DiamondCodes Triggers(const Source& source, const Isoregion& region, const DiamondSet& members,
-  bool refineInterior, const ParallelFor& parallelFor)
+/** Calls body(place, rank) for all diamonds but the corners of the base cube. */
+template <typename Body>
+void ForEachMember(const DiamondSet& members, const ParallelFor& parallelFor, const Body& body)
 {
-  DiamondCodes triggers(members.Size(), refineInterior);
-  for (int scale = members.ScaleCount() - 1; scale >= 0; --scale)
+  for (int scale = members.ScaleCount() - 2; scale >= 0; --scale)
   {
     const std::vector<Brick>& bricks = members.Level(scale).Bricks;
     parallelFor(static_cast<std::int64_t>(bricks.size()), 1,
@@ -50,23 +52,58 @@ DiamondCodes Triggers(const Source& source, const Isoregion& region, const Diamo
       {
         for (std::int64_t i = begin; i < end; ++i)
         {
-          members.ForEachInBrick(scale, bricks[i],
-            [&](const Place& place, std::uint32_t rank)
-            {
-              const auto [code, range] = source.Summary(place);
-              if (IsTriggered(region, source.Domain, range, place))
-              {
-                triggers.Surface[rank] = code;
-              }
-              if (refineInterior &&
-                HasAllVerticesInside(region, source.Domain, source.Samples, place))
-              {
-                triggers.Interior[rank] = code;
-              }
-            });
+          members.ForEachInBrick(scale, bricks[i], body);
         }
       });
   }
+}
+
+/** The field metric. */
+DiamondCodes FieldTriggers(const Source& source, const Isoregion& region, const DiamondSet& members,
+  bool refineInterior, const ParallelFor& parallelFor)
+{
+  DiamondCodes triggers(members.Size(), refineInterior);
+  ForEachMember(members, parallelFor,
+    [&](const Place& place, std::uint32_t rank)
+    {
+      const auto [code, range] = source.Summary(place);
+      if (IsTriggered(region, source.Domain, range, place))
+      {
+        triggers.Surface[rank] = code;
+      }
+      if (refineInterior && HasAllVerticesInside(region, source.Domain, source.Samples, place))
+      {
+        triggers.Interior[rank] = code;
+      }
+    });
+  return triggers;
+}
+
+/** The distance metric; inside of an interval volume the field's. */
+DiamondCodes DistanceTriggers(const Source& source, const IsodiamondHierarchy& relevant,
+  const BuildOptions& options, bool refineInterior, const ParallelFor& parallelFor)
+{
+  const DiamondSet& members = relevant.Diamonds();
+  DiamondCodes triggers(members.Size(), refineInterior);
+  triggers.Surface =
+    DistanceErrors(relevant, source.Samples, options.World, options.PreserveFeatures, parallelFor);
+  ForEachMember(members, parallelFor,
+    [&](const Place& place, std::uint32_t rank)
+    {
+      if (!relevant.Region().IsVolume() ||
+        !HasAllVerticesInside(relevant.Region(), source.Domain, source.Samples, place))
+      {
+        return;
+      }
+      if (source.Domain.SticksOut(place.Position, place.Scale))
+      {
+        triggers.Surface[rank] = ErrorCode::Always; // it holds volume
+      }
+      if (refineInterior)
+      {
+        triggers.Interior[rank] = source.Summary(place).first;
+      }
+    });
   return triggers;
 }
 
@@ -99,92 +136,160 @@ void SaturateUpward(
   }
 }
 
-/** The part of the members that a model stores, and their thresholds; the base cube's corners
- *  come first. */
-struct Selection
+/** Removes the relevant diamonds from an encoding. They have no isovertices and no values inside,
+ *  so these arrays stay as they are. */
+void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classification& kinds)
 {
-  DiamondSet Set;
-  DiamondCodes Thresholds;
-
-  Selection(const Grid& grid, Model model, const DiamondSet& members,
-    const DiamondCodes& thresholds, const Classification& kinds)
-    : Set(grid)
-    , Thresholds(0, false)
+  EncodingArrays<OwnedArray>& arrays = encoding.Arrays;
+  arrays.BrickCounts.assign(1, 1); // the corners of the base cube
+  std::size_t bricks = 1;
+  std::size_t diamonds = 8;
+  for (int scale = members.ScaleCount() - 2; scale >= 0; --scale)
   {
-    this->Set.Append(grid.Depth(), 0, CornerBrick());
-    this->Thresholds.Surface.assign(8, ErrorCode::Always);
-    this->Thresholds.Interior.assign(thresholds.Interior.empty() ? 0 : 8, ErrorCode::Always);
-    for (int scale = grid.Depth() - 1; scale >= 0; --scale)
+    const std::size_t before = bricks;
+    for (const Brick& brick : members.Level(scale).Bricks)
     {
-      for (const Brick& brick : members.Level(scale).Bricks)
+      const BrickMask* active = kinds.Active.Find(scale, brick.BoxIndex);
+      const BrickMask* creation = kinds.Creation.Find(scale, brick.BoxIndex);
+      if (active == nullptr && creation == nullptr)
       {
-        BrickMask mask = brick.Occupancy;
-        if (model == Model::Minimal)
-        {
-          const BrickMask* active = kinds.Active.Find(scale, brick.BoxIndex);
-          const BrickMask* creation = kinds.Creation.Find(scale, brick.BoxIndex);
-          for (int z = 0; z < 8; ++z)
-          {
-            mask[z] &=
-              (active != nullptr ? (*active)[z] : 0) | (creation != nullptr ? (*creation)[z] : 0);
-          }
-        }
-        this->Add(scale, brick, mask, thresholds);
+        continue;
       }
-    }
-  }
-
-private:
-  void Add(int scale, const Brick& brick, const BrickMask& mask, const DiamondCodes& thresholds)
-  {
-    this->Set.Append(scale, brick.BoxIndex, mask);
-    for (int z = 0; z < 8; ++z)
-    {
-      ForEachBit(mask[z],
-        [&](int bit)
-        {
-          const std::uint32_t rank = brick.Rank(z, bit);
-          this->Thresholds.Surface.push_back(thresholds.Surface[rank]);
-          if (!thresholds.Interior.empty())
+      for (int z = 0; z < 8; ++z)
+      {
+        const std::uint64_t kept =
+          (active != nullptr ? (*active)[z] : 0) | (creation != nullptr ? (*creation)[z] : 0);
+        ForEachBit(kept & brick.Occupancy[z],
+          [&](int bit)
           {
-            this->Thresholds.Interior.push_back(thresholds.Interior[rank]);
-          }
-        });
+            const std::uint32_t rank = brick.Rank(z, bit);
+            arrays.Records[diamonds] = arrays.Records[rank];
+            if (!arrays.InteriorCodes.empty())
+            {
+              arrays.InteriorCodes[diamonds] = arrays.InteriorCodes[rank];
+            }
+            ++diamonds;
+          });
+        arrays.BrickMasks[8 * bricks + z] = kept & brick.Occupancy[z];
+      }
+      arrays.BrickIndices[bricks++] = brick.BoxIndex;
     }
+    arrays.BrickCounts.push_back(static_cast<std::uint32_t>(bricks - before));
   }
-};
+  arrays.BrickIndices.resize(bricks);
+  arrays.BrickMasks.resize(8 * bricks);
+  arrays.Records.resize(diamonds);
+  arrays.InteriorCodes.resize(arrays.InteriorCodes.empty() ? 0 : diamonds);
+}
 
-Encoding Build(Model model, const Source& source, const Isoregion& region, bool refineInterior,
-  const ParallelFor& parallelFor)
+Encoding Build(Model model, const Source& source, const Isoregion& region,
+  const BuildOptions& options, const ParallelFor& parallelFor)
 {
   const Grid& grid = source.Domain;
-  refineInterior = refineInterior && region.IsVolume();
+  const bool refineInterior = options.RefineInterior && region.IsVolume();
   Classification kinds = [&]
   {
     const SignLattice signs(grid, source.Samples, region, parallelFor);
     return Classify(grid, signs, parallelFor, refineInterior);
   }();
+  kinds.Members.Insert(grid.Depth(), 0, CornerBrick());
   const DiamondSet members(grid, kinds.Members);
   kinds.Members = DiamondMask();
-  DiamondCodes codes = Triggers(source, region, members, refineInterior, parallelFor);
+
+  EncodingHeader header;
+  header.Dimensions = grid.Dimensions();
+  header.Region = region;
+  header.Metric = options.Metric;
+  header.FieldScale = source.FieldScale;
+  header.ErrorScale = options.Metric == ErrorMetric::Field
+    ? source.FieldScale
+    : DistanceErrorScale(grid, options.World);
+  header.ExactIsovertices = options.ExactIsovertices;
+  header.RelevantCount = members.Size() - 8 - kinds.Active.Size();
+  header.Kind = Model::Relevant;
+  Encoding encoding = Encode(header, grid, source.Samples, members, ErrorCode::Always, parallelFor);
+
+  DiamondCodes codes = options.Metric == ErrorMetric::Field
+    ? FieldTriggers(source, region, members, refineInterior, parallelFor)
+    : DistanceTriggers(
+        source, IsodiamondHierarchy(encoding, parallelFor), options, refineInterior, parallelFor);
   codes.Surface = ActivationThresholds(grid, members, codes.Surface);
+  std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
+  for (std::int64_t rank = 0; rank < members.Size(); ++rank)
+  {
+    std::uint16_t& record = encoding.Arrays.Records[rank];
+    record = Record::Pack(codes.Surface[rank], Record::Sign(record));
+  }
   if (refineInterior)
   {
     SaturateUpward(grid, members, codes.Interior);
+    std::fill_n(codes.Interior.begin(), 8, ErrorCode::Always);
+    encoding.Arrays.InteriorCodes = std::move(codes.Interior);
   }
-  const EncodingHeader header{ model, grid.Dimensions(), region, source.Code.Scale(),
-    members.Size() - kinds.Active.Size() };
-  const Selection selection(grid, model, members, codes, kinds);
-  Encoding encoding =
-    Encode(header, grid, source.Samples, selection.Set, selection.Thresholds.Surface, parallelFor);
-  encoding.Arrays.InteriorCodes = selection.Thresholds.Interior;
+  encoding.Header.Kind = model;
+  if (model == Model::Minimal)
+  {
+    KeepMinimal(encoding, members, kinds);
+  }
   return encoding;
+}
+
+/** Whether a diamond has a patch or makes one: it is an active or creation diamond if it leads to
+ *  the surface at all. */
+bool IsActiveOrCreation(
+  const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
+{
+  std::uint32_t signs = 0;
+  const auto addSign = [&](const Point& point)
+  {
+    if (grid.IsSampled(point))
+    {
+      signs |= 1U << region.SignOf(SampleAt(samples, point));
+    }
+  };
+  const ParityTable& shape = tables::Parities[Parity(place.Position)];
+  addSign(Centre(place));
+  for (int i = 0; i < shape.VertexCount; ++i)
+  {
+    addSign((1 << place.Scale) * (place.Position + shape.Offsets[i]));
+  }
+  const bool oneSign = (signs & (signs - 1)) == 0;
+  return !oneSign || (region.IsVolume() && signs == 1U << InsideSign);
+}
+
+/** The subdivided diamonds of a query to an HD. */
+DiamondMask RefineScalars(
+  const ScalarHierarchy& hierarchy, const Isoregion& region, const Query& query)
+{
+  const ErrorCode& codes = hierarchy.Codes();
+  DiamondMask inside =
+    hierarchy
+      .Refine(region, codes.Accepted(query.Tolerance), codes.Accepted(query.InteriorTolerance))
+      .Subdivided;
+  if (!query.Region)
+  {
+    return inside;
+  }
+  const Grid& grid = hierarchy.Domain();
+  DiamondMask subdivided =
+    hierarchy.Refine(region, codes.Accepted(query.OutsideTolerance)).Subdivided;
+  inside.ForEach(
+    [&](const Place& place)
+    {
+      if (!subdivided.Contains(place) && query.Region->Touches(place) &&
+        IsActiveOrCreation(region, grid, hierarchy.Samples(), place))
+      {
+        subdivided.Insert(place);
+      }
+    });
+  subdivided.CloseOverParents(grid);
+  return subdivided;
 }
 
 }
 
 Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
-  const ParallelFor& parallelFor, bool refineInterior)
+  const ParallelFor& parallelFor, const BuildOptions& options)
 {
   const ErrorCode code(FieldErrorScale(samples));
   const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
@@ -193,32 +298,34 @@ Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregio
     const DomainSummary domain = SummarizeDomain(grid, samples, place);
     return std::make_pair(code.Encode(domain.Error), domain.Range);
   };
-  return Build(model, { grid, samples, code, summary }, region, refineInterior, parallelFor);
+  return Build(model, { grid, samples, code.Scale(), summary }, region, options, parallelFor);
 }
 
 Encoding BuildIsodiamonds(Model model, const ScalarHierarchy& hierarchy, const Isoregion& region,
-  const ParallelFor& parallelFor, bool refineInterior)
+  const ParallelFor& parallelFor, const BuildOptions& options)
 {
   const auto summary = [&](const Place& place)
   { return std::make_pair(hierarchy.Error(place), hierarchy.Range(place)); };
-  return Build(model, { hierarchy.Domain(), hierarchy.Samples(), hierarchy.Codes(), summary },
-    region, refineInterior, parallelFor);
+  return Build(model,
+    { hierarchy.Domain(), hierarchy.Samples(), hierarchy.Codes().Scale(), summary }, region,
+    options, parallelFor);
 }
 
-Encoding EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, double tolerance,
-  const ParallelFor& parallelFor, double interiorTolerance)
+Encoding EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, const Query& query,
+  bool exactIsovertices, const ParallelFor& parallelFor)
 {
   const Grid& grid = hierarchy.Domain();
-  const ErrorCode& codes = hierarchy.Codes();
-  DiamondMask subdivided =
-    hierarchy.Refine(region, codes.Accepted(tolerance), codes.Accepted(interiorTolerance))
-      .Subdivided;
+  DiamondMask subdivided = RefineScalars(hierarchy, region, query);
   subdivided.Insert(grid.Depth(), 0, CornerBrick());
   const DiamondSet set(grid, subdivided);
-  const std::vector<ErrorCode::Type> thresholds(set.Size(), ErrorCode::Always);
-  const EncodingHeader header{ Model::Relevant, grid.Dimensions(), region, codes.Scale(),
-    set.Size() };
-  return Encode(header, grid, hierarchy.Samples(), set, thresholds, parallelFor);
+  EncodingHeader header;
+  header.Kind = Model::Relevant;
+  header.Dimensions = grid.Dimensions();
+  header.Region = region;
+  header.ErrorScale = hierarchy.Codes().Scale();
+  header.ExactIsovertices = exactIsovertices;
+  header.RelevantCount = set.Size();
+  return Encode(header, grid, hierarchy.Samples(), set, ErrorCode::Always, parallelFor);
 }
 
 }

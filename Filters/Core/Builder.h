@@ -2,34 +2,50 @@
 #ifndef isodiamond_Builder_h
 #define isodiamond_Builder_h
 
+#include "AffineMap.h"
 #include "IsodiamondHierarchy.h"
+#include "Query.h"
 #include "ScalarHierarchy.h"
 
 namespace isodiamond
 {
 
+/** How a hierarchy is built. */
+struct BuildOptions
+{
+  ErrorMetric Metric = ErrorMetric::Field;
+  /** Isovertices on the full-resolution surface, else the paper's linear ones; see
+   *  IsovertexPlacement.h. */
+  bool ExactIsovertices = true;
+  /** With the distance metric, whether every feature is kept at any tolerance. */
+  bool PreserveFeatures = true;
+  /** Of an interval volume: keep every diamond that has all vertices inside, with its field error,
+   *  so that queries can have an interior tolerance. */
+  bool RefineInterior = false;
+  /** From index space to the world, where distances are measured. */
+  AffineMap World = AffineMap();
+};
+
 /**
- * Builds an RI or MI hierarchy from the samples, with the field metric:
+ * Builds an RI or MI hierarchy from the samples:
  * samples -> signs -> isodiamonds -> own errors -> activation thresholds -> encoding.
  *
  * @param model Model::Relevant or Model::Minimal
- * @param refineInterior of an interval volume: keep every diamond that has all vertices inside,
- * with its field error, so that queries can have an interior tolerance
  */
 Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
-  const ParallelFor& parallelFor, bool refineInterior = false);
+  const ParallelFor& parallelFor, const BuildOptions& options = {});
 
-/** The same from an HD, which has the errors already; the result is the same to the bit. */
+/** The same from an HD, which has the field errors already; the result is the same to the bit. */
 Encoding BuildIsodiamonds(Model model, const ScalarHierarchy& hierarchy, const Isoregion& region,
-  const ParallelFor& parallelFor, bool refineInterior = false);
+  const ParallelFor& parallelFor, const BuildOptions& options = {});
 
 /**
- * One HD query: the subdivided diamonds at a tolerance, encoded as an RI whose every diamond is
- * always subdivided. Extracting it, at any tolerance, gives the query's mesh. The set is closed,
- * so all vertices of its diamonds are centres of diamonds of the set.
+ * One HD query: the subdivided diamonds, encoded as an RI whose every diamond is always subdivided.
+ * Extracting it, at any tolerance, gives the query's mesh. The set is closed, so all vertices of
+ * its diamonds are centres of diamonds of the set.
  */
-Encoding EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, double tolerance,
-  const ParallelFor& parallelFor, double interiorTolerance = HUGE_VAL);
+Encoding EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, const Query& query,
+  bool exactIsovertices, const ParallelFor& parallelFor);
 
 }
 

@@ -184,30 +184,6 @@ private:
   std::array<int, 3> Count;
 };
 
-/** Adds all ancestors, from the finest scale and the youngest class upward. */
-void CloseOverParents(const Grid& grid, DiamondMask& members)
-{
-  for (int scale = 0; scale < grid.Depth(); ++scale)
-  {
-    for (int diamondClass = 2; diamondClass >= 0; --diamondClass)
-    {
-      members.ForEachOfScale(scale,
-        [&](const Place& place)
-        {
-          const TypeTable& shape = ShapeOf(place.Position);
-          for (int i = 0; shape.DiamondClass == diamondClass && i < shape.ParentCount; ++i)
-          {
-            const Place parent = ParentPlace(shape, place, i);
-            if (parent.Scale < grid.Depth() && grid.IsValid(parent.Position, parent.Scale))
-            {
-              members.Insert(parent);
-            }
-          }
-        });
-    }
-  }
-}
-
 /** Ancestors of isodiamonds that have all vertices inside are active: a surface passes below. */
 void ActivateInside(const Grid& grid, const SignLattice& signs, Classification& result)
 {
@@ -269,7 +245,7 @@ Classification ClassifyBySigns(
       }
     }
   }
-  CloseOverParents(grid, result.Members);
+  result.Members.CloseOverParents(grid);
   if (Surfaces == 2)
   {
     ActivateInside(grid, signs, result);

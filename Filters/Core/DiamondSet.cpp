@@ -28,6 +28,30 @@ BrickMask& DiamondMask::BrickAt(Level& level, std::int64_t brickIndex)
   return level.Masks[entry];
 }
 
+void DiamondMask::CloseOverParents(const Grid& grid)
+{
+  // From the finest scale and the youngest class upward.
+  for (int scale = 0; scale < grid.Depth(); ++scale)
+  {
+    for (int diamondClass = 2; diamondClass >= 0; --diamondClass)
+    {
+      this->ForEachOfScale(scale,
+        [&](const Place& place)
+        {
+          const TypeTable& shape = ShapeOf(place.Position);
+          for (int i = 0; shape.DiamondClass == diamondClass && i < shape.ParentCount; ++i)
+          {
+            const Place parent = ParentPlace(shape, place, i);
+            if (parent.Scale < grid.Depth() && grid.IsValid(parent.Position, parent.Scale))
+            {
+              this->Insert(parent);
+            }
+          }
+        });
+    }
+  }
+}
+
 std::int64_t DiamondMask::Size() const
 {
   std::int64_t size = 0;

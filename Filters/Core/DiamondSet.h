@@ -118,6 +118,9 @@ public:
   /** Adds the bits of one brick. */
   void Insert(int scale, std::int64_t brickIndex, const BrickMask& mask);
 
+  /** Adds all ancestors below scale N: the smallest closed set that holds this one. */
+  void CloseOverParents(const Grid& grid);
+
   /** The mask of a brick, null if it is empty. */
   const BrickMask* Find(int scale, std::int64_t brickIndex) const
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Encoder.h"
 
+#include "IsovertexPlacement.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
@@ -13,14 +15,17 @@ namespace
 
 /** Reads signs, isovertices and inside values of diamonds off the samples. */
 template <typename T>
-class BrickEncoder
+class DiamondReader
 {
 public:
-  BrickEncoder(const Isoregion& region, const Grid& grid, const SampleView<T>& samples)
-    : Region(region)
+  DiamondReader(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples)
+    : Region(header.Region)
+    , Exact(header.ExactIsovertices)
     , Domain(grid)
     , Samples(samples)
   {
+    const std::int64_t row = samples.Dimensions()[0];
+    this->Strides = { 1, row, row * samples.Dimensions()[1] };
   }
 
   int Sign(const Place& place) const
@@ -39,62 +44,83 @@ public:
     return this->Samples.Pointer()[this->Samples.Index(Centre(place))];
   }
 
-  /** Calls body(coefficient) for the isovertices of a diamond: those on surface 0, then 1. */
-  template <typename Body>
-  void ForEachIsovertex(const Place& place, Body&& body) const
+  /** The number of isovertices of a diamond. */
+  int CountIsovertices(const Place& place) const
   {
-    std::array<std::array<std::uint8_t, MaximumVertices>, 2> coefficients{};
-    const std::array<int, 2> counts = this->Isovertices(place, coefficients);
-    for (int surface = 0; surface < 2; ++surface)
-    {
-      for (int i = 0; i < counts[surface]; ++i)
+    int count = 0;
+    this->ForEachCrossedEdge(place,
+      [&](const Point& /*offset*/, int sign, int otherSign)
+      { count += std::abs(sign - otherSign); });
+    return count;
+  }
+
+  /** Writes the coefficients of a diamond: those on surface 0, then 1. @return the end */
+  std::uint8_t* WriteIsovertices(const Place& place, std::uint8_t* next) const
+  {
+    std::array<std::uint8_t, MaximumVertices> upper{};
+    int upperCount = 0;
+    this->ForEachCrossedEdge(place,
+      [&](const Point& offset, int sign, int otherSign)
       {
-        body(coefficients[surface][i]);
-      }
-    }
+        const EdgeSamples<T> edge = this->Edge(place, offset);
+        if (std::abs(sign - otherSign) == 2)
+        {
+          const std::array<std::uint8_t, 2> both = IsovertexCoefficients(edge, this->Region);
+          *next++ = both[0];
+          upper[upperCount++] = both[1];
+        }
+        else if (std::min(sign, otherSign) == 0)
+        {
+          *next++ = IsovertexCoefficient(edge, this->Region, 0);
+        }
+        else
+        {
+          upper[upperCount++] = IsovertexCoefficient(edge, this->Region, 1);
+        }
+      });
+    return std::copy(upper.begin(), upper.begin() + upperCount, next);
   }
 
 private:
-  std::array<int, 2> Isovertices(const Place& place,
-    std::array<std::array<std::uint8_t, MaximumVertices>, 2>& coefficients) const
+  /** Calls body(offset, sign of the centre, sign of the vertex) for edges with an isovertex. */
+  template <typename Body>
+  void ForEachCrossedEdge(const Place& place, Body&& body) const
   {
-    std::array<int, 2> counts{};
     const Point centre = Centre(place);
     if (!this->Domain.IsSampled(centre))
     {
-      return counts;
+      return;
     }
-    const double value = this->Samples(centre);
-    const int sign = this->Region.SignOf(value);
+    const int sign = this->Region.SignOf(this->Samples(centre));
     const ParityTable& shape = tables::Parities[Parity(place.Position)];
     for (int i = 0; i < shape.VertexCount; ++i)
     {
       const Point vertex = centre + (1 << place.Scale) * shape.Offsets[i];
-      if (!this->Domain.IsSampled(vertex))
+      const int otherSign =
+        this->Domain.IsSampled(vertex) ? this->Region.SignOf(this->Samples(vertex)) : sign;
+      if (sign != otherSign)
       {
-        continue;
-      }
-      const double other = this->Samples(vertex);
-      const int otherSign = this->Region.SignOf(other);
-      if (std::abs(sign - otherSign) == 2)
-      {
-        const std::array<std::uint8_t, 2> both = IsovertexCoefficients(value, other, this->Region);
-        coefficients[0][counts[0]++] = both[0];
-        coefficients[1][counts[1]++] = both[1];
-      }
-      else if (sign != otherSign)
-      {
-        const int surface = std::min(sign, otherSign);
-        coefficients[surface][counts[surface]++] =
-          IsovertexCoefficient(value, other, this->Region.Isovalue(surface));
+        body(shape.Offsets[i], sign, otherSign);
       }
     }
-    return counts;
+  }
+
+  /** An edge in unit steps, or for linear isovertices in one. */
+  EdgeSamples<T> Edge(const Place& place, const Point& offset) const
+  {
+    const std::int64_t unit =
+      offset[0] * this->Strides[0] + offset[1] * this->Strides[1] + offset[2] * this->Strides[2];
+    const T* centre = this->Samples.Pointer() + this->Samples.Index(Centre(place));
+    const int length = 1 << place.Scale;
+    return this->Exact ? EdgeSamples<T>(centre, unit, length)
+                       : EdgeSamples<T>(centre, length * unit, 1);
   }
 
   const Isoregion& Region;
+  bool Exact;
   const Grid& Domain;
   const SampleView<T>& Samples;
+  std::array<std::int64_t, 3> Strides{};
 };
 
 /** What the bricks before a brick hold. */
@@ -106,10 +132,9 @@ struct BrickOffset
 
 template <typename T>
 void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples,
-  const DiamondSet& set, const std::vector<ErrorCode::Type>& thresholds,
-  const ParallelFor& parallelFor, Encoding& encoding)
+  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor, Encoding& encoding)
 {
-  const BrickEncoder<T> encoder(header.Region, grid, samples);
+  const DiamondReader<T> reader(header, grid, samples);
   const std::vector<BrickPlace> bricks = AllBricks(set);
   const std::int64_t brickCount = static_cast<std::int64_t>(bricks.size());
   const auto forEachDiamond = [&](const auto& body)
@@ -131,9 +156,9 @@ void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const Sample
   forEachDiamond(
     [&](std::int64_t i, const Place& place, std::uint32_t rank)
     {
-      encoding.Arrays.Records[rank] = Record::Pack(thresholds[rank], encoder.Sign(place));
-      encoder.ForEachIsovertex(place, [&](std::uint8_t) { ++next[i + 1].Isovertices; });
-      next[i + 1].InsideValues += encoder.IsInside(place) ? 1 : 0;
+      encoding.Arrays.Records[rank] = Record::Pack(code, reader.Sign(place));
+      next[i + 1].Isovertices += reader.CountIsovertices(place);
+      next[i + 1].InsideValues += reader.IsInside(place) ? 1 : 0;
     });
 
   // Prefix sum.
@@ -150,15 +175,15 @@ void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const Sample
   // Write.
   std::vector<T> insideValues(next[brickCount].InsideValues);
   encoding.Arrays.Isovertices.resize(next[brickCount].Isovertices);
+  std::uint8_t* isovertices = encoding.Arrays.Isovertices.data();
   forEachDiamond(
     [&](std::int64_t i, const Place& place, std::uint32_t /*rank*/)
     {
-      encoder.ForEachIsovertex(place,
-        [&](std::uint8_t coefficient)
-        { encoding.Arrays.Isovertices[next[i].Isovertices++] = coefficient; });
-      if (encoder.IsInside(place))
+      next[i].Isovertices =
+        reader.WriteIsovertices(place, isovertices + next[i].Isovertices) - isovertices;
+      if (reader.IsInside(place))
       {
-        insideValues[next[i].InsideValues++] = encoder.Value(place);
+        insideValues[next[i].InsideValues++] = reader.Value(place);
       }
     });
   encoding.InsideValues = std::move(insideValues);
@@ -167,8 +192,7 @@ void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const Sample
 }
 
 Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
-  const DiamondSet& set, const std::vector<ErrorCode::Type>& thresholds,
-  const ParallelFor& parallelFor)
+  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor)
 {
   Encoding encoding;
   encoding.Header = header;
@@ -184,7 +208,7 @@ Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples
     }
   }
   std::visit([&](const auto& view)
-    { EncodeDiamonds(header, grid, view, set, thresholds, parallelFor, encoding); },
+    { EncodeDiamonds(header, grid, view, set, code, parallelFor, encoding); },
     samples);
   return encoding;
 }

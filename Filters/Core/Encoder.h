@@ -9,14 +9,13 @@ namespace isodiamond
 {
 
 /**
- * Writes the encoding of a set of isodiamonds: signs and isovertices come from the samples.
+ * Writes the encoding of a set of isodiamonds, all with the same error code: signs, isovertices and
+ * values inside come from the samples.
  *
  * @param set the isodiamonds and the corners of the base cube
- * @param thresholds by rank of the set
  */
 Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
-  const DiamondSet& set, const std::vector<ErrorCode::Type>& thresholds,
-  const ParallelFor& parallelFor);
+  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor);
 
 }
 

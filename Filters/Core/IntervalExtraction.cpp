@@ -2,6 +2,7 @@
 #include "IntervalExtraction.h"
 
 #include "IntervalPatches.h"
+#include "SurfacePatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,29 +93,12 @@ ExtractionPasses::Counts IntervalExtraction::CountBrick(std::int64_t brickNumber
   std::int64_t tetrahedra = 0;
   ForEachLeaf(
     this->Refined, place, [this](std::uint32_t rank) { return this->Source.CarryingEdges(rank); },
-    [&](const Leaf& leaf) {
-      tetrahedra += static_cast<std::int64_t>(PatchTables()[this->CaseOf(leaf)].Tetrahedra.size());
+    [&](const Leaf& leaf)
+    {
+      tetrahedra += static_cast<std::int64_t>(
+        PatchTables()[IntervalCase(this->Source, leaf.Rank, leaf.Half)].Tetrahedra.size());
     });
   return { points, tetrahedra };
-}
-
-/** The signs of the outer vertices follow from the centre's and the crossings on the way there. */
-int IntervalExtraction::CaseOf(const Leaf& leaf) const
-{
-  const int centre = this->Source.Sign(leaf.Rank);
-  const std::uint32_t lower = this->Source.Edges(leaf.Rank);
-  const std::uint32_t upper = this->Source.UpperEdges(leaf.Rank);
-  PatchSigns signs{ centre, 0, 0, 0 };
-  for (int i = 0; i < 3; ++i)
-  {
-    const int edge = leaf.Half.Vertices[leaf.Half.ByAge[i]];
-    const int crossesLower = static_cast<int>((lower >> edge) & 1U);
-    const int crossesUpper = static_cast<int>((upper >> edge) & 1U);
-    const int change =
-      (centre > 0 ? -crossesLower : crossesLower) + (centre > 1 ? -crossesUpper : crossesUpper);
-    signs[i + 1] = centre + change;
-  }
-  return PatchCase(signs);
 }
 
 /** Calls body(id, position in index space, surface or -1 inside, brick's inside values so far). */
@@ -219,7 +203,8 @@ public:
       this->Own = this->Extraction.Slots[leaf.Rank];
       this->Known = 0;
     }
-    const PatchTable& patch = PatchTables()[this->Extraction.CaseOf(leaf)];
+    const PatchTable& patch =
+      PatchTables()[IntervalCase(this->Extraction.Source, leaf.Rank, leaf.Half)];
     for (std::size_t i = 0; i < patch.Points.size(); ++i)
     {
       this->Ids[i] = static_cast<Id>(this->IdOf(leaf, patch.Points[i]));

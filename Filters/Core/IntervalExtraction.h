@@ -84,7 +84,6 @@ private:
     }
   };
 
-  int CaseOf(const Leaf& leaf) const;
   ExtractionPasses::Counts CountBrick(std::int64_t brick);
 
   template <typename Body>

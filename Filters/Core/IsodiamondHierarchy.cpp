@@ -57,11 +57,14 @@ IsodiamondHierarchy::IsodiamondHierarchy(
   , TheGrid(encoding.Header.Dimensions)
   , Set(this->TheGrid)
   , Code(encoding.Header.ErrorScale)
+  , InteriorCode(encoding.Header.FieldScale)
 {
   Require(encoding.Header.Kind == Model::Relevant || encoding.Header.Kind == Model::Minimal,
     "the encoding is not that of a relevant or minimal isodiamond hierarchy");
   Require(encoding.Header.ErrorScale > 0.0 && std::isfinite(encoding.Header.ErrorScale),
     "the error scale is not a positive number");
+  Require(encoding.Header.FieldScale > 0.0 && std::isfinite(encoding.Header.FieldScale),
+    "the field scale is not a positive number");
   this->ReadBricks();
   this->CheckRecords();
 

@@ -41,6 +41,13 @@ enum class Kind : int
   Relevant = 2
 };
 
+/** How the error of a diamond is measured. */
+enum class ErrorMetric : int
+{
+  Field = 0,   ///< in field units: the field against its interpolant (the paper's), FieldError.h
+  Distance = 1 ///< in world units: the full-resolution surface against the patches, DistanceError.h
+};
+
 /** A read-only view of an array. */
 template <typename T>
 struct ArrayView
@@ -83,7 +90,10 @@ struct EncodingHeader
   Model Kind = Model::Minimal;
   std::array<int, 3> Dimensions = { 2, 2, 2 };
   Isoregion Region = 0.0;
-  double ErrorScale = 1.0; ///< of ErrorCode
+  ErrorMetric Metric = ErrorMetric::Field;
+  double ErrorScale = 1.0; ///< of the records' ErrorCode, in the metric's units
+  double FieldScale = 1.0; ///< of the interior codes' ErrorCode, in field units
+  bool ExactIsovertices = true;
   /** m_r: the relevant isodiamonds that there are, creation ones included, stored or not. */
   std::int64_t RelevantCount = 0;
 };
@@ -149,6 +159,7 @@ public:
   const Grid& Domain() const { return this->TheGrid; }
   const DiamondSet& Diamonds() const { return this->Set; }
   const isodiamond::ErrorCode& Codes() const { return this->Code; }
+  const isodiamond::ErrorCode& InteriorCodes() const { return this->InteriorCode; }
 
   const Isoregion& Region() const { return this->View.Header.Region; }
 
@@ -221,6 +232,7 @@ private:
   Grid TheGrid;
   DiamondSet Set;
   isodiamond::ErrorCode Code;
+  isodiamond::ErrorCode InteriorCode;
   std::vector<std::uint16_t> EdgesAndKinds;
   std::vector<std::uint16_t> EdgesOfUpper; ///< interval volumes only
   std::vector<std::int64_t> FirstInside;   ///< interval volumes only: by brick, and the total

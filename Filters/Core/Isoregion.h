@@ -5,7 +5,6 @@
 #include "Samples.h"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 
@@ -98,41 +97,6 @@ private:
 
 /** The sign of an interval volume's inside. */
 inline constexpr int InsideSign = 1;
-
-/**
- * The coefficient of an isovertex on the edge from a diamond's centre to one of its vertices: the
- * position of the linear crossing in 1/256 of the edge, from the centre. Kept in 1..255 so that
- * isovertices never coincide with lattice vertices; 128 where an end is not finite.
- */
-inline std::uint8_t IsovertexCoefficient(double centre, double vertex, double isovalue)
-{
-  if (!std::isfinite(centre) || !std::isfinite(vertex))
-  {
-    return 128;
-  }
-  const double steps = std::floor(256.0 * ((isovalue - centre) / (vertex - centre)) + 0.5);
-  return static_cast<std::uint8_t>(
-    steps < 1.0 ? 1.0 : (steps > 255.0 ? 255.0 : (steps == steps ? steps : 128.0)));
-}
-
-/**
- * The coefficients of both isovertices of an edge that crosses an interval volume, for the lower
- * and the upper surface. They are different, and in the order of the crossings.
- */
-inline std::array<std::uint8_t, 2> IsovertexCoefficients(
-  double centre, double vertex, const Isoregion& region)
-{
-  std::array<std::uint8_t, 2> both = { IsovertexCoefficient(centre, vertex, region.Isovalue(0)),
-    IsovertexCoefficient(centre, vertex, region.Isovalue(1)) };
-  std::uint8_t& nearer = both[region.SignOf(centre) == 0 ? 0 : 1];
-  std::uint8_t& farther = both[region.SignOf(centre) == 0 ? 1 : 0];
-  if (farther <= nearer)
-  {
-    nearer = nearer < 255 ? nearer : std::uint8_t{ 254 };
-    farther = static_cast<std::uint8_t>(nearer + 1);
-  }
-  return both;
-}
 
 }
 

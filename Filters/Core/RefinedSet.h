@@ -3,6 +3,7 @@
 #define isodiamond_RefinedSet_h
 
 #include "IsodiamondHierarchy.h"
+#include "Query.h"
 
 #include <vector>
 
@@ -10,21 +11,21 @@ namespace isodiamond
 {
 
 /**
- * The subdivided diamonds of a query: R(t) = {threshold > t}, a mask for every brick.
+ * The subdivided diamonds of a query, a mask for every brick.
  *
- * No front, no closure: the thresholds have them (see Activation.h). The corners of the base cube
- * always count as subdivided. Leaves of the current mesh are the half-tetrahedra of refined
- * diamonds whose child is not refined.
+ * Without a region of interest that is R(t) = {threshold > t}: no front, no closure, the thresholds
+ * have them (see Activation.h). With one it is the smallest closed superset of R(outside tolerance)
+ * and of those active and creation diamonds of R(tolerance) that touch the region: inside, the mesh
+ * is the uniform one; outside it is what conformity needs.
+ *
+ * The corners of the base cube always count as subdivided. Leaves of the current mesh are the
+ * half-tetrahedra of refined diamonds whose child is not refined.
  */
 class RefinedSet
 {
 public:
-  /** @param tolerance in the units of the hierarchy's metric; 0 is full resolution, infinity
-   *         leaves only what must always be subdivided; negative and NaN count as 0.
-   *  @param interiorTolerance of the field inside an interval volume; without effect if the
-   *         hierarchy has no thresholds for it */
-  RefinedSet(const IsodiamondHierarchy& hierarchy, double tolerance, const ParallelFor& parallelFor,
-    double interiorTolerance = HUGE_VAL);
+  RefinedSet(
+    const IsodiamondHierarchy& hierarchy, const Query& query, const ParallelFor& parallelFor);
 
   const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
 
@@ -55,7 +56,16 @@ public:
   /** Number of refined diamonds, corners of the base cube not counted. */
   std::int64_t Count() const;
 
+  /**
+   * The size of the active front: the diamonds that are not refined but have a refined parent, or
+   * the root alone. Of an MI only stored ones count, and of their parents too.
+   */
+  std::int64_t CountFront() const;
+
 private:
+  void RefineUniformly(double tolerance, double interiorTolerance, const ParallelFor& parallelFor);
+  void RefineRegion(const Query& query, const ParallelFor& parallelFor);
+
   const IsodiamondHierarchy& Source;
   std::vector<std::vector<BrickMask>> Masks;
 };

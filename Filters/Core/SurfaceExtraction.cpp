@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceExtraction.h"
 
+#include "SurfacePatch.h"
+
 namespace isodiamond
 {
-namespace
-{
-
-/** Triangles of a leaf by the number of its vertices whose sign differs from the centre's. */
-constexpr std::array<int, 4> TrianglesOfLeaf = { 0, 1, 2, 1 };
-
-}
-
 SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
   : Refined(refined)
   , Source(refined.Hierarchy())
@@ -44,7 +38,7 @@ ExtractionPasses::Counts SurfaceExtraction::CountBrick(std::int64_t brickNumber)
   ForEachLeaf(
     this->Refined, place, [this](std::uint32_t rank) { return this->Source.Edges(rank); },
     [&](const Leaf& leaf)
-    { triangles += TrianglesOfLeaf[PopCount(this->Source.Edges(leaf.Rank) & leaf.Half.Mask)]; });
+    { triangles += IsosurfacePatch(leaf.Half, this->Source.Edges(leaf.Rank)).TriangleCount; });
   return { points, triangles };
 }
 
@@ -97,33 +91,16 @@ public:
     {
       this->Enter(leaf);
     }
-    const std::array<std::uint8_t, 3>& v = leaf.Half.Vertices;
-    const auto own = [&](int i) { return static_cast<Id>(this->Own.Id(v[i])); };
-    const auto outer = [&](int opposite) { return this->OuterId(leaf, opposite); };
-    const int count = PopCount(this->Edges & leaf.Half.Mask);
-    if (count == 3)
+    const SurfacePatch& patch = IsosurfacePatch(leaf.Half, this->Edges);
+    for (int i = 0; i < patch.TriangleCount; ++i)
     {
-      this->Triangle(leaf, own(0), own(1), own(2));
-      return;
+      const std::array<std::uint8_t, 3>& edges = patch.Triangles[i];
+      this->Next[0] = this->IdOf(leaf, edges[0]);
+      this->Next[1] = this->IdOf(leaf, edges[this->Flip ? 2 : 1]);
+      this->Next[2] = this->IdOf(leaf, edges[this->Flip ? 1 : 2]);
+      this->Next += 3;
+      *this->NextLevel++ = static_cast<std::int8_t>(this->Source.Domain().Depth() - 1 - leaf.Scale);
     }
-    // Turn the vertices so that the ones that differ from the centre come first: i, or i and j.
-    const auto differs = [&](int i) { return ((this->Edges >> v[i]) & 1U) != 0; };
-    int i = 0;
-    while (!(differs(i) && (count == 1 || differs(i == 2 ? 0 : i + 1))))
-    {
-      ++i;
-    }
-    const int j = i == 2 ? 0 : i + 1;
-    const int k = 3 - i - j;
-    if (count == 1)
-    {
-      this->Triangle(leaf, own(i), outer(k), outer(j));
-      return;
-    }
-    const Id a = own(i);
-    const Id c = outer(i);
-    this->Triangle(leaf, a, own(j), c);
-    this->Triangle(leaf, a, c, outer(j));
   }
 
 private:
@@ -138,10 +115,14 @@ private:
     this->Flip = (this->Source.Sign(leaf.Rank) == 0) != this->Mirrored;
   }
 
-  /** The point on a leaf's edge that belongs to an older diamond. */
-  Id OuterId(const Leaf& leaf, int opposite)
+  /** The point on a leaf's edge; the outer edges belong to older diamonds. */
+  Id IdOf(const Leaf& leaf, int ofLeaf)
   {
-    const OuterEdge& edge = leaf.Half.OuterEdges[opposite];
+    if (ofLeaf < OwnEdgeCount)
+    {
+      return static_cast<Id>(this->Own.Id(leaf.Half.Vertices[ofLeaf]));
+    }
+    const OuterEdge& edge = leaf.Half.OuterEdges[ofLeaf - OwnEdgeCount];
     const int vertex = edge.OwnerVertex;
     if (((this->Known >> vertex) & 1U) == 0)
     {
@@ -150,15 +131,6 @@ private:
       this->Owners[vertex] = rank == DiamondSet::None ? Slot() : this->Extraction.Slots[rank];
     }
     return static_cast<Id>(this->Owners[vertex].Id(edge.OwnerEdge));
-  }
-
-  void Triangle(const Leaf& leaf, Id a, Id b, Id c)
-  {
-    this->Next[0] = a;
-    this->Next[1] = this->Flip ? c : b;
-    this->Next[2] = this->Flip ? b : c;
-    this->Next += 3;
-    *this->NextLevel++ = static_cast<std::int8_t>(this->Source.Domain().Depth() - 1 - leaf.Scale);
   }
 
   const SurfaceExtraction& Extraction;

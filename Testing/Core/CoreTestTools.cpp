@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoreTestTools.h"
 
+#include "ReferenceExact.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -157,10 +159,33 @@ Built::Built(isodiamond::Encoding encoding, const isodiamond::ParallelFor& paral
 {
 }
 
-Built Build(isodiamond::Model model, const Field& field)
+Built Build(isodiamond::Model model, const Field& field, const isodiamond::BuildOptions& options)
 {
-  return { isodiamond::BuildIsodiamonds(model, field.View(), field.Isovalue, isodiamond::SerialFor),
+  return { isodiamond::BuildIsodiamonds(
+             model, field.View(), field.Isovalue, isodiamond::SerialFor, options),
     isodiamond::SerialFor };
+}
+
+isodiamond::BuildOptions Placement(bool exact)
+{
+  isodiamond::BuildOptions options;
+  options.ExactIsovertices = exact;
+  return options;
+}
+
+isodiamond::BuildOptions Interior(bool refine)
+{
+  isodiamond::BuildOptions options;
+  options.RefineInterior = refine;
+  return options;
+}
+
+isodiamond::BuildOptions Distance(const isodiamond::AffineMap& world)
+{
+  isodiamond::BuildOptions options;
+  options.Metric = isodiamond::ErrorMetric::Distance;
+  options.World = world;
+  return options;
 }
 
 BuiltScalars BuildScalars(const Field& field)
@@ -176,7 +201,13 @@ BuiltScalars BuildScalars(const Field& field)
 Mesh Extract(const isodiamond::IsodiamondHierarchy& hierarchy, double tolerance,
   const isodiamond::ParallelFor& parallelFor)
 {
-  const isodiamond::RefinedSet refined(hierarchy, tolerance, parallelFor);
+  return Extract(hierarchy, isodiamond::Query{ tolerance }, parallelFor);
+}
+
+Mesh Extract(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond::Query& query,
+  const isodiamond::ParallelFor& parallelFor)
+{
+  const isodiamond::RefinedSet refined(hierarchy, query, parallelFor);
   const isodiamond::SurfaceExtraction extraction(refined, parallelFor);
   Mesh mesh;
   mesh.Points.resize(extraction.PointCount());
@@ -212,7 +243,7 @@ std::vector<PlacedTriangle> PlacedTriangles(const Mesh& mesh)
 }
 
 std::string CompareWithPatches(const Mesh& mesh, const std::vector<reference::Patch>& patches,
-  const reference::ScalarField& field, double isovalue)
+  const reference::ScalarField& field, double isovalue, bool exact)
 {
   const std::vector<PlacedTriangle> placed = PlacedTriangles(mesh);
   std::multiset<PlacedTriangle> left(placed.begin(), placed.end());
@@ -231,8 +262,9 @@ std::string CompareWithPatches(const Mesh& mesh, const std::vector<reference::Pa
     std::vector<Corner> c;
     for (const reference::Isovertex& isovertex : patch.Corners)
     {
-      const std::array<double, 3> position =
-        reference::Position(isovertex, reference::Coefficient(field, isovalue, isovertex));
+      const std::array<double, 3> position = exact
+        ? reference::ExactPosition(field, isovalue, isovertex)
+        : reference::Position(isovertex, reference::Coefficient(field, isovalue, isovertex));
       c.push_back({ static_cast<float>(position[0]), static_cast<float>(position[1]),
         static_cast<float>(position[2]) });
     }

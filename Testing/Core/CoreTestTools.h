@@ -64,7 +64,15 @@ struct Built
 
   Built(isodiamond::Encoding encoding, const isodiamond::ParallelFor& parallelFor);
 };
-Built Build(isodiamond::Model model, const Field& field);
+Built Build(
+  isodiamond::Model model, const Field& field, const isodiamond::BuildOptions& options = {});
+
+/** The paper's linear isovertices, or exact ones. */
+isodiamond::BuildOptions Placement(bool exact);
+/** The field metric with a refined interior, or without. */
+isodiamond::BuildOptions Interior(bool refine);
+/** The distance metric in a world. */
+isodiamond::BuildOptions Distance(const isodiamond::AffineMap& world = isodiamond::AffineMap());
 
 /** An HD with its arrays. */
 struct BuiltScalars
@@ -87,6 +95,8 @@ struct Mesh
       this->Levels == other.Levels;
   }
 };
+Mesh Extract(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond::Query& query,
+  const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
 Mesh Extract(const isodiamond::IsodiamondHierarchy& hierarchy, double tolerance,
   const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
 
@@ -113,7 +123,7 @@ std::vector<PlacedTriangle> PlacedTriangles(const Mesh& mesh);
  *  either diagonal. @return the first difference in words, empty if all and nothing else was there
  */
 std::string CompareWithPatches(const Mesh& mesh, const std::vector<reference::Patch>& patches,
-  const reference::ScalarField& field, double isovalue);
+  const reference::ScalarField& field, double isovalue, bool exact = true);
 
 /** The library's place of a central vertex. */
 isodiamond::Place PlaceOf(const isodiamond::Grid& grid, const reference::Point& centre);

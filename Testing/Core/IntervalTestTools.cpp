@@ -12,7 +12,13 @@ namespace test
 Volume ExtractVolume(const isodiamond::IsodiamondHierarchy& hierarchy, double tolerance,
   double interiorTolerance, const isodiamond::ParallelFor& parallelFor)
 {
-  const isodiamond::RefinedSet refined(hierarchy, tolerance, parallelFor, interiorTolerance);
+  return ExtractVolume(hierarchy, isodiamond::Query{ tolerance, interiorTolerance }, parallelFor);
+}
+
+Volume ExtractVolume(const isodiamond::IsodiamondHierarchy& hierarchy,
+  const isodiamond::Query& query, const isodiamond::ParallelFor& parallelFor)
+{
+  const isodiamond::RefinedSet refined(hierarchy, query, parallelFor);
   const isodiamond::IntervalExtraction extraction(refined, parallelFor);
   Volume volume;
   volume.Points.resize(extraction.PointCount());

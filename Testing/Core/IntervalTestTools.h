@@ -29,6 +29,9 @@ struct Volume
       this->Levels == other.Levels;
   }
 };
+Volume ExtractVolume(const isodiamond::IsodiamondHierarchy& hierarchy,
+  const isodiamond::Query& query,
+  const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
 Volume ExtractVolume(const isodiamond::IsodiamondHierarchy& hierarchy, double tolerance,
   double interiorTolerance = std::numeric_limits<double>::infinity(),
   const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);

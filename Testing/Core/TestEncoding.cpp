@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The encoding: its size, and that damaged ones are refused.
 #include "IntervalTestTools.h"
+#include "IsovertexPlacement.h"
 
 #include <gtest/gtest.h>
 
@@ -25,6 +26,17 @@ TEST(Encoding, IsSmallerThanThePapersRecords)
       8 * arrays.BrickMasks.size() + 2 * arrays.Records.size() + arrays.Isovertices.size()));
 }
 
+namespace
+{
+
+int LinearCoefficient(double centre, double vertex, double isovalue)
+{
+  const std::array<double, 2> ends = { centre, vertex };
+  return IsovertexCoefficient(EdgeSamples<double>(ends.data(), 1, 1), isovalue);
+}
+
+}
+
 TEST(Encoding, CoefficientsAreWithinAStepOfTheLinearCrossing)
 {
   std::mt19937 random(3);
@@ -38,14 +50,14 @@ TEST(Encoding, CoefficientsAreWithinAStepOfTheLinearCrossing)
     {
       continue;
     }
-    const int coefficient = IsovertexCoefficient(a, b, k);
+    const int coefficient = LinearCoefficient(a, b, k);
     EXPECT_GE(coefficient, 1);
     EXPECT_LE(coefficient, 255);
     EXPECT_NEAR(coefficient / 256.0, (k - a) / (b - a), 1.0 / 256.0);
   }
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(IsovertexCoefficient(infinity, 0.0, 1.0), 128);
-  EXPECT_EQ(IsovertexCoefficient(0.0, std::numeric_limits<double>::quiet_NaN(), 1.0), 128);
+  EXPECT_EQ(LinearCoefficient(infinity, 0.0, 1.0), 128);
+  EXPECT_EQ(LinearCoefficient(0.0, std::numeric_limits<double>::quiet_NaN(), 1.0), 128);
 }
 
 TEST(Encoding, DamageIsRefused)

@@ -150,9 +150,11 @@ struct Models
   Isoregion Region;
 
   Models(const test::Field& field, const Isoregion& region, bool refineInterior = false)
-    : Relevant(BuildIsodiamonds(Model::Relevant, field.View(), region, SerialFor, refineInterior),
+    : Relevant(BuildIsodiamonds(
+                 Model::Relevant, field.View(), region, SerialFor, test::Interior(refineInterior)),
         SerialFor)
-    , Minimal(BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, refineInterior),
+    , Minimal(BuildIsodiamonds(
+                Model::Minimal, field.View(), region, SerialFor, test::Interior(refineInterior)),
         SerialFor)
     , Scalars(test::BuildScalars(field))
     , Region(region)
@@ -170,8 +172,8 @@ struct Models
     EXPECT_TRUE(placed ==
       test::PlacedTetrahedra(
         test::ExtractVolume(*this->Relevant.Hierarchy, tolerance, interiorTolerance)));
-    const test::Built query(
-      EncodeQuery(*this->Scalars.Hierarchy, this->Region, tolerance, SerialFor, interiorTolerance),
+    const test::Built query(EncodeQuery(*this->Scalars.Hierarchy, this->Region,
+                              { tolerance, interiorTolerance }, true, SerialFor),
       SerialFor);
     EXPECT_TRUE(placed == test::PlacedTetrahedra(test::ExtractVolume(*query.Hierarchy, 0.0)));
   }
@@ -249,7 +251,8 @@ TEST(Interval, DoesNotDependOnThreads)
 {
   const test::Field field = test::WaveField({ 33, 29, 40 });
   const Isoregion region(-0.3, 0.6);
-  const Encoding expected = BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, true);
+  const Encoding expected =
+    BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, test::Interior(true));
   const IsodiamondHierarchy hierarchy(expected, SerialFor);
   const test::Volume mesh = test::ExtractVolume(hierarchy, 0.1, 0.05);
   EXPECT_GT(mesh.Tetrahedra.size(), 1000U);
@@ -257,7 +260,7 @@ TEST(Interval, DoesNotDependOnThreads)
   {
     const ParallelFor parallelFor = test::ThreadedFor(threads);
     const Encoding encoding =
-      BuildIsodiamonds(Model::Minimal, field.View(), region, parallelFor, true);
+      BuildIsodiamonds(Model::Minimal, field.View(), region, parallelFor, test::Interior(true));
     EXPECT_EQ(encoding.Arrays.Records, expected.Arrays.Records);
     EXPECT_EQ(encoding.Arrays.BrickMasks, expected.Arrays.BrickMasks);
     EXPECT_EQ(encoding.Arrays.Isovertices, expected.Arrays.Isovertices);
@@ -275,7 +278,8 @@ TEST(Interval, HoldsTheInteriorTolerance)
   const test::Field field = test::WaveField({ 17, 17, 17 });
   const Isoregion region(-0.8, Infinity);
   const test::Built built(
-    BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, true), SerialFor);
+    BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, test::Interior(true)),
+    SerialFor);
   std::size_t previous = 0;
   for (const double tolerance : { 1.0, 0.2, 0.05 })
   {

@@ -3,7 +3,7 @@
 #include "Classification.h"
 #include "IntervalTestTools.h"
 
-#include "ReferenceIntervalMesh.h"
+#include "ReferenceExact.h"
 #include "ReferenceLinearVolume.h"
 
 #include <gtest/gtest.h>
@@ -66,8 +66,8 @@ void ExpectSameSet(const Oracle& oracle, const std::vector<ReferenceKind>& kinds
 }
 
 /** Points by position and number, tetrahedra by number, volume within what free diagonals allow. */
-void ExpectSameMesh(
-  const Oracle& oracle, const reference::DiamondSet& subdivided, const test::Volume& volume)
+void ExpectSameMesh(const Oracle& oracle, const reference::DiamondSet& subdivided,
+  const test::Volume& volume, bool exact)
 {
   const std::vector<reference::Tetrahedron> leaves =
     reference::SampledLeaves(oracle.Hierarchy, subdivided);
@@ -75,7 +75,8 @@ void ExpectSameMesh(
   for (const reference::IntervalPoint& point :
     reference::PointsOf(oracle.Hierarchy, oracle.Samples, oracle.Range, leaves))
   {
-    expected.push_back(reference::Position(oracle.Samples, oracle.Range, point));
+    expected.push_back(exact ? reference::ExactPosition(oracle.Samples, oracle.Range, point)
+                             : reference::Position(oracle.Samples, oracle.Range, point));
   }
   std::vector<std::array<double, 3>> points = volume.Points;
   std::sort(expected.begin(), expected.end());
@@ -93,6 +94,10 @@ void ExpectSameMesh(
   }
   EXPECT_TRUE(
     std::all_of(levels.begin(), levels.end(), [](const auto& level) { return level.second == 0; }));
+  if (exact)
+  {
+    return; // the reference's volumes are those of linear isovertices
+  }
   const reference::ValueRange sums =
     reference::VolumesOf(oracle.Hierarchy, oracle.Samples, oracle.Range, leaves);
   const double total = test::TotalVolume(volume);
@@ -144,8 +149,8 @@ TEST(IntervalReference, KindsAndCountsAreTheSame)
         const reference::Counts counts = reference::Count(hierarchy, samples, range, kinds);
         for (const Model model : { Model::Relevant, Model::Minimal })
         {
-          const test::Built built(
-            BuildIsodiamonds(model, field.View(), test::RegionOf(range), SerialFor, refineInterior),
+          const test::Built built(BuildIsodiamonds(model, field.View(), test::RegionOf(range),
+                                    SerialFor, test::Interior(refineInterior)),
             SerialFor);
           EXPECT_EQ(built.Hierarchy->Count(Kind::Active), counts.Active);
           EXPECT_EQ(built.Hierarchy->Count(Kind::Creation), counts.Creation);
@@ -178,11 +183,16 @@ TEST(IntervalReference, RefinedSetsAndMeshesAreTheSameInAllModels)
       {
         const std::vector<ReferenceKind> kinds =
           reference::Classify(oracle.Hierarchy, oracle.Samples, range, refineInterior);
-        const test::Built relevant(
-          BuildIsodiamonds(Model::Relevant, field.View(), region, SerialFor, refineInterior),
+        const test::Built relevant(BuildIsodiamonds(Model::Relevant, field.View(), region,
+                                     SerialFor, test::Interior(refineInterior)),
           SerialFor);
-        const test::Built minimal(
-          BuildIsodiamonds(Model::Minimal, *scalars.Hierarchy, region, SerialFor, refineInterior),
+        const test::Built minimal(BuildIsodiamonds(Model::Minimal, *scalars.Hierarchy, region,
+                                    SerialFor, test::Interior(refineInterior)),
+          SerialFor);
+        BuildOptions placedLinearly = test::Interior(refineInterior);
+        placedLinearly.ExactIsovertices = false;
+        const test::Built linear(
+          BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, placedLinearly),
           SerialFor);
         for (const double tolerance : { 0.0, 0.1 * code.Scale(), 0.4 * code.Scale(), infinity })
         {
@@ -190,9 +200,9 @@ TEST(IntervalReference, RefinedSetsAndMeshesAreTheSameInAllModels)
           const reference::DiamondSet expected = oracle.Refine(
             code.Accepted(tolerance), refineInterior ? code.Accepted(interior) : infinity);
           ExpectSameSet(oracle, kinds, expected,
-            RefinedSet(*relevant.Hierarchy, tolerance, SerialFor, interior), false);
+            RefinedSet(*relevant.Hierarchy, { tolerance, interior }, SerialFor), false);
           ExpectSameSet(oracle, kinds, expected,
-            RefinedSet(*minimal.Hierarchy, tolerance, SerialFor, interior), true);
+            RefinedSet(*minimal.Hierarchy, { tolerance, interior }, SerialFor), true);
           const DiamondMask subdivided =
             scalars.Hierarchy->Refine(region, code.Accepted(tolerance), code.Accepted(interior))
               .Subdivided;
@@ -205,7 +215,9 @@ TEST(IntervalReference, RefinedSetsAndMeshesAreTheSameInAllModels)
           if (field.Name.find("broken") == std::string::npos)
           {
             ExpectSameMesh(
-              oracle, expected, test::ExtractVolume(*minimal.Hierarchy, tolerance, interior));
+              oracle, expected, test::ExtractVolume(*minimal.Hierarchy, tolerance, interior), true);
+            ExpectSameMesh(
+              oracle, expected, test::ExtractVolume(*linear.Hierarchy, tolerance, interior), false);
           }
         }
       }
@@ -243,7 +255,7 @@ TEST(IntervalReference, CreationInsideACoarseActiveDiamondDoesNotOverlap)
     ExpectSameMesh(oracle,
       oracle.Refine(
         built.Hierarchy->Codes().Accepted(tolerance), std::numeric_limits<double>::infinity()),
-      volume);
+      volume, true);
   }
 }
 

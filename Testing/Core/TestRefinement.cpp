@@ -79,8 +79,10 @@ TEST(Refinement, EqualsTheReferenceWalkInAllModels)
       ASSERT_EQ(expected,
         reference::SmallestClosedSet(
           oracle.Hierarchy, reference::UniformCriterion(oracle.Errors, oracle.Crossed, accepted)));
-      ExpectSameSet(oracle, expected, RefinedSet(*relevant.Hierarchy, tolerance, SerialFor), false);
-      ExpectSameSet(oracle, expected, RefinedSet(*minimal.Hierarchy, tolerance, SerialFor), true);
+      ExpectSameSet(
+        oracle, expected, RefinedSet(*relevant.Hierarchy, { tolerance }, SerialFor), false);
+      ExpectSameSet(
+        oracle, expected, RefinedSet(*minimal.Hierarchy, { tolerance }, SerialFor), true);
       const DiamondMask subdivided = scalars.Hierarchy->Refine(field.Isovalue, accepted).Subdivided;
       for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
       {
@@ -141,7 +143,7 @@ TEST(Refinement, TheWalkOnTheMinimalStructureFindsTheSameSet)
       test::SparseField({ 9, 9, 9 }, 9), test::WaveField({ 10, 6, 13 }) })
   {
     SCOPED_TRACE(field.Name);
-    const test::Built minimal = test::Build(Model::Minimal, field);
+    const test::Built minimal = test::Build(Model::Minimal, field, test::Placement(false));
     const ErrorCode& code = minimal.Hierarchy->Codes();
     const Oracle oracle(field, code);
     const Grid& grid = minimal.Hierarchy->Domain();
@@ -160,9 +162,9 @@ TEST(Refinement, TheWalkOnTheMinimalStructureFindsTheSameSet)
     {
       const reference::MinimalRefinement result = walk.Refine(code.Accepted(tolerance));
       ExpectSameSet(
-        oracle, result.Subdivided, RefinedSet(*minimal.Hierarchy, tolerance, SerialFor), true);
+        oracle, result.Subdivided, RefinedSet(*minimal.Hierarchy, { tolerance }, SerialFor), true);
       EXPECT_EQ(test::CompareWithPatches(test::Extract(*minimal.Hierarchy, tolerance),
-                  result.Patches, oracle.Samples, field.Isovalue),
+                  result.Patches, oracle.Samples, field.Isovalue, false),
         "");
     }
   }
@@ -183,7 +185,7 @@ TEST(Refinement, OneHierarchyOfDiamondsAnswersTwentyIsovalues)
     EXPECT_EQ(fromScalars.Arrays.BrickMasks, fromImage.Encoding.Arrays.BrickMasks);
     EXPECT_EQ(fromScalars.Arrays.Isovertices, fromImage.Encoding.Arrays.Isovertices);
     const test::Built query(
-      EncodeQuery(*scalars.Hierarchy, field.Isovalue, tolerance, SerialFor), SerialFor);
+      EncodeQuery(*scalars.Hierarchy, field.Isovalue, { tolerance }, true, SerialFor), SerialFor);
     EXPECT_EQ(test::PlacedTriangles(test::Extract(*query.Hierarchy, tolerance)),
       test::PlacedTriangles(test::Extract(*fromImage.Hierarchy, tolerance)));
   }

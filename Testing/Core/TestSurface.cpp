@@ -104,10 +104,14 @@ TEST(Surface, IsTheFullResolutionSurfaceAtToleranceZero)
     const reference::ScalarField samples = field.Reference();
     const std::vector<reference::Patch> patches =
       reference::FullResolutionPatches(hierarchy, samples, field.Isovalue);
-    const test::Mesh mesh = test::Extract(*test::Build(Model::Minimal, field).Hierarchy, 0.0);
-    EXPECT_EQ(test::CompareWithPatches(mesh, patches, samples, field.Isovalue), "");
-    EXPECT_EQ(mesh.Points.size(), reference::IsoverticesOf(patches).size());
-    EXPECT_EQ(int(mesh.Triangles.size()), reference::CountTriangles(patches));
+    for (const bool exact : { true, false })
+    {
+      const test::Mesh mesh =
+        test::Extract(*test::Build(Model::Minimal, field, test::Placement(exact)).Hierarchy, 0.0);
+      EXPECT_EQ(test::CompareWithPatches(mesh, patches, samples, field.Isovalue, exact), "");
+      EXPECT_EQ(mesh.Points.size(), reference::IsoverticesOf(patches).size());
+      EXPECT_EQ(int(mesh.Triangles.size()), reference::CountTriangles(patches));
+    }
   }
 }
 
@@ -124,7 +128,7 @@ TEST(Surface, ThreeModelsGiveTheIdenticalMesh)
       const test::Mesh mesh = test::Extract(*minimal.Hierarchy, tolerance);
       EXPECT_TRUE(mesh == test::Extract(*relevant.Hierarchy, tolerance));
       const test::Built query(
-        EncodeQuery(*scalars.Hierarchy, field.Isovalue, tolerance, SerialFor), SerialFor);
+        EncodeQuery(*scalars.Hierarchy, field.Isovalue, { tolerance }, true, SerialFor), SerialFor);
       EXPECT_TRUE(mesh == test::Extract(*query.Hierarchy, tolerance));
     }
   }
@@ -195,7 +199,7 @@ TEST(Surface, KeepsThePromiseOfTheFieldMetric)
     for (const double tolerance : test::Tolerances(minimal.Hierarchy->Codes().Scale()))
     {
       const DiamondMesh mesh =
-        ExtractDiamondMesh(RefinedSet(*minimal.Hierarchy, tolerance, SerialFor));
+        ExtractDiamondMesh(RefinedSet(*minimal.Hierarchy, { tolerance }, SerialFor));
       std::set<int> carrying; // the diamonds of the leaves
       for (const std::array<std::int64_t, 4>& tetrahedron : mesh.Tetrahedra)
       {
@@ -298,10 +302,10 @@ TEST(DiamondMesh, TilesTheDomainForRelevantAndScalarHierarchies)
   for (const double tolerance : { 0.0, 0.1, 1.0, 1e9 })
   {
     const DiamondMesh whole =
-      ExtractDiamondMesh(RefinedSet(*relevant.Hierarchy, tolerance, SerialFor));
+      ExtractDiamondMesh(RefinedSet(*relevant.Hierarchy, { tolerance }, SerialFor));
     EXPECT_EQ(volume(whole), 6 * 16 * 16 * 16);
     const DiamondMesh part =
-      ExtractDiamondMesh(RefinedSet(*minimal.Hierarchy, tolerance, SerialFor));
+      ExtractDiamondMesh(RefinedSet(*minimal.Hierarchy, { tolerance }, SerialFor));
     EXPECT_LT(part.Tetrahedra.size(), std::max<std::size_t>(whole.Tetrahedra.size(), 7));
     EXPECT_LE(volume(part), 6 * 16 * 16 * 16);
   }

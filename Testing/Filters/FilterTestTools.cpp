@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace test
 {
@@ -47,6 +48,29 @@ vtkSmartPointer<vtkImageData> BallImage(const std::array<int, 3>& dims)
       const double w = 2.0 * z / (dims[2] - 1) - 1.0;
       return 0.71 - std::sqrt(u * u + v * v + w * w) +
         0.07 * std::sin(7.0 * u) * std::sin(6.0 * v) * std::cos(5.0 * w);
+    });
+}
+
+vtkSmartPointer<vtkImageData> PhantomImage(const std::array<int, 3>& dims, double noise)
+{
+  std::mt19937 random(2010);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const double size = dims[0] - 1;
+  return MakeImage(dims,
+    [&](double x, double y, double z)
+    {
+      // Signed distances in voxels, negative inside: a block, less two bores and a slot.
+      const auto box = [&](double cx, double cy, double cz, double rx, double ry, double rz)
+      {
+        return std::max({ std::fabs(x - cx * size) - rx * size,
+          std::fabs(y - cy * size) - ry * size, std::fabs(z - cz * size) - rz * size });
+      };
+      const auto bore = [&](double a, double b, double ca, double cb, double r)
+      { return std::hypot(a - ca * size, b - cb * size) - r * size; };
+      const double part =
+        std::max({ box(0.5, 0.5, 0.5, 0.36, 0.3, 0.33), -bore(x, z, 0.35, 0.5, 0.13),
+          -bore(y, z, 0.5, 0.62, 0.09), -box(0.72, 0.5, 0.4, 0.03, 0.2, 0.4) });
+      return 100.0 / (1.0 + std::exp(2.0 * part)) + noise * normal(random);
     });
 }
 

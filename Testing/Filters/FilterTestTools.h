@@ -27,6 +27,11 @@ vtkSmartPointer<vtkImageData> MakeImage(
 /** A bumpy ball: density falls from the middle, about 0 on its surface, well inside the image. */
 vtkSmartPointer<vtkImageData> BallImage(const std::array<int, 3>& dims);
 
+/** Like a scan of a cast part: a block with bores and thin walls, its edges blurred over two
+ * voxels, 100 inside and 0 outside, with noise. Sharp edges have large field errors and little
+ * shape. */
+vtkSmartPointer<vtkImageData> PhantomImage(const std::array<int, 3>& dims, double noise);
+
 /** Collects the errors and warnings of an algorithm instead of printing them. */
 class Messages : public vtkCommand
 {

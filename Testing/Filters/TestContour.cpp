@@ -240,6 +240,7 @@ TEST(Contour, OneAndTwoStepsGiveTheSameBytesOnAnyNumberOfThreads)
   contour->Update();
   vtkNew<vtkIsodiamondBuilder> builder;
   builder->SetInputData(image);
+  builder->SetErrorMetricToDistance();
   vtkNew<vtkIsodiamondExtractor> extractor;
   extractor->SetInputConnection(builder->GetOutputPort());
   extractor->SetErrorTolerance(0.01);

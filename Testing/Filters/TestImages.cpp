@@ -106,6 +106,7 @@ TEST(Images, SurfaceAtThreeTolerances)
   {
     contours[i]->SetInputData(test::BallImage({ 29, 29, 29 }));
     contours[i]->SetValue(0, 0.0);
+    contours[i]->SetErrorMetricToField();
     contours[i]->SetErrorTolerance(tolerances[i]);
     scene.Add(contours[i]->GetOutputPort())->GetProperty()->EdgeVisibilityOn();
   }
@@ -147,6 +148,50 @@ TEST(Images, LevelsAndKindsAndDiamonds)
   scene.Compare("LevelsAndKindsAndDiamonds");
 }
 
+// Full detail in a box, coarse outside, coloured by level: a surface, and half of an interval
+// volume.
+TEST(Images, RegionOfInterestOnASurface)
+{
+  Scene scene(2);
+  vtkNew<vtkIsodiamondContour> contours[2];
+  const double outsideTolerances[2] = { VTK_DOUBLE_MAX, 0.5 };
+  for (int i = 0; i < 2; ++i)
+  {
+    contours[i]->SetInputData(test::BallImage({ 33, 33, 33 }));
+    contours[i]->SetValue(0, 0.0);
+    contours[i]->UseRegionOfInterestOn();
+    contours[i]->SetRegionOfInterest(18, 34, -2, 34, 14, 34);
+    contours[i]->SetOutsideErrorTolerance(outsideTolerances[i]);
+    vtkActor* actor = scene.Add(contours[i]->GetOutputPort());
+    actor->GetProperty()->EdgeVisibilityOn();
+    ColourBy(actor, "Level", 7);
+    actor->GetMapper()->SetScalarModeToUseCellFieldData();
+  }
+  scene.Compare("RegionOfInterestOnASurface");
+}
+
+TEST(Images, RegionOfInterestOnAnIntervalVolume)
+{
+  Scene scene(1);
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  volume->SetInputData(test::BallImage({ 33, 33, 33 }));
+  volume->SetIsorange(0.0, 10.0);
+  volume->UseRegionOfInterestOn();
+  volume->SetRegionOfInterest(20, 34, -2, 34, 18, 34);
+  volume->SetOutsideErrorTolerance(1.0);
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(16.0, 16.0, 16.0);
+  plane->SetNormal(0.0, -1.0, 0.0);
+  vtkNew<vtkExtractGeometry> half;
+  half->SetInputConnection(volume->GetOutputPort());
+  half->SetImplicitFunction(plane);
+  vtkActor* actor = scene.Add(half->GetOutputPort());
+  actor->GetProperty()->EdgeVisibilityOn();
+  ColourBy(actor, "Level", 6);
+  actor->GetMapper()->SetScalarModeToUseCellFieldData();
+  scene.Compare("RegionOfInterestOnAnIntervalVolume");
+}
+
 // Clipped by whole cells: the inside coarse and graded, then refined where the field asks for it.
 TEST(Images, IntervalVolumes)
 {
@@ -158,6 +203,7 @@ TEST(Images, IntervalVolumes)
   {
     volumes[i]->SetInputData(test::BallImage({ 33, 33, 33 }));
     volumes[i]->SetIsorange(0.0, 10.0);
+    volumes[i]->SetErrorMetricToField();
     volumes[i]->SetErrorTolerance(0.02);
     volumes[i]->SetInteriorTolerance(interiorTolerances[i]);
     vtkNew<vtkPlane> plane;

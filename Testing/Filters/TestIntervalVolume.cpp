@@ -213,6 +213,7 @@ TEST(IntervalVolume, ComesFromAllModelsAndFiles)
   const auto expected = [&](double interior)
   {
     const auto volume = MakeVolume(image, -0.1, 0.2);
+    volume->SetErrorMetricToField();
     volume->SetErrorTolerance(0.03);
     volume->SetInteriorTolerance(interior);
     volume->Update();

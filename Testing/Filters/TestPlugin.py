@@ -17,21 +17,41 @@ wavelet.UpdatePipeline()
 middle = sum(wavelet.PointData["RTData"].GetRange()) / 2
 extent = wavelet.PointData["RTData"].GetRange()[1] - wavelet.PointData["RTData"].GetRange()[0]
 
-# Contour: defaults that show a surface at once, a slider from 0 to the array's range.
+# Contour: defaults that show a surface at once; a slider that goes to 2 % of the diagonal, or with
+# the field metric to the array's range; a region of interest that starts as the data's bounds.
 contour = IsodiamondContour(wavelet)
 assert list(contour.ContourBy) == ["POINTS", "RTData"], contour.ContourBy
 assert abs(contour.Isosurfaces[0] - middle) < 1e-3, contour.Isosurfaces
 assert contour.ErrorTolerance == 0
+assert contour.ErrorMetric == "Distance" and contour.ExactIsovertices and contour.PreserveFeatures
 domain = contour.GetProperty("ErrorTolerance").GetDomain("range")
-assert domain.GetMinimum(0) == 0 and abs(domain.GetMaximum(0) - extent) < 1e-3
+assert domain.GetMinimum(0) == 0 and abs(domain.GetMaximum(0) - 0.02 * 20 * 3**0.5) < 1e-3
+assert list(contour.RegionOfInterestPosition) == [-10, -10, -10], contour.RegionOfInterestPosition
+assert list(contour.RegionOfInterestSize) == [20, 20, 20], contour.RegionOfInterestSize
+assert not contour.UseRegionOfInterest and contour.OutsideErrorTolerance > 1e298
 contour.UpdatePipeline()
 full = contour.GetDataInformation().GetNumberOfCells()
 stock = Contour(wavelet)
 stock.UpdatePipeline()
 assert full > stock.GetDataInformation().GetNumberOfCells() > 0
+contour.ErrorTolerance = 1
+contour.UpdatePipeline()
+coarse = contour.GetDataInformation().GetNumberOfCells()
+assert 0 < coarse < full / 2
+contour.ErrorTolerance = 0
+contour.UseRegionOfInterest = 1
+contour.RegionOfInterestSize = [10, 10, 10]
+contour.OutsideErrorTolerance = 1
+contour.UpdatePipeline()
+assert coarse < contour.GetDataInformation().GetNumberOfCells() < full
+contour.UseRegionOfInterest = 0
+contour.ErrorMetric = "Field"
 contour.ErrorTolerance = 40
 contour.UpdatePipeline()
 assert 0 < contour.GetDataInformation().GetNumberOfCells() < full / 2
+contour.UpdatePropertyInformation()
+domain = contour.GetProperty("ErrorTolerance").GetDomain("range")
+assert abs(domain.GetMaximum(0) - extent) < 1e-3
 
 # Two steps.
 hierarchy = IsodiamondHierarchy(wavelet)
@@ -60,7 +80,7 @@ volume.UpdatePipeline()
 tetrahedra = volume.GetDataInformation().GetNumberOfCells()
 assert tetrahedra > 0
 assert sorted(volume.PointData.keys()) == ["RTData", "Surface"]
-volume.ErrorTolerance = 20
+volume.ErrorTolerance = 1
 volume.UpdatePipeline()
 coarse = volume.GetDataInformation().GetNumberOfCells()
 assert 0 < coarse < tetrahedra
@@ -74,6 +94,22 @@ tetrahedra_builder = IsodiamondHierarchy(wavelet, Shape="Interval Volume", Isora
 extract = IsodiamondExtract(tetrahedra_builder)
 extract.UpdatePipeline()
 assert extract.GetDataInformation().GetNumberOfCells() == tetrahedra
+
+# The extractor's range and box follow the hierarchy's metric and bounds.
+distances = IsodiamondHierarchy(wavelet, ErrorMetric="Distance")
+distances.UpdatePipeline()
+extract = IsodiamondExtract(distances)
+domain = extract.GetProperty("ErrorTolerance").GetDomain("range")
+assert abs(domain.GetMaximum(0) - 0.02 * 20 * 3**0.5) < 1e-3, domain.GetMaximum(0)
+assert list(extract.RegionOfInterestPosition) == [-10, -10, -10]
+assert list(extract.RegionOfInterestSize) == [20, 20, 20]
+extract.ErrorTolerance = 1
+extract.UpdatePipeline()
+assert 0 < extract.GetDataInformation().GetNumberOfCells() < full / 2
+mesh = DiamondMesh(distances, ErrorTolerance=1, UseRegionOfInterest=1)
+mesh.RegionOfInterestSize = [3, 3, 3]
+mesh.UpdatePipeline()
+assert mesh.GetDataInformation().GetNumberOfCells() > 0
 
 # A hierarchy of diamonds uses the extractor's values only when it is told to.
 diamonds = IsodiamondHierarchy(wavelet, Model="Hierarchy of Diamonds (any isovalue)")
@@ -97,7 +133,8 @@ reopened.UpdatePipeline()
 assert reopened.GetDataInformation().GetNumberOfCells() == full
 
 # Shown.
-contour.ErrorTolerance = 5
+contour.ErrorMetric = "Distance"
+contour.ErrorTolerance = 0.5
 view = CreateRenderView(ViewSize=[400, 300])
 display = Show(contour, view)
 display.Representation = "Surface With Edges"

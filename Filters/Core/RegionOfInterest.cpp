@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RegionOfInterest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace isodiamond
+{
+namespace
+{
+
+using Vector = std::array<double, 3>;
+
+Vector Cross(const Vector& a, const Vector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+Vector Difference(const Vector& a, const Vector& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+double Dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** The smallest box around lattice points placed in the world. */
+template <typename Points>
+Box BoundsOf(const Points& points, const AffineMap& world)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  for (const Point& point : points)
+  {
+    const Vector position = world(point[0], point[1], point[2]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      bounds.Minimum[axis] = std::min(bounds.Minimum[axis], position[axis]);
+      bounds.Maximum[axis] = std::max(bounds.Maximum[axis], position[axis]);
+    }
+  }
+  return bounds;
+}
+
+std::array<Point, 8> CornersOf(const Point& minimum, const Point& maximum)
+{
+  std::array<Point, 8> corners{};
+  for (int i = 0; i < 8; ++i)
+  {
+    corners[i] = { (i & 1) != 0 ? maximum[0] : minimum[0], (i & 2) != 0 ? maximum[1] : minimum[1],
+      (i & 4) != 0 ? maximum[2] : minimum[2] };
+  }
+  return corners;
+}
+
+}
+
+RegionOfInterest::RegionOfInterest(const Box& box, const Grid& grid, const AffineMap& world)
+  : Domain(grid)
+  , World(world)
+  , Bounds(box)
+  , Empty(box.IsEmpty())
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (std::isnan(box.Minimum[axis]) || std::isnan(box.Maximum[axis]))
+    {
+      throw std::invalid_argument("The region of interest has a bound that is not a number.");
+    }
+  }
+  // Bounds beyond the base cube, infinite ones too, come to the cube's: no diamond is outside.
+  const int last = 1 << grid.Depth();
+  const Box cube = BoundsOf(CornersOf({ 0, 0, 0 }, { last, last, last }), world);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Bounds.Minimum[axis] = std::max(box.Minimum[axis], cube.Minimum[axis]);
+    this->Bounds.Maximum[axis] = std::min(box.Maximum[axis], cube.Maximum[axis]);
+    this->Slack =
+      std::max({ this->Slack, std::fabs(cube.Minimum[axis]), std::fabs(cube.Maximum[axis]) });
+  }
+  this->Slack *= 1e-14;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Bounds.Minimum[axis] -= this->Slack;
+    this->Bounds.Maximum[axis] += this->Slack;
+  }
+  this->Empty = this->Empty || this->Bounds.IsEmpty();
+}
+
+RegionOfInterest::Relation RegionOfInterest::Compare(
+  const Point& minimum, const Point& maximum) const
+{
+  const Box bounds = BoundsOf(CornersOf(minimum, maximum), this->World);
+  bool within = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (this->Empty || bounds.Minimum[axis] > this->Bounds.Maximum[axis] ||
+      bounds.Maximum[axis] < this->Bounds.Minimum[axis])
+    {
+      return Relation::Apart;
+    }
+    within = within && bounds.Minimum[axis] >= this->Bounds.Minimum[axis] &&
+      bounds.Maximum[axis] <= this->Bounds.Maximum[axis];
+  }
+  return within ? Relation::Within : Relation::Unclear;
+}
+
+bool RegionOfInterest::MayTouch(int scale, const Point& brickOrigin) const
+{
+  return this->Compare((1 << scale) * (brickOrigin + Point{ -1, -1, -1 }),
+           (1 << scale) * (brickOrigin + Point{ 8, 8, 8 })) != Relation::Apart;
+}
+
+bool RegionOfInterest::Touches(const Place& place) const
+{
+  const int h = 1 << place.Scale;
+  const Point centre = Centre(place);
+  const Relation relation = this->Compare(centre + Point{ -h, -h, -h }, centre + Point{ h, h, h });
+  if (relation != Relation::Unclear)
+  {
+    return relation == Relation::Within;
+  }
+  // The tetrahedra: half of each, and the other end of the spine instead of the centre.
+  const TypeTable& shape = ShapeOf(place.Position);
+  const auto vertexAt = [&](int vertex) { return centre + h * shape.Offsets[vertex]; };
+  for (int i = 0; i < shape.HalfTetrahedronCount; ++i)
+  {
+    const HalfTetrahedron& half = shape.HalfTetrahedra[i];
+    if (((half.Mask >> shape.Spine[0]) & 1U) != 0 &&
+      this->TouchesTetrahedron({ vertexAt(shape.Spine[1]), vertexAt(half.Vertices[0]),
+        vertexAt(half.Vertices[1]), vertexAt(half.Vertices[2]) }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/** By separating axes: two convex polyhedra are apart if and only if they are so along a normal of
+ *  a face of one of them, or along the product of an edge of the one and an edge of the other. */
+bool RegionOfInterest::TouchesTetrahedron(const std::array<Point, 4>& corners) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto [low, high] =
+      std::minmax({ corners[0][axis], corners[1][axis], corners[2][axis], corners[3][axis] });
+    if (high <= 0 || low >= this->Domain.Last(axis))
+    {
+      return false; // not in the grid
+    }
+  }
+  std::array<Vector, 4> points{};
+  for (int i = 0; i < 4; ++i)
+  {
+    points[i] = this->World(corners[i][0], corners[i][1], corners[i][2]);
+  }
+  const auto isSeparating = [&](const Vector& axis)
+  {
+    double regionLow = 0.0;
+    double regionHigh = 0.0;
+    for (int i = 0; i < 3; ++i)
+    {
+      regionLow += axis[i] * (axis[i] < 0.0 ? this->Bounds.Maximum[i] : this->Bounds.Minimum[i]);
+      regionHigh += axis[i] * (axis[i] < 0.0 ? this->Bounds.Minimum[i] : this->Bounds.Maximum[i]);
+    }
+    const auto [low, high] = std::minmax(
+      { Dot(axis, points[0]), Dot(axis, points[1]), Dot(axis, points[2]), Dot(axis, points[3]) });
+    return low > regionHigh || high < regionLow;
+  };
+  constexpr std::array<Vector, 3> boxAxes = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+  for (const Vector& axis : boxAxes)
+  {
+    if (isSeparating(axis))
+    {
+      return false;
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = 0; j < i; ++j)
+      {
+        if (isSeparating(Cross(axis, Difference(points[i], points[j]))))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  for (int opposite = 0; opposite < 4; ++opposite)
+  {
+    const Vector& a = points[(opposite + 1) % 4];
+    if (isSeparating(Cross(
+          Difference(points[(opposite + 2) % 4], a), Difference(points[(opposite + 3) % 4], a))))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+}

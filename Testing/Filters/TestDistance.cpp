@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The distance metric: its promise, checked with VTK's cell locator for all vertices, on analytic,
+// noisy and real volumes; what it can do and what it refuses.
+#include "FilterTestTools.h"
+
+#include "vtkAlgorithmOutput.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkGenericCell.h"
+#include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondExtractor.h"
+#include "vtkIsodiamondIntervalVolume.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStaticCellLocator.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <random>
+
+namespace
+{
+
+/** Distances of the points of one mesh to another. */
+struct Deviation
+{
+  double Mean = 0.0;
+  double Largest = 0.0;
+};
+
+Deviation DeviationOf(vtkPointSet* from, vtkPolyData* to)
+{
+  vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(to);
+  locator->BuildLocator();
+  vtkNew<vtkGenericCell> cell;
+  Deviation deviation;
+  for (vtkIdType i = 0; i < from->GetNumberOfPoints(); ++i)
+  {
+    double closest[3];
+    vtkIdType cellId = 0;
+    int subId = 0;
+    double squared = 0.0;
+    locator->FindClosestPoint(from->GetPoint(i), closest, cell, cellId, subId, squared);
+    const double distance = std::sqrt(squared);
+    deviation.Mean += distance / from->GetNumberOfPoints();
+    deviation.Largest = std::max(deviation.Largest, distance);
+  }
+  return deviation;
+}
+
+/** Distances that are only rounding: of float coordinates as large as the bounds. */
+double Rounding(vtkDataSet* data)
+{
+  double bounds[6];
+  data->GetBounds(bounds);
+  double largest = 0.0;
+  for (const double bound : bounds)
+  {
+    largest = std::max(largest, std::fabs(bound));
+  }
+  return 4e-7 * largest;
+}
+
+void ExpectPromiseOfContour(vtkImageData* image, double isovalue, double voxel)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, isovalue);
+  contour->ComputeNormalsOff();
+  contour->Update();
+  vtkNew<vtkPolyData> full;
+  full->DeepCopy(contour->GetOutput());
+  ASSERT_GT(full->GetNumberOfPoints(), 100);
+  vtkIdType previous = full->GetNumberOfCells();
+  for (const double inVoxels : { 0.1, 0.25, 0.5, 1.0, 2.0, 8.0 })
+  {
+    const double tolerance = inVoxels * voxel;
+    contour->SetErrorTolerance(tolerance);
+    contour->Update();
+    EXPECT_LE(contour->GetOutput()->GetNumberOfCells(), previous);
+    previous = contour->GetOutput()->GetNumberOfCells();
+    EXPECT_LE(DeviationOf(full, contour->GetOutput()).Largest, tolerance + Rounding(full))
+      << "tolerance " << inVoxels << " voxels";
+  }
+  EXPECT_LT(previous, full->GetNumberOfCells());
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
+}
+
+/** A uint8 volume of the sample data; null without it. */
+vtkSmartPointer<vtkImageData> SampleVolume(const char* name, const std::array<int, 3>& dims)
+{
+  const char* folder = std::getenv("ISODIAMONDS_DATA_DIR");
+  vtkNew<vtkUnsignedCharArray> values;
+  values->SetName("density");
+  values->SetNumberOfValues(vtkIdType{ 1 } * dims[0] * dims[1] * dims[2]);
+  std::ifstream file(std::string(folder ? folder : "") + "/" + name, std::ios::binary);
+  if (!folder ||
+    !file.read(reinterpret_cast<char*>(values->GetPointer(0)), values->GetNumberOfValues()))
+  {
+    return nullptr;
+  }
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(dims.data());
+  image->GetPointData()->SetScalars(values);
+  return image;
+}
+
+/** One surface of an interval volume: the faces of one tetrahedron whose corners all lie on it. */
+vtkSmartPointer<vtkPolyData> SurfaceOf(vtkUnstructuredGrid* volume, int surface)
+{
+  vtkDataArray* surfaces = volume->GetPointData()->GetArray("Surface");
+  std::map<std::array<vtkIdType, 3>, int> faces;
+  for (vtkIdType i = 0; i < volume->GetNumberOfCells(); ++i)
+  {
+    const vtkIdType* points = nullptr;
+    vtkIdType count = 0;
+    volume->GetCellPoints(i, count, points);
+    for (int opposite = 0; opposite < 4; ++opposite)
+    {
+      std::array<vtkIdType, 3> face{};
+      bool onSurface = true;
+      for (int j = 0, k = 0; j < 4; ++j)
+      {
+        if (j != opposite)
+        {
+          onSurface = onSurface && surfaces->GetTuple1(points[j]) == surface;
+          face[k++] = points[j];
+        }
+      }
+      std::sort(face.begin(), face.end());
+      if (onSurface)
+      {
+        ++faces[face];
+      }
+    }
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (const auto& [face, count] : faces)
+  {
+    if (count == 1)
+    {
+      triangles->InsertNextCell(3, face.data());
+    }
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(volume->GetPoints());
+  result->SetPolys(triangles);
+  return result;
+}
+
+/** The points of a volume on one surface. */
+vtkSmartPointer<vtkPolyData> PointsOn(vtkUnstructuredGrid* volume, int surface)
+{
+  vtkDataArray* surfaces = volume->GetPointData()->GetArray("Surface");
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < volume->GetNumberOfPoints(); ++i)
+  {
+    if (surfaces->GetTuple1(i) == surface)
+    {
+      points->InsertNextPoint(volume->GetPoint(i));
+    }
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  return result;
+}
+
+}
+
+TEST(Distance, IsAPromiseOnAnalyticVolumes)
+{
+  ExpectPromiseOfContour(test::BallImage({ 41, 41, 41 }), 0.0, 1.0);
+  ExpectPromiseOfContour(test::BallImage({ 37, 22, 50 }), 0.1, 1.0);
+  ExpectPromiseOfContour(test::PhantomImage({ 60, 60, 60 }, 0.0), 50.0, 1.0);
+}
+
+TEST(Distance, IsAPromiseOnNoisyVolumes)
+{
+  ExpectPromiseOfContour(test::PhantomImage({ 48, 48, 48 }, 12.0), 50.0, 1.0);
+  std::mt19937 random(1);
+  ExpectPromiseOfContour(
+    test::MakeImage({ 23, 18, 20 }, [&](double, double, double) { return random() % 256; }), 180.0,
+    1.0);
+}
+
+TEST(Distance, IsAPromiseInTheWorld)
+{
+  const auto image = test::PhantomImage({ 44, 44, 44 }, 5.0);
+  image->SetSpacing(0.4, 0.9, 2.5);
+  image->SetOrigin(-3.0, 7.0, 1.0);
+  ExpectPromiseOfContour(image, 50.0, 0.9);
+  // Oblique: a rotation about (1, 2, 3).
+  const double c = std::cos(0.7);
+  const double s = std::sin(0.7) / std::sqrt(14.0);
+  vtkNew<vtkMatrix3x3> direction;
+  const double axis[3] = { 1.0, 2.0, 3.0 };
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      const int k = 3 - i - j;
+      const double turn = i == j ? c : (j == (i + 1) % 3 ? -s : s) * axis[k];
+      direction->SetElement(i, j, turn + (1.0 - c) * axis[i] * axis[j] / 14.0);
+    }
+  }
+  image->SetDirectionMatrix(direction);
+  ExpectPromiseOfContour(image, 50.0, 0.9);
+}
+
+TEST(Distance, IsAPromiseOnSampleVolumes)
+{
+  const auto tooth = SampleVolume("tooth_103x94x161_uint8.raw", { 103, 94, 161 });
+  const auto fuel = SampleVolume("fuel_64x64x64_uint8.raw", { 64, 64, 64 });
+  if (!tooth || !fuel)
+  {
+    GTEST_SKIP() << "ISODIAMONDS_DATA_DIR does not hold the tooth and the fuel";
+  }
+  tooth->SetSpacing(0.25, 0.25, 0.5);
+  ExpectPromiseOfContour(tooth, 120.0, 0.25);
+  ExpectPromiseOfContour(fuel, 11.4, 1.0);
+}
+
+TEST(Distance, IsAPromiseOnBothSurfacesOfIntervalVolumes)
+{
+  for (const auto& image :
+    { test::BallImage({ 33, 30, 36 }), test::PhantomImage({ 40, 40, 40 }, 8.0) })
+  {
+    image->SetSpacing(1.0, 0.5, 1.5);
+    double range[2];
+    image->GetScalarRange(range);
+    vtkNew<vtkIsodiamondIntervalVolume> volume;
+    volume->SetInputData(image);
+    volume->SetIsorange(
+      range[0] + 0.45 * (range[1] - range[0]), range[0] + 0.8 * (range[1] - range[0]));
+    volume->Update();
+    vtkNew<vtkUnstructuredGrid> full;
+    full->DeepCopy(volume->GetOutput());
+    for (const double tolerance : { 0.1, 0.3, 1.0, 4.0 })
+    {
+      volume->SetErrorTolerance(tolerance);
+      volume->Update();
+      EXPECT_LT(volume->GetOutput()->GetNumberOfCells(), full->GetNumberOfCells());
+      for (const int surface : { -1, 1 })
+      {
+        const auto points = PointsOn(full, surface);
+        ASSERT_GT(points->GetNumberOfPoints(), 100);
+        EXPECT_LE(DeviationOf(points, SurfaceOf(volume->GetOutput(), surface)).Largest,
+          tolerance + Rounding(full));
+      }
+    }
+  }
+}
+
+TEST(Distance, SimplifiesSharpEdgesThatTheFieldMetricKeeps)
+{
+  const auto image = test::PhantomImage({ 80, 80, 80 }, 2.0);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 50.0);
+  contour->Update();
+  vtkNew<vtkPolyData> full;
+  full->DeepCopy(contour->GetOutput());
+  contour->SetErrorTolerance(0.5);
+  contour->Update();
+  const vtkIdType triangles = contour->GetOutput()->GetNumberOfCells();
+  const Deviation distance = DeviationOf(full, contour->GetOutput());
+  EXPECT_LT(triangles, full->GetNumberOfCells() / 4);
+  // With no fewer triangles the field metric's mesh is farther away.
+  contour->SetErrorMetricToField();
+  contour->SetErrorTolerance(100.0);
+  while (contour->Update(), contour->GetOutput()->GetNumberOfCells() < triangles)
+  {
+    contour->SetErrorTolerance(0.9 * contour->GetErrorTolerance());
+  }
+  const Deviation field = DeviationOf(full, contour->GetOutput());
+  EXPECT_GT(field.Largest, distance.Largest);
+}
+
+TEST(Distance, KeepsThinFeaturesUnlessToldOtherwise)
+{
+  // A ball, and a speck of one sample beside it.
+  const auto image = test::MakeImage({ 33, 33, 33 },
+    [](double x, double y, double z)
+    {
+      const double ball =
+        8.0 - std::sqrt((x - 12) * (x - 12) + (y - 16) * (y - 16) + (z - 16) * (z - 16));
+      return x == 27 && y == 16 && z == 17 ? 1.0 : ball;
+    });
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.0);
+  contour->SetErrorTolerance(5.0); // the speck is thinner, but farther from the ball
+  contour->Update();
+  EXPECT_GT(contour->GetOutput()->GetBounds()[1], 26.0);
+  contour->PreserveFeaturesOff();
+  contour->Update();
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 2);
+  EXPECT_LT(contour->GetOutput()->GetBounds()[1], 26.0);
+  contour->SetErrorTolerance(0.01); // thinner than the tolerance only
+  contour->Update();
+  EXPECT_GT(contour->GetOutput()->GetBounds()[1], 26.0);
+}
+
+TEST(Distance, LinearIsoverticesLeaveTheSurfaceExactOnesDoNot)
+{
+  const auto image = test::PhantomImage({ 40, 40, 40 }, 2.0);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 50.0);
+  contour->SetErrorMetricToField();
+  contour->Update();
+  vtkNew<vtkPolyData> full;
+  full->DeepCopy(contour->GetOutput());
+  contour->SetErrorTolerance(10.0);
+  contour->Update();
+  const double exact = DeviationOf(contour->GetOutput(), full).Largest;
+  // One coefficient step of the longest edge that the mesh has, by its coarsest level.
+  double levels[2];
+  contour->GetOutput()->GetCellData()->GetArray("Level")->GetRange(levels);
+  EXPECT_LE(exact, std::sqrt(3.0) * std::pow(2.0, 6 - levels[0]) / 256);
+  contour->ExactIsoverticesOff();
+  contour->Update();
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 2);
+  EXPECT_GT(DeviationOf(contour->GetOutput(), full).Largest, 5 * exact);
+}
+
+TEST(Distance, NeedsAnIsovalue)
+{
+  const auto image = test::BallImage({ 9, 9, 9 });
+  vtkNew<vtkIsodiamondBuilder> diamonds;
+  diamonds->SetInputData(image);
+  diamonds->SetModelToHierarchyOfDiamonds();
+  diamonds->SetErrorMetricToDistance();
+  const auto messages = test::Watch(diamonds);
+  diamonds->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_NE(messages->Errors.find("field metric"), std::string::npos);
+  EXPECT_EQ(diamonds->GetOutput()->GetNumberOfPoints(), 0);
+  // From an HD others can have it: its samples are all that is needed.
+  diamonds->SetErrorMetricToField();
+  vtkNew<vtkIsodiamondBuilder> minimal[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    minimal[i]->SetErrorMetricToDistance();
+    minimal[i]->SetShape(vtkIsodiamondHierarchy::ISOSURFACE);
+  }
+  minimal[0]->SetInputConnection(diamonds->GetOutputPort());
+  minimal[1]->SetInputData(image);
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetErrorTolerance(0.3);
+  test::Triangles triangles[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    extractor->SetInputConnection(minimal[i]->GetOutputPort());
+    extractor->Update();
+    EXPECT_EQ(minimal[i]->GetHierarchy()->GetErrorMetric(), vtkIsodiamondHierarchy::DISTANCE);
+    triangles[i] = test::SortedTriangles(extractor->GetOutput());
+  }
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_FALSE(triangles[0].empty());
+  EXPECT_TRUE(triangles[0] == triangles[1]);
+}
+
+TEST(Distance, NeedsAWorldWithLengths)
+{
+  const auto image = test::BallImage({ 9, 9, 9 });
+  image->SetSpacing(1.0, 0.0, 1.0);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.0);
+  const auto messages = test::Watch(contour);
+  contour->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(Distance, BuildsAgainOnlyForWhatMatters)
+{
+  const auto image = test::BallImage({ 17, 17, 17 });
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.0);
+  vtkIdType expected = 1;
+  const auto expectBuilds = [&](vtkIdType more)
+  {
+    expected += more;
+    contour->Update();
+    EXPECT_EQ(contour->GetNumberOfBuilds(), expected);
+  };
+  expectBuilds(0);
+  contour->SetErrorTolerance(0.5);
+  expectBuilds(0);
+  contour->UseRegionOfInterestOn();
+  contour->SetRegionOfInterest(0, 8, 0, 8, 0, 8);
+  contour->SetOutsideErrorTolerance(2.0);
+  expectBuilds(0);
+  image->SetOrigin(5.0, 5.0, 5.0); // lengths are the same
+  expectBuilds(0);
+  image->SetSpacing(2.0, 1.0, 1.0);
+  expectBuilds(1);
+  contour->PreserveFeaturesOff();
+  expectBuilds(1);
+  contour->ExactIsoverticesOff();
+  expectBuilds(1);
+  contour->SetErrorMetricToField();
+  expectBuilds(1);
+  contour->PreserveFeaturesOn(); // says nothing to the field metric
+  image->SetSpacing(1.0, 1.0, 1.0);
+  expectBuilds(0);
+  contour->SetValue(0, 0.05);
+  expectBuilds(1);
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  volume->SetInputData(image);
+  volume->SetIsorange(0.0, 1.0);
+  volume->Update();
+  volume->SetErrorTolerance(1.0);
+  volume->UseRegionOfInterestOn();
+  volume->Update();
+  EXPECT_EQ(volume->GetNumberOfBuilds(), 1);
+  volume->SetErrorMetricToField();
+  volume->Update();
+  EXPECT_EQ(volume->GetNumberOfBuilds(), 2);
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ReferenceDistance_h
+#define ReferenceDistance_h
+
+#include "ReferenceMesh.h"
+
+#include <array>
+#include <vector>
+
+namespace reference
+{
+
+/** A triangle of the isosurface; its corners are coded positions of isovertices, in index space. */
+struct SurfaceTriangle
+{
+  std::array<std::array<double, 3>, 3> Corners;
+};
+
+/**
+ * The triangles of the isosurface in a tetrahedron: none, one or two. None if a vertex has no
+ * sample. If two vertices lie on either side, the four isovertices need not lie in one plane, and
+ * the diagonal between the triangles matters. It starts at an isovertex next to the youngest vertex
+ * of the tetrahedron and is told by orientation; all four ages differ, so there is no choice left.
+ * @param exact whether isovertices are at their ExactPosition() or where linear interpolation puts
+ * them
+ */
+std::vector<SurfaceTriangle> TrianglesOf(const Hierarchy& hierarchy, const ScalarField& field,
+  double isovalue, const Tetrahedron& tetrahedron, bool exact);
+
+/**
+ * The distance of a point from a triangle in world units: both are given in index space, where they
+ * are multiples of 1/256, and the spacing leads from there to the world.
+ */
+double Distance(const std::array<double, 3>& point, const SurfaceTriangle& triangle,
+  const std::array<double, 3>& spacing);
+/** The distance from the nearest of several triangles; infinite if there is none. */
+double Distance(const std::array<double, 3>& point, const std::vector<SurfaceTriangle>& triangles,
+  const std::array<double, 3>& spacing);
+
+/**
+ * The distance errors of all diamonds alone, whatever their descendants', in world units. If in a
+ * closed mesh all diamonds on the front have errors of at most t, then no isovertex of full
+ * resolution is farther than t from the isosurface in the mesh.
+ *
+ * The error of a diamond D is the largest distance error of any isovertex of full resolution, seen
+ * from any closed tetrahedron T of D that holds it. That is the smallest distance that is certain
+ * in every mesh with T as a leaf, given what surrounds the spine of D there:
+ *  - T itself;
+ *  - the tetrahedra of D that the same parent made, since one bisection makes them all;
+ *  - of any other tetrahedron of D, itself or one of those it was bisected from, as far up as they
+ *    have the spine as an edge; one of them is a leaf, so the farthest one counts.
+ * The distance from a tetrahedron without triangles is infinite.
+ *
+ * -Infinity for diamonds whose domain holds no isovertex of full resolution. Infinity for those
+ * that are always to be subdivided:
+ *  - diamonds that hold one and stick out of the grid,
+ *  - diamonds that hold one on an edge with an end that is not finite,
+ *  - diamonds with an isovertex whose distance error is infinite, if features are to be preserved.
+ * If not, these have their diameter instead: the largest distance between two of their vertices.
+ * This is less than a promise.
+ */
+std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
+  double isovalue, const std::array<double, 3>& spacing, bool exact, bool preserveFeatures = true);
+
+}
+
+#endif
