@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An isosurface and an interval volume of a volume at several error tolerances; run by demo.sh."""
+"""An isosurface and an interval volume of a volume at several error tolerances and with a region of
+interest; run by demo.sh."""
 
 import argparse
 import contextlib
@@ -55,8 +56,8 @@ READERS = {
     ".vtk": vtkStructuredPointsReader,
 }
 
-TOLERANCES = (0, 5, 10, 25, 50)  # percent of the range of the data
-SHOWN_VOLUMES = (3, 4)  # of the tolerances, in the picture of the interval volume
+TOLERANCES = (0, 0.25, 0.5, 1, 2)  # distances, in voxels
+SHOWN_VOLUMES = (2, 4)  # of the tolerances, in the picture of the interval volume
 
 PICTURE_SIZE = (2000, 940)
 OVERSAMPLING = 2  # for thin, smooth edges
@@ -66,6 +67,11 @@ FRONT = (0.45, 1, 0)
 SIDE = (1, 0.25, 0.2)
 VOLUME_PICTURE_SIZE = (2000, 1000)
 VOLUME_CAPTION_HEIGHT = 0.09
+REGION_PICTURE_SIZE = (2000, 1000)
+# Where in the box of the surface: from its middle to the left side, around eye, nose and mouth; full
+# detail there, voxels of tolerance elsewhere.
+REGION = ((0.5, 1.0), (0.55, 1.0), (0.3, 0.7))
+REGION_OUTSIDE = 4
 CLOSE_UP = (0.35, 0, 0.3)  # where in the surface's box, then moved onto the surface
 CLOSE_UP_SIZE = 0.16  # of the whole view
 EDGE_LIMIT = 150_000  # triangles of a whole surface; denser edges only blacken it
@@ -154,6 +160,7 @@ def build(image, prepare):
     builder.SetInputData(image)
     use_scalars(builder)
     builder.SetModelToMinimal()
+    builder.SetErrorMetricToDistance()
     prepare(builder)
     milliseconds = timed(builder)
     return builder.GetHierarchy(), milliseconds / 1000
@@ -167,14 +174,31 @@ def extract(hierarchy, tolerance):
     return extractor.GetOutput(), milliseconds
 
 
-def extract_levels(hierarchy, extent, noun):
+def extract_region(hierarchy, surface, voxel):
+    """Full detail in a box, less outside."""
+    bounds = surface.GetBounds()
+    extractor = vtkIsodiamondExtractor()
+    extractor.SetInputData(hierarchy)
+    extractor.UseRegionOfInterestOn()
+    extractor.SetRegionOfInterest(
+        [
+            bounds[2 * axis] + part * (bounds[2 * axis + 1] - bounds[2 * axis])
+            for axis, ends in enumerate(REGION)
+            for part in ends
+        ]
+    )
+    extractor.SetOutsideErrorTolerance(REGION_OUTSIDE * voxel)
+    milliseconds = median_time(extractor)
+    return extractor.GetOutput(), milliseconds
+
+
+def extract_levels(hierarchy, voxel, noun):
     """Extracts and lists all levels. Yields each mesh with its caption."""
     print(f"{'tolerance':>18} {noun:>12} {'ms':>8}")
-    for percent in TOLERANCES:
-        tolerance = percent / 100 * extent
-        mesh, milliseconds = extract(hierarchy, tolerance)
+    for tolerance in TOLERANCES:
+        mesh, milliseconds = extract(hierarchy, tolerance * voxel)
         cells = mesh.GetNumberOfCells()
-        label = f"{tolerance:.4g} ({percent} %)"
+        label = f"{tolerance:g} voxels"
         print(f"{label:>18} {cells:>12,} {milliseconds:>8.1f}", flush=True)
         yield mesh, f"tolerance {label}\n{cells:,} {noun}"
 
@@ -350,6 +374,44 @@ def draw_volumes(volumes, captions, bounds, value_range):
     return grab_window(window)
 
 
+def colour_by_level(actor, levels):
+    colours = vtkLookupTable()
+    colours.SetNumberOfTableValues(levels)
+    colours.SetTableRange(-0.5, levels - 0.5)
+    colours.SetHueRange(0.62, 0.08)
+    colours.SetSaturationRange(0.35, 0.45)
+    colours.SetValueRange(0.85, 1)
+    colours.ForceBuild()
+    mapper = actor.GetMapper()
+    mapper.ScalarVisibilityOn()
+    mapper.SetScalarModeToUseCellFieldData()
+    mapper.SelectColorArray("Level")
+    mapper.SetLookupTable(colours)
+    mapper.UseLookupTableScalarRangeOn()
+
+
+def draw_regions(surface, volume, captions, bounds):
+    """A surface and half of an interval volume, both with a region of interest."""
+    window, text = make_window(REGION_PICTURE_SIZE, VOLUME_CAPTION_HEIGHT)
+    width, height = REGION_PICTURE_SIZE
+    aspect = width / 2 / (height * (1 - VOLUME_CAPTION_HEIGHT))
+    plane = vtkPlane()
+    plane.SetOrigin([0.35 * bounds[2 * a] + 0.65 * bounds[2 * a + 1] for a in range(3)])
+    plane.SetNormal(1, 0, 0)
+    half = vtkExtractGeometry()
+    half.SetInputData(volume)
+    half.SetImplicitFunction(plane)
+    half.Update()
+    levels = int(surface.GetCellData().GetArray("Level").GetRange()[1]) + 1
+    for i, (mesh, direction) in enumerate(((surface, FRONT), (half.GetOutput(), SIDE))):
+        actor = mesh_actor(mesh, True)
+        colour_by_level(actor, levels)
+        camera = front_camera(mesh, aspect, direction)
+        add_view(window, (i / 2, VOLUME_CAPTION_HEIGHT, (i + 1) / 2, 1), camera, actor)
+        text.AddActor(caption(captions[i], (i + 0.5) / 2))
+    return grab_window(window)
+
+
 def make_window(size, caption_height):
     """A window, and the renderer of the captions at its foot."""
     window = vtkRenderWindow()
@@ -399,17 +461,20 @@ def run(arguments, errors):
 
     os.makedirs(arguments.output, exist_ok=True)
     files = Files(arguments.output)
-    run_surface(image, isovalue, high - low, files)
-    run_volume(image, isovalue, (low, high), files)
+    voxel = min(map(abs, image.GetSpacing()))
+    regions = [run_surface(image, isovalue, voxel, files)]
+    regions.append(run_volume(image, isovalue, (low, high), voxel, files))
+    run_regions(regions, image.GetBounds(), files)
     if errors.count:
         raise DemoError("VTK reported errors")
     print("Written:", *files.paths, sep="\n  ")
 
 
-def run_surface(image, isovalue, extent, files):
+def run_surface(image, isovalue, voxel, files):
+    """The isosurface at all levels, and with a region of interest, which is returned."""
     hierarchy, seconds = build(image, lambda builder: builder.SetIsovalue(isovalue))
     print(f"Isosurface, hierarchy built in {seconds:.2f} s\n")
-    surfaces, captions = zip(*extract_levels(hierarchy, extent, "triangles"))
+    surfaces, captions = zip(*extract_levels(hierarchy, voxel, "triangles"))
     full = surfaces[0]
     print()
     print_sizes(hierarchy, full.GetNumberOfPoints(), full.GetNumberOfCells(), 12)
@@ -419,10 +484,11 @@ def run_surface(image, isovalue, extent, files):
         files.write(vtkXMLUnstructuredGridWriter(), f"surface-{i}.vtu", surface)
     files.write(vtkPNGWriter(), "levels.png", draw(surfaces, captions))
     check_reload(path, full)
+    return extract_region(hierarchy, full, voxel)
 
 
-def run_volume(image, isovalue, value_range, files):
-    """All that lies above the isovalue, as tetrahedra."""
+def run_volume(image, isovalue, value_range, voxel, files):
+    """The same for all that lies above the isovalue, as tetrahedra."""
 
     def prepare(builder):
         builder.SetShapeToIntervalVolume()
@@ -430,12 +496,12 @@ def run_volume(image, isovalue, value_range, files):
 
     hierarchy, seconds = build(image, prepare)
     print(f"\nInterval volume from {isovalue:g} up, hierarchy built in {seconds:.2f} s\n")
-    low, high = value_range
     shown, captions = [], []
     points = cells = 0
-    for i, (volume, text) in enumerate(extract_levels(hierarchy, high - low, "tetrahedra")):
+    for i, (volume, text) in enumerate(extract_levels(hierarchy, voxel, "tetrahedra")):
         if i == 0:
             points, cells = volume.GetNumberOfPoints(), volume.GetNumberOfCells()
+            region = extract_region(hierarchy, volume, voxel)
         if i in SHOWN_VOLUMES:
             files.write(vtkXMLUnstructuredGridWriter(), f"volume-{i}.vtu", volume)
             shown.append(volume)
@@ -443,8 +509,26 @@ def run_volume(image, isovalue, value_range, files):
     print()
     print_sizes(hierarchy, points, cells, 16)
     files.write(vtkXMLPolyDataWriter(), "volume-hierarchy.vtp", hierarchy)
-    picture = draw_volumes(shown, captions, image.GetBounds(), (isovalue, high))
+    picture = draw_volumes(shown, captions, image.GetBounds(), (isovalue, value_range[1]))
     files.write(vtkPNGWriter(), "volume.png", picture)
+    return region
+
+
+def run_regions(regions, bounds, files):
+    (surface, surface_time), (volume, volume_time) = regions
+    print("\nFull detail in a region of interest only:")
+    captions = []
+    for mesh, noun, milliseconds in (
+        (surface, "triangles", surface_time),
+        (volume, "tetrahedra", volume_time),
+    ):
+        print(f"{mesh.GetNumberOfCells():>18,} {noun} {milliseconds:>8.1f} ms")
+        captions.append(
+            f"full resolution in a box, {REGION_OUTSIDE} voxels outside\n"
+            f"{mesh.GetNumberOfCells():,} {noun}, coloured by level"
+        )
+    picture = draw_regions(surface, volume, captions, bounds)
+    files.write(vtkPNGWriter(), "region.png", picture)
 
 
 def main():

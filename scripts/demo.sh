@@ -10,7 +10,7 @@ usage() {
 Usage: scripts/demo.sh [--isovalue K] [--output DIR] [FILE]
 
 Installs what is missing, builds, and shows an isosurface of FILE, and the interval volume above it,
-at five error tolerances.
+at five error tolerances and with a region of interest.
 
   FILE          a volume: .vti, .nrrd, .nhdr, .mhd, .mha, .nii, .nii.gz or .vtk (structured points)
                 [the MRI head of Debian's mricron-data]

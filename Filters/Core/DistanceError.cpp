@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DistanceError.h"
 
-#include "PatchDistance.h"
+#include "DiamondPatches.h"
+#include "FinePlane.h"
 
 #include <algorithm>
 #include <atomic>
@@ -17,15 +18,7 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-using Positions = std::vector<FinePosition>;
-
-/** Whether a tetrahedron has samples at all of its vertices. */
-bool IsSampled(const Grid& grid, const HalfPlace& tetrahedron)
-{
-  return (tetrahedron.Half->Mask &
-           ~SampledVertices(grid, tetrahedron.Parent, tetrahedron.Shape())) == 0 &&
-    grid.IsSampled(Centre(tetrahedron.Parent));
-}
+using FinePositions = std::vector<FinePosition>;
 
 /** Whether a tetrahedron shares volume with the grid's box. */
 bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
@@ -50,255 +43,6 @@ bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
   return true;
 }
 
-/** The tetrahedra of one diamond and those that can take their place in a mesh. */
-class SpineNeighbourhood
-{
-public:
-  explicit SpineNeighbourhood(const IsodiamondHierarchy& hierarchy)
-    : Hierarchy(hierarchy)
-  {
-  }
-
-  /** Calls body(tetrahedron) for the tetrahedra of a diamond.
-   *  @param onlySampled those that have samples at all of their vertices */
-  template <typename Body>
-  void ForEachTetrahedron(const Place& diamond, bool onlySampled, Body&& body) const
-  {
-    const Grid& grid = this->Hierarchy.Domain();
-    const TypeTable& shape = ShapeOf(diamond.Position);
-    for (int i = 0; i < shape.ParentCount; ++i)
-    {
-      const Place parent = ParentPlace(shape, diamond, i);
-      const std::int64_t rank = grid.IsValid(parent.Position, parent.Scale)
-        ? this->Hierarchy.Diamonds().Rank(parent)
-        : DiamondSet::None;
-      if (rank == DiamondSet::None)
-      {
-        continue;
-      }
-      const TypeTable& parentShape = ShapeOf(parent.Position);
-      const Point offset = diamond.Position + -(1 << parentShape.ChildStep) * parent.Position;
-      const auto* const children = parentShape.ChildOffsets.data();
-      const std::int64_t child =
-        std::find(children, children + parentShape.ChildCount, offset) - children;
-      for (int j = 0; j < parentShape.HalfTetrahedraPerChild; ++j)
-      {
-        const HalfTetrahedron& half =
-          parentShape.HalfTetrahedra[child * parentShape.HalfTetrahedraPerChild + j];
-        const HalfPlace tetrahedron{ parent, static_cast<std::uint32_t>(rank), &half };
-        if (!onlySampled || IsSampled(grid, tetrahedron))
-        {
-          body(tetrahedron);
-        }
-      }
-    }
-  }
-
-  /** Replaces a tetrahedron by the one that it is half of. @return false if that is in no mesh with
-   *  the diamond's spine */
-  bool Coarsen(HalfPlace& tetrahedron, const Place& diamond) const
-  {
-    const Place& parent = tetrahedron.Parent;
-    const Point centre = Centre(parent);
-    if (parent.Scale == this->Hierarchy.Domain().Depth() || IsSpineEnd(diamond, centre))
-    {
-      return false;
-    }
-    // The other end of the parent's spine instead of its centre.
-    const TypeTable& shape = tetrahedron.Shape();
-    const bool hasFirst = ((tetrahedron.Half->Mask >> shape.Spine[0]) & 1U) != 0;
-    std::array<Point, 4> corners;
-    for (int i = 0; i < 3; ++i)
-    {
-      corners[i] = VertexOf(parent, shape, tetrahedron.Half->Vertices[i]);
-    }
-    corners[3] = VertexOf(parent, shape, shape.Spine[hasFirst ? 1 : 0]);
-    return this->Identify(corners, tetrahedron);
-  }
-
-private:
-  static Point VertexOf(const Place& place, const TypeTable& shape, int vertex)
-  {
-    return (1 << place.Scale) * (place.Position + shape.Offsets[vertex]);
-  }
-
-  static bool IsSpineEnd(const Place& diamond, const Point& point)
-  {
-    const TypeTable& shape = ShapeOf(diamond.Position);
-    return VertexOf(diamond, shape, shape.Spine[0]) == point ||
-      VertexOf(diamond, shape, shape.Spine[1]) == point;
-  }
-
-  /** The place of the diamond centred at a lattice point. */
-  Place PlaceAt(const Point& point) const
-  {
-    const int scale = this->Hierarchy.Domain().Scale(point);
-    return { scale, { point[0] >> scale, point[1] >> scale, point[2] >> scale } };
-  }
-
-  /** Finds the half-tetrahedron that has four given corners. */
-  bool Identify(const std::array<Point, 4>& corners, HalfPlace& tetrahedron) const
-  {
-    const auto age = [&](const Point& corner)
-    {
-      const Place place = this->PlaceAt(corner);
-      return 3 * place.Scale - tables::Parities[Parity(place.Position)].DiamondClass;
-    };
-    const Point& youngest = *std::min_element(corners.begin(), corners.end(),
-      [&](const Point& a, const Point& b) { return age(a) < age(b); });
-    tetrahedron.Parent = this->PlaceAt(youngest);
-    const std::int64_t rank = this->Hierarchy.Diamonds().Rank(tetrahedron.Parent);
-    if (rank == DiamondSet::None)
-    {
-      return false;
-    }
-    tetrahedron.Rank = static_cast<std::uint32_t>(rank);
-    const TypeTable& shape = tetrahedron.Shape();
-    std::uint32_t mask = 0;
-    for (int i = 0; i < shape.VertexCount; ++i)
-    {
-      const Point vertex = VertexOf(tetrahedron.Parent, shape, i);
-      mask |= static_cast<std::uint32_t>(
-                std::find(corners.begin(), corners.end(), vertex) != corners.end())
-        << i;
-    }
-    const auto* end = shape.HalfTetrahedra.data() + shape.HalfTetrahedronCount;
-    tetrahedron.Half = std::find_if(shape.HalfTetrahedra.data(), end,
-      [mask](const HalfTetrahedron& half) { return half.Mask == mask; });
-    return tetrahedron.Half != end && IsSampled(this->Hierarchy.Domain(), tetrahedron);
-  }
-
-  const IsodiamondHierarchy& Hierarchy;
-};
-
-/**
- * The patches around the spine of a diamond that are near one of its tetrahedra, whenever that is
- * in the mesh. Made one after the other, as far as they are asked for.
- */
-class NearPatches
-{
-public:
-  NearPatches(const IsodiamondHierarchy& hierarchy, const WorldMetric& metric, int surface,
-    const HalfPlace& tetrahedron, const Place& diamond)
-    : Neighbourhood(hierarchy)
-    , Hierarchy(hierarchy)
-    , Metric(metric)
-    , Surface(surface)
-    , Tetrahedron(tetrahedron)
-    , Diamond(diamond)
-    , Own(hierarchy, metric, tetrahedron, surface)
-  {
-  }
-
-  /** The squared distance to the tetrahedron's own patch; infinite if it has none. */
-  double SquaredToOwn(const Vector& point) const { return SquaredTo(this->Own, point); }
-
-  /** The squared distance to the nearest patch, or some that is small enough. */
-  double SquaredToNearest(const Vector& point, double enough)
-  {
-    if (!this->HasOthers)
-    {
-      this->FindOthers();
-    }
-    double nearest = this->SquaredToOwn(point);
-    for (std::size_t i = 0; i < this->Others.size() && nearest > enough; ++i)
-    {
-      if (i == this->Places.size())
-      {
-        this->Places.push_back(this->WhatCanBeThere(this->Others[i]));
-      }
-      nearest = std::min(nearest, Farthest(this->Places[i], point));
-    }
-    return nearest;
-  }
-
-private:
-  /** What can be in one place: of these, the farthest counts. */
-  using Alternatives = std::vector<PatchDistance>;
-
-  static double SquaredTo(const PatchDistance& patch, const Vector& point)
-  {
-    return patch.IsEmpty() ? Infinity : patch.Squared(point);
-  }
-
-  static double Farthest(const Alternatives& alternatives, const Vector& point)
-  {
-    double farthest = 0.0;
-    for (const PatchDistance& patch : alternatives)
-    {
-      farthest = std::max(farthest, SquaredTo(patch, point));
-    }
-    return farthest;
-  }
-
-  /** The other tetrahedra of the diamond, the mate first. */
-  void FindOthers()
-  {
-    this->HasOthers = true;
-    this->Neighbourhood.ForEachTetrahedron(this->Diamond, true,
-      [&](const HalfPlace& other)
-      {
-        if (other.Rank != this->Tetrahedron.Rank)
-        {
-          this->Others.push_back(other);
-        }
-        else if (other.Half != this->Tetrahedron.Half)
-        {
-          this->Others.insert(this->Others.begin(), other);
-        }
-      });
-  }
-
-  Alternatives WhatCanBeThere(HalfPlace other) const
-  {
-    const bool isMate = other.Rank == this->Tetrahedron.Rank;
-    Alternatives alternatives;
-    do
-    {
-      alternatives.emplace_back(this->Hierarchy, this->Metric, other, this->Surface);
-    } while (!isMate && !alternatives.back().IsEmpty() &&
-      this->Neighbourhood.Coarsen(other, this->Diamond));
-    return alternatives;
-  }
-
-  SpineNeighbourhood Neighbourhood;
-  const IsodiamondHierarchy& Hierarchy;
-  const WorldMetric& Metric;
-  int Surface;
-  const HalfPlace& Tetrahedron;
-  const Place& Diamond;
-  PatchDistance Own;
-  bool HasOthers = false;
-  std::vector<HalfPlace> Others;
-  std::vector<Alternatives> Places; ///< of the others, as far as they are made
-};
-
-/** A plane between lattice points, for exact tests of which side a position is on. */
-class FinePlane
-{
-public:
-  /** Through a point, spanned by two small offsets. */
-  FinePlane(const Point& point, const Point& first, const Point& second)
-    : Origin(FineUnits * point)
-    , Normal{ std::int64_t{ 1 } * first[1] * second[2] - first[2] * second[1],
-      std::int64_t{ 1 } * first[2] * second[0] - first[0] * second[2],
-      std::int64_t{ 1 } * first[0] * second[1] - first[1] * second[0] }
-  {
-  }
-
-  /** Positive on one side, negative on the other, 0 on the plane. */
-  std::int64_t Side(const FinePosition& position) const
-  {
-    return this->Normal[0] * (position[0] - this->Origin[0]) +
-      this->Normal[1] * (position[1] - this->Origin[1]) +
-      this->Normal[2] * (position[2] - this->Origin[2]);
-  }
-
-private:
-  FinePosition Origin;
-  std::array<std::int64_t, 3> Normal;
-};
-
 /**
  * Hands the full-resolution isovertices down the tree of bisected tetrahedra. Every tetrahedron
  * that holds some raises the error of the diamond that it lies in.
@@ -317,7 +61,7 @@ public:
   }
 
   /** Measures positions against a surface, or lets them subdivide whatever holds one always. */
-  void Run(int surface, bool always, const Positions& positions, const ParallelFor& parallelFor)
+  void Run(int surface, bool always, const FinePositions& positions, const ParallelFor& parallelFor)
   {
     this->Surface = surface;
     this->RaisesAll = always;
@@ -340,7 +84,7 @@ public:
       {
         for (Task& half : pair)
         {
-          if (!half.Held.empty())
+          if (!half.Positions.empty())
           {
             tasks.push_back(std::move(half));
           }
@@ -352,8 +96,7 @@ public:
       {
         for (std::int64_t i = begin; i < end; ++i)
         {
-          Positions held = std::move(tasks[i].Held);
-          this->Descend(tasks[i].Tetrahedron, held, 0);
+          this->Descend(std::move(tasks[i]));
         }
       });
   }
@@ -364,11 +107,11 @@ private:
   struct Task
   {
     HalfPlace Tetrahedron;
-    Positions Held; ///< in the closed tetrahedron
+    FinePositions Positions; ///< in the closed tetrahedron
   };
 
   /** The six tetrahedra of the base cube. */
-  std::vector<Task> RootTasks(const Positions& positions) const
+  std::vector<Task> RootTasks(const FinePositions& positions) const
   {
     std::vector<Task> tasks;
     const Place root{ this->Hierarchy.Domain().Depth() - 1, { 1, 1, 1 } };
@@ -376,9 +119,9 @@ private:
       [&](const HalfPlace& tetrahedron)
       {
         Task task{ tetrahedron, {} };
-        std::copy_if(positions.begin(), positions.end(), std::back_inserter(task.Held),
+        std::copy_if(positions.begin(), positions.end(), std::back_inserter(task.Positions),
           [&](const FinePosition& position) { return Holds(tetrahedron, position); });
-        if (!task.Held.empty())
+        if (!task.Positions.empty())
         {
           tasks.push_back(std::move(task));
         }
@@ -453,68 +196,102 @@ private:
     return 1U << (std::find(begin, begin + shape.VertexCount, offset) - begin);
   }
 
+  /** A tetrahedron with positions, and the diamond that it lies in. */
+  struct Held
+  {
+    HalfPlace Tetrahedron;
+    Place Diamond;
+    std::uint32_t Rank = 0; ///< of the diamond
+    std::size_t Begin = 0;  ///< its positions in a list of many tetrahedra's
+    std::size_t End = 0;
+  };
+
+  Held Hold(const HalfPlace& tetrahedron, std::size_t begin, std::size_t end) const
+  {
+    const Place diamond = tetrahedron.Child();
+    const std::int64_t rank = diamond.Scale < 0 ? 0 : this->Hierarchy.Diamonds().Rank(diamond);
+    return { tetrahedron, diamond, static_cast<std::uint32_t>(rank), begin, end };
+  }
+
+  /** Appends the positions of a tetrahedron's halves to a list, and the halves to another. */
+  void Split(const Held& held, const FinePositions& positions, std::vector<Held>& halves,
+    FinePositions& positionsOfHalves) const
+  {
+    this->ForEachHalf(held.Tetrahedron, held.Diamond, held.Rank,
+      [&](const HalfPlace& half, const FinePlane& plane, bool positive)
+      {
+        const std::size_t begin = positionsOfHalves.size();
+        for (std::size_t i = held.Begin; i < held.End; ++i)
+        {
+          const std::int64_t side = plane.Side(positions[i]);
+          if (positive ? side >= 0 : side <= 0)
+          {
+            positionsOfHalves.push_back(positions[i]);
+          }
+        }
+        if (positionsOfHalves.size() > begin && half.Child().Scale >= 0)
+        {
+          halves.push_back(this->Hold(half, begin, positionsOfHalves.size()));
+        }
+      });
+  }
+
   /** A tetrahedron's part, and what it leaves to its halves. */
   std::array<Task, 2> Bisect(const Task& task)
   {
-    std::array<Task, 2> halves;
-    const Place diamond = task.Tetrahedron.Child();
-    if (diamond.Scale < 0)
+    const Held held = this->Hold(task.Tetrahedron, 0, task.Positions.size());
+    DiamondPatches patches(this->Hierarchy, this->Metric, this->Surface);
+    this->Measure(patches, &held, &held + 1, task.Positions);
+    std::vector<Held> halves;
+    FinePositions positions;
+    this->Split(held, task.Positions, halves, positions);
+    std::array<Task, 2> tasks;
+    for (std::size_t i = 0; i < halves.size(); ++i)
     {
-      return halves;
+      tasks[i].Tetrahedron = halves[i].Tetrahedron;
+      tasks[i].Positions.assign(
+        positions.begin() + halves[i].Begin, positions.begin() + halves[i].End);
     }
-    const std::uint32_t rank =
-      this->Measure(task.Tetrahedron, diamond, task.Held.data(), task.Held.size());
-    int count = 0;
-    this->ForEachHalf(task.Tetrahedron, diamond, rank,
-      [&](const HalfPlace& half, const FinePlane& plane, bool positive)
-      {
-        Task& next = halves[count++];
-        next.Tetrahedron = half;
-        std::copy_if(task.Held.begin(), task.Held.end(), std::back_inserter(next.Held),
-          [&](const FinePosition& position)
-          { return positive ? plane.Side(position) >= 0 : plane.Side(position) <= 0; });
-      });
-    return halves;
+    return tasks;
   }
 
-  /** A tetrahedron and all below; it holds the positions from `begin` on, the last ones of a stack
-   *  on which the halves put theirs. */
-  void Descend(const HalfPlace& tetrahedron, Positions& stack, std::size_t begin)
+  /** A tetrahedron and all below, level by level: so the tetrahedra of a diamond come together. */
+  void Descend(Task task)
   {
-    const Place diamond = tetrahedron.Child();
-    if (diamond.Scale < 0)
+    DiamondPatches patches(this->Hierarchy, this->Metric, this->Surface);
+    std::vector<Held> level = { this->Hold(task.Tetrahedron, 0, task.Positions.size()) };
+    std::vector<Held> nextLevel;
+    FinePositions positions = std::move(task.Positions);
+    FinePositions nextPositions;
+    while (!level.empty())
     {
-      return;
-    }
-    const std::size_t end = stack.size();
-    const std::uint32_t rank =
-      this->Measure(tetrahedron, diamond, stack.data() + begin, end - begin);
-    this->ForEachHalf(tetrahedron, diamond, rank,
-      [&](const HalfPlace& half, const FinePlane& plane, bool positive)
+      std::sort(
+        level.begin(), level.end(), [](const Held& a, const Held& b) { return a.Rank < b.Rank; });
+      for (std::size_t begin = 0, end = 0; begin < level.size(); begin = end)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        while (end < level.size() && level[end].Rank == level[begin].Rank)
         {
-          const FinePosition position = stack[i];
-          const std::int64_t side = plane.Side(position);
-          if (positive ? side >= 0 : side <= 0)
-          {
-            stack.push_back(position);
-          }
+          ++end;
         }
-        if (stack.size() > end)
-        {
-          this->Descend(half, stack, end);
-        }
-        stack.resize(end);
-      });
+        this->Measure(patches, level.data() + begin, level.data() + end, positions);
+      }
+      nextLevel.clear();
+      nextPositions.clear();
+      for (const Held& held : level)
+      {
+        this->Split(held, positions, nextLevel, nextPositions);
+      }
+      level.swap(nextLevel);
+      positions.swap(nextPositions);
+    }
   }
 
-  /** Raises the error of the diamond of a tetrahedron by the positions that it holds. @return the
-   *  diamond's rank */
-  std::uint32_t Measure(const HalfPlace& tetrahedron, const Place& diamond,
-    const FinePosition* positions, std::size_t count)
+  /** Raises the error of a diamond by the positions that some of its tetrahedra hold. */
+  void Measure(
+    DiamondPatches& patches, const Held* begin, const Held* end, const FinePositions& positions)
   {
-    const auto rank = static_cast<std::uint32_t>(this->Hierarchy.Diamonds().Rank(diamond));
+    const Place& diamond = begin->Diamond;
+    const std::uint32_t rank = begin->Rank;
     if (this->RaisesAll || this->Hierarchy.Domain().SticksOut(diamond.Position, diamond.Scale))
     {
       this->Raise(rank, ErrorCode::Always);
@@ -522,18 +299,22 @@ private:
     const ErrorCode::Type code = this->Codes[rank].load(std::memory_order_relaxed);
     if (code == ErrorCode::Always)
     {
-      return rank;
+      return;
     }
     // Only what exceeds the error so far is of interest: it is a maximum.
     const double known = code == 0 ? 0.0 : this->Code.Decode(code);
     double largest = known * known;
-    NearPatches patches(this->Hierarchy, this->Metric, this->Surface, tetrahedron, diamond);
-    for (std::size_t i = 0; i < count; ++i)
+    patches.Reset(diamond);
+    for (const Held* held = begin; held != end; ++held)
     {
-      const Vector point = this->Metric(positions[i]);
-      if (patches.SquaredToOwn(point) > largest)
+      const int tetrahedron = patches.Find(held->Tetrahedron);
+      for (std::size_t i = held->Begin; i < held->End; ++i)
       {
-        largest = std::max(largest, patches.SquaredToNearest(point, largest));
+        const Vector point = this->Metric(positions[i]);
+        if (patches.SquaredTo(tetrahedron, point) > largest)
+        {
+          largest = std::max(largest, patches.SquaredToNearest(tetrahedron, point, largest));
+        }
       }
     }
     if (largest == Infinity && !this->PreserveFeatures)
@@ -545,22 +326,20 @@ private:
       // Rounding up by much more than the arithmetic's own rounding.
       this->Raise(rank, this->Code.Encode(std::sqrt(largest) * (1.0 + 1e-12)));
     }
-    return rank;
   }
 
   double SquaredDiameter(const Place& diamond) const
   {
     const TypeTable& shape = ShapeOf(diamond.Position);
+    const std::uint32_t vertices = SampledVertices(this->Hierarchy.Domain(), diamond, shape);
     double largest = 0.0;
-    for (int i = 0; i < shape.VertexCount; ++i)
+    const auto measure = [&](int a, int b)
     {
-      for (int j = 0; j < i; ++j)
-      {
-        const Point between = (1 << diamond.Scale) * (shape.Offsets[i] + -1 * shape.Offsets[j]);
-        const Vector vector = this->Metric(between[0], between[1], between[2]);
-        largest = std::max(largest, Dot(vector, vector));
-      }
-    }
+      const Point between = (1 << diamond.Scale) * (shape.Offsets[a] + -1 * shape.Offsets[b]);
+      const Vector vector = this->Metric(between[0], between[1], between[2]);
+      largest = std::max(largest, Dot(vector, vector));
+    };
+    ForEachBit(vertices, [&](int a) { ForEachBit(vertices, [&](int b) { measure(a, b); }); });
     return largest;
   }
 
@@ -587,8 +366,8 @@ private:
 /** The isovertices of full resolution on a surface: those of scale 0. */
 struct FullResolution
 {
-  Positions Finite;
-  Positions NotFinite; ///< on edges with an end that is not finite
+  FinePositions Finite;
+  FinePositions NotFinite; ///< on edges with an end that is not finite
 
   FullResolution(const IsodiamondHierarchy& hierarchy, const AnySamples& samples, int surface)
   {
@@ -605,7 +384,7 @@ struct FullResolution
               const bool isFinite = std::isfinite(SampleAt(samples, place.Position)) &&
                 std::isfinite(SampleAt(samples, place.Position + shape.Offsets[edge]));
               (isFinite ? this->Finite : this->NotFinite)
-                .push_back(PatchDistance::IsovertexAt(hierarchy, place, rank, edge, surface));
+                .push_back(IsovertexAt(hierarchy, place, rank, edge, surface));
             });
         });
     }

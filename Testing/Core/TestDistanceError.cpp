@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The distance metric: errors against the reference's definition, the promise on whole meshes. More
+// meshes, in worlds and of real data, are checked with VTK in Testing/Filters/TestDistance.cpp.
+#include "DistanceError.h"
+#include "IntervalTestTools.h"
+
+#include "ReferenceDistance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace isodiamond;
+
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+AffineMap Spacing(double x, double y, double z)
+{
+  AffineMap world;
+  world.Rows = { { { x, 0, 0, 5 }, { 0, y, 0, -3 }, { 0, 0, z, 1 } } };
+  return world;
+}
+
+/** A rotation about (1, 1, 1) after a spacing: lengths are the spacing's. */
+AffineMap Rotated(const AffineMap& world)
+{
+  constexpr double a = 1.0 / 3.0;
+  constexpr double b = 0.9106836025229591; // 1/3 + 1/sqrt(3)
+  constexpr double c = -0.2440169358562924;
+  constexpr std::array<std::array<double, 3>, 3> turn = { { { a, c, b }, { b, a, c },
+    { c, b, a } } };
+  AffineMap result;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      result.Rows[i][j] = turn[i][0] * world.Rows[0][j] + turn[i][1] * world.Rows[1][j] +
+        turn[i][2] * world.Rows[2][j];
+    }
+  }
+  return result;
+}
+
+std::vector<test::Field> Fields()
+{
+  return { test::NoiseField({ 9, 9, 9 }, 61), test::SphereField({ 17, 17, 17 }),
+    test::SparseField({ 17, 17, 17 }, 62), test::WaveField({ 10, 6, 13 }),
+    test::BrokenField({ 9, 10, 8 }, 63), test::SphereField({ 12, 17, 9 }) };
+}
+
+/** Largest distance of points of a surface to a mesh, in the world. */
+double LargestDistance(const std::vector<test::Corner>& points, const test::Mesh& mesh,
+  const std::array<double, 3>& spacing)
+{
+  std::vector<reference::SurfaceTriangle> triangles;
+  for (const std::array<std::int32_t, 3>& t : mesh.Triangles)
+  {
+    reference::SurfaceTriangle triangle{};
+    for (int i = 0; i < 3; ++i)
+    {
+      const test::Corner& corner = mesh.Points[t[i]];
+      triangle.Corners[i] = { corner[0], corner[1], corner[2] };
+    }
+    triangles.push_back(triangle);
+  }
+  double largest = 0.0;
+  for (const test::Corner& p : points)
+  {
+    largest = std::max(
+      largest, reference::Distance(std::array<double, 3>{ p[0], p[1], p[2] }, triangles, spacing));
+  }
+  return largest;
+}
+
+}
+
+TEST(DistanceError, IsTheReferencesForEveryDiamond)
+{
+  const std::array<std::array<double, 3>, 2> spacings = { { { 1, 1, 1 }, { 0.5, 2.0, 1.25 } } };
+  std::map<bool, int> seen; // finite or not
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    const reference::Hierarchy hierarchy(field.Dims);
+    for (const std::array<double, 3>& spacing : spacings)
+    {
+      for (const bool exact : { true, false })
+      {
+        for (const bool preserve : { true, false })
+        {
+          const AffineMap world = Spacing(spacing[0], spacing[1], spacing[2]);
+          const test::Built relevant = test::Build(Model::Relevant, field, test::Placement(exact));
+          const Grid& grid = relevant.Hierarchy->Domain();
+          const ErrorCode code(DistanceErrorScale(grid, world));
+          const std::vector<ErrorCode::Type> found = DistanceErrors(
+            *relevant.Hierarchy, field.View(), world, preserve, test::ThreadedFor(2));
+          const std::vector<double> expected = reference::OwnDistanceErrors(
+            hierarchy, field.Reference(), field.Isovalue, spacing, exact, preserve);
+          for (int i = 0; i < hierarchy.Size(); ++i)
+          {
+            const std::int64_t rank =
+              relevant.Hierarchy->Diamonds().Rank(test::PlaceOf(grid, hierarchy.At(i).Center));
+            if (expected[i] < 0.0)
+            {
+              ASSERT_TRUE(rank == DiamondSet::None || found[rank] == 0) << "diamond " << i;
+              continue;
+            }
+            ASSERT_NE(rank, DiamondSet::None);
+            // Codes of values that differ by rounding only.
+            ASSERT_GE(found[rank], code.Encode(expected[i] * (1 - 1e-9))) << "diamond " << i;
+            ASSERT_LE(found[rank], code.Encode(expected[i] * (1 + 1e-9))) << "diamond " << i;
+            ++seen[expected[i] < Infinity];
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(seen[true], 1000);
+  EXPECT_GT(seen[false], 1000);
+}
+
+TEST(DistanceError, IsAPromise)
+{
+  const std::array<double, 3> spacing = { 0.5, 2.0, 1.25 };
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    const test::Built built = test::Build(
+      Model::Minimal, field, test::Distance(Spacing(spacing[0], spacing[1], spacing[2])));
+    const test::Mesh full = test::Extract(*built.Hierarchy, 0.0);
+    ASSERT_FALSE(full.Points.empty());
+    for (const double tolerance : { 0.01, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 1000.0 })
+    {
+      const test::Mesh mesh = test::Extract(*built.Hierarchy, tolerance);
+      EXPECT_LE(LargestDistance(full.Points, mesh, spacing), tolerance * (1 + 1e-9));
+    }
+  }
+}
+
+TEST(DistanceError, MeasuresLengthsWhateverTheOrientation)
+{
+  const test::Field field = test::WaveField({ 17, 14, 11 });
+  const AffineMap world = Spacing(0.5, 2.0, 1.25);
+  const test::Built relevant = test::Build(Model::Relevant, field);
+  const auto errors = [&](const AffineMap& map)
+  { return DistanceErrors(*relevant.Hierarchy, field.View(), map, true, SerialFor); };
+  const std::vector<ErrorCode::Type> straight = errors(world);
+  const std::vector<ErrorCode::Type> turned = errors(Rotated(world));
+  ASSERT_EQ(straight.size(), turned.size());
+  for (std::size_t i = 0; i < straight.size(); ++i)
+  {
+    ASSERT_NEAR(straight[i], turned[i], 1); // rounding only
+  }
+  AffineMap mirrored = world;
+  mirrored.Rows[1][1] = -2.0;
+  EXPECT_EQ(errors(mirrored), straight);
+}
+
+TEST(DistanceError, DoesNotDependOnThreadsOrOnTheSource)
+{
+  const test::Field field = test::NoiseField({ 33, 20, 27 }, 8);
+  const BuildOptions options = test::Distance(Spacing(1.0, 0.7, 1.5));
+  const Encoding expected =
+    BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor, options);
+  EXPECT_EQ(expected.Header.Metric, ErrorMetric::Distance);
+  for (const int threads : { 2, 7 })
+  {
+    const Encoding encoding = BuildIsodiamonds(
+      Model::Minimal, field.View(), field.Isovalue, test::ThreadedFor(threads), options);
+    EXPECT_EQ(encoding.Arrays.Records, expected.Arrays.Records);
+    EXPECT_EQ(encoding.Arrays.Isovertices, expected.Arrays.Isovertices);
+  }
+  const test::BuiltScalars scalars = test::BuildScalars(field);
+  const Encoding fromScalars =
+    BuildIsodiamonds(Model::Minimal, *scalars.Hierarchy, field.Isovalue, SerialFor, options);
+  EXPECT_EQ(fromScalars.Arrays.Records, expected.Arrays.Records);
+  EXPECT_EQ(fromScalars.Arrays.Isovertices, expected.Arrays.Isovertices);
+}
+
+TEST(DistanceError, GivesTheSameMeshInBothModels)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    for (const bool preserve : { true, false })
+    {
+      BuildOptions options = test::Distance();
+      options.PreserveFeatures = preserve;
+      const test::Built relevant = test::Build(Model::Relevant, field, options);
+      const test::Built minimal = test::Build(Model::Minimal, field, options);
+      for (const double tolerance : { 0.0, 0.1, 0.5, 2.0, Infinity })
+      {
+        EXPECT_TRUE(test::Extract(*minimal.Hierarchy, tolerance) ==
+          test::Extract(*relevant.Hierarchy, tolerance));
+      }
+    }
+  }
+}
+
+TEST(DistanceError, KeepsIntervalVolumesFitForASolver)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    for (const reference::Isorange& range : test::RangesOf(field))
+    {
+      for (const bool refineInterior : { false, true })
+      {
+        BuildOptions options = test::Distance(Spacing(1.0, 0.5, 2.0));
+        options.RefineInterior = refineInterior;
+        const Isoregion region = test::RegionOf(range);
+        const test::Built relevant(
+          BuildIsodiamonds(Model::Relevant, field.View(), region, SerialFor, options), SerialFor);
+        const test::Built minimal(
+          BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, options), SerialFor);
+        for (const double tolerance : { 0.0, 0.2, 1.0, Infinity })
+        {
+          SCOPED_TRACE(field.Name + " tolerance " + std::to_string(tolerance));
+          const double interior =
+            refineInterior ? 0.1 * minimal.Hierarchy->InteriorCodes().Scale() : Infinity;
+          const test::Volume volume = test::ExtractVolume(*minimal.Hierarchy, tolerance, interior);
+          EXPECT_EQ(test::FindFault(volume, field.Dims), "");
+          EXPECT_TRUE(test::PlacedTetrahedra(volume) ==
+            test::PlacedTetrahedra(test::ExtractVolume(*relevant.Hierarchy, tolerance, interior)));
+        }
+      }
+    }
+  }
+}
