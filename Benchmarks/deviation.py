@@ -81,7 +81,10 @@ def head():
 def raw_volume(argument):
     """Name, image and isovalue."""
     path, isovalue = argument.rsplit(":", 1)
-    name, *shape = re.fullmatch(r"(?:.*/)?(.+)_(\d+)x(\d+)x(\d+)_uint8\.raw", path).groups()
+    match = re.fullmatch(r"(?:.*/)?(.+)_(\d+)x(\d+)x(\d+)_uint8\.raw", path)
+    if not match:
+        raise ValueError("another kind of name")
+    name, *shape = match.groups()
     field = numpy.fromfile(path, dtype=numpy.uint8)
     return name, image_of(field.reshape([int(n) for n in reversed(shape)])), float(isovalue)
 

@@ -8,6 +8,8 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -23,11 +25,47 @@
 namespace vtkIsodiamond
 {
 
+/** Keeps the first exception of several threads, which would end the program, for the caller. */
+class ExceptionKeeper
+{
+public:
+  template <typename Functor>
+  void Run(Functor&& f)
+  {
+    try
+    {
+      f();
+    }
+    catch (...)
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->Kept = this->Kept ? this->Kept : std::current_exception();
+    }
+  }
+
+  void Rethrow() const
+  {
+    if (this->Kept)
+    {
+      std::rethrow_exception(this->Kept);
+    }
+  }
+
+private:
+  std::mutex Mutex;
+  std::exception_ptr Kept;
+};
+
 inline isodiamond::ParallelFor SMPFor()
 {
   return [](std::int64_t count, std::int64_t grain,
            const std::function<void(std::int64_t, std::int64_t)>& body)
-  { vtkSMPTools::For(0, count, grain, body); };
+  {
+    ExceptionKeeper exceptions;
+    vtkSMPTools::For(0, count, grain,
+      [&](std::int64_t begin, std::int64_t end) { exceptions.Run([&] { body(begin, end); }); });
+    exceptions.Rethrow();
+  };
 }
 
 /** Runs f with a number of threads, 0 for all cores. */
@@ -37,8 +75,11 @@ void RunThreaded(int numberOfThreads, Functor&& f)
   const bool sequential = std::strcmp(vtkSMPTools::GetBackend(), "Sequential") == 0 &&
     std::getenv("VTK_SMP_BACKEND_IN_USE") == nullptr;
   const std::string backend = sequential ? "STDThread" : vtkSMPTools::GetBackend();
-  vtkSMPTools::LocalScope(
-    vtkSMPTools::Config{ numberOfThreads, backend, false }, std::forward<Functor>(f));
+  // The scope must end before an exception goes on, or its backend would stay.
+  ExceptionKeeper exceptions;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ numberOfThreads, backend, false },
+    [&] { exceptions.Run(std::forward<Functor>(f)); });
+  exceptions.Rethrow();
 }
 
 }

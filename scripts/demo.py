@@ -68,10 +68,11 @@ SIDE = (1, 0.25, 0.2)
 VOLUME_PICTURE_SIZE = (2000, 1000)
 VOLUME_CAPTION_HEIGHT = 0.09
 REGION_PICTURE_SIZE = (2000, 1000)
-# Where in the box of the surface: from its middle to the left side, around eye, nose and mouth; full
-# detail there, voxels of tolerance elsewhere.
-REGION = ((0.5, 1.0), (0.55, 1.0), (0.3, 0.7))
-REGION_OUTSIDE = 4
+# Where in the box of the surface: around the left eye. Full detail there, voxels of tolerance
+# elsewhere.
+REGION = ((0.5, 0.72), (0.5, 1.0), (0.05, 0.26))
+REGION_OUTSIDE = 1
+REGION_EDGE_COLOR = (0.3, 0.33, 0.36)
 CLOSE_UP = (0.35, 0, 0.3)  # where in the surface's box, then moved onto the surface
 CLOSE_UP_SIZE = 0.16  # of the whole view
 EDGE_LIMIT = 150_000  # triangles of a whole surface; denser edges only blacken it
@@ -174,6 +175,10 @@ def extract(hierarchy, tolerance):
     return extractor.GetOutput(), milliseconds
 
 
+def in_voxels(tolerance):
+    return f"{tolerance:g} voxel{'' if tolerance == 1 else 's'}"
+
+
 def extract_region(hierarchy, surface, voxel):
     """Full detail in a box, less outside."""
     bounds = surface.GetBounds()
@@ -198,7 +203,7 @@ def extract_levels(hierarchy, voxel, noun):
     for tolerance in TOLERANCES:
         mesh, milliseconds = extract(hierarchy, tolerance * voxel)
         cells = mesh.GetNumberOfCells()
-        label = f"{tolerance:g} voxels"
+        label = in_voxels(tolerance)
         print(f"{label:>18} {cells:>12,} {milliseconds:>8.1f}", flush=True)
         yield mesh, f"tolerance {label}\n{cells:,} {noun}"
 
@@ -378,9 +383,9 @@ def colour_by_level(actor, levels):
     colours = vtkLookupTable()
     colours.SetNumberOfTableValues(levels)
     colours.SetTableRange(-0.5, levels - 0.5)
-    colours.SetHueRange(0.62, 0.08)
-    colours.SetSaturationRange(0.35, 0.45)
-    colours.SetValueRange(0.85, 1)
+    colours.SetHueRange(0.66, 0.05)
+    colours.SetSaturationRange(0.3, 0.6)
+    colours.SetValueRange(0.95, 1)
     colours.ForceBuild()
     mapper = actor.GetMapper()
     mapper.ScalarVisibilityOn()
@@ -396,7 +401,7 @@ def draw_regions(surface, volume, captions, bounds):
     width, height = REGION_PICTURE_SIZE
     aspect = width / 2 / (height * (1 - VOLUME_CAPTION_HEIGHT))
     plane = vtkPlane()
-    plane.SetOrigin([0.35 * bounds[2 * a] + 0.65 * bounds[2 * a + 1] for a in range(3)])
+    plane.SetOrigin([0.4 * bounds[2 * a] + 0.6 * bounds[2 * a + 1] for a in range(3)])
     plane.SetNormal(1, 0, 0)
     half = vtkExtractGeometry()
     half.SetInputData(volume)
@@ -405,6 +410,8 @@ def draw_regions(surface, volume, captions, bounds):
     levels = int(surface.GetCellData().GetArray("Level").GetRange()[1]) + 1
     for i, (mesh, direction) in enumerate(((surface, FRONT), (half.GetOutput(), SIDE))):
         actor = mesh_actor(mesh, True)
+        actor.GetProperty().SetEdgeColor(REGION_EDGE_COLOR)
+        actor.GetProperty().SetLineWidth(0.5 * OVERSAMPLING)
         colour_by_level(actor, levels)
         camera = front_camera(mesh, aspect, direction)
         add_view(window, (i / 2, VOLUME_CAPTION_HEIGHT, (i + 1) / 2, 1), camera, actor)
@@ -524,7 +531,7 @@ def run_regions(regions, bounds, files):
     ):
         print(f"{mesh.GetNumberOfCells():>18,} {noun} {milliseconds:>8.1f} ms")
         captions.append(
-            f"full resolution in a box, {REGION_OUTSIDE} voxels outside\n"
+            f"full resolution in a box, {in_voxels(REGION_OUTSIDE)} outside\n"
             f"{mesh.GetNumberOfCells():,} {noun}, coloured by level"
         )
     picture = draw_regions(surface, volume, captions, bounds)

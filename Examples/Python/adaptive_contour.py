@@ -7,7 +7,7 @@ from paraview.simple import *
 LoadPlugin(sys.argv[1], remote=False, ns=globals())
 
 volume = Wavelet(WholeExtent=[-32, 32] * 3)
-surface = IsodiamondContour(Input=volume, Isosurfaces=[157], ErrorTolerance=5)
+surface = IsodiamondContour(Input=volume, Isosurfaces=[157], ErrorTolerance=0.5)
 display = Show(surface)
 display.Representation = "Surface With Edges"
 ResetCamera()

@@ -11,6 +11,7 @@
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkSMPTools.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -203,7 +204,9 @@ TEST(RegionOfInterest, RefusesWhatIsNoBoxOrTolerance)
   contour->UseRegionOfInterestOn();
   contour->SetRegionOfInterest(0, NotANumber, 0, 1, 0, 1);
   auto messages = test::Watch(contour);
+  const std::string backend = vtkSMPTools::GetBackend();
   contour->Update();
+  EXPECT_EQ(vtkSMPTools::GetBackend(), backend); // the filter's own threads leave no trace
   EXPECT_EQ(messages->ErrorCount, 1);
   EXPECT_NE(messages->Errors.find("region of interest"), std::string::npos);
   EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
