@@ -177,6 +177,23 @@ inline constexpr int FindOffset(int parity, const Point& offset)
   return -1;
 }
 
+/** FindOffset() as a table: by parity, then by 9 z + 3 y + x, each plus 1. */
+inline constexpr std::array<std::array<std::int8_t, 27>, 8> MakeOffsetIndices()
+{
+  std::array<std::array<std::int8_t, 27>, 8> indices{};
+  for (int parity = 1; parity < 8; ++parity)
+  {
+    for (int code = 0; code < 27; ++code)
+    {
+      indices[parity][code] = static_cast<std::int8_t>(
+        FindOffset(parity, { code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1 }));
+    }
+  }
+  return indices;
+}
+
+inline constexpr std::array<std::array<std::int8_t, 27>, 8> OffsetIndices = MakeOffsetIndices();
+
 inline constexpr int SquaredLength(const Point& a, const Point& b)
 {
   return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
@@ -427,6 +444,12 @@ inline constexpr int TypeOf(const Point& position)
 inline constexpr const TypeTable& ShapeOf(const Point& position)
 {
   return tables::Types[TypeOf(position)];
+}
+
+/** The index of the vertex of a diamond at an offset that a vertex has. */
+inline constexpr int VertexIndex(const Point& position, const Point& offset)
+{
+  return tables::OffsetIndices[Parity(position)][9 * offset[2] + 3 * offset[1] + offset[0] + 13];
 }
 
 /** A diamond's place: its position and the scale that the position belongs to. */

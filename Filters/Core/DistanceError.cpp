@@ -164,11 +164,13 @@ private:
     const TypeTable& shape = ShapeOf(diamond.Position);
     const int ratio = 1 << (tetrahedron.Parent.Scale - diamond.Scale);
     const Point toParent = ratio * tetrahedron.Parent.Position + -1 * diamond.Position;
-    std::uint32_t corners = VertexAt(shape, toParent);
+    const auto vertexAt = [&](const Point& offset)
+    { return 1U << VertexIndex(diamond.Position, offset); };
+    std::uint32_t corners = vertexAt(toParent);
     for (int i = 0; i < 3; ++i)
     {
       const Point& offset = tetrahedron.Shape().Offsets[tetrahedron.Half->Vertices[i]];
-      corners |= VertexAt(shape, toParent + ratio * offset);
+      corners |= vertexAt(toParent + ratio * offset);
     }
     const std::uint32_t ends = (1U << shape.Spine[0]) | (1U << shape.Spine[1]);
     const std::uint32_t ring = corners & ~ends;
@@ -177,7 +179,7 @@ private:
     for (int i = 0; i < shape.HalfTetrahedronCount; ++i)
     {
       const HalfTetrahedron& half = shape.HalfTetrahedra[i];
-      if ((half.Mask & ring) == ring && (half.Mask & ends) != 0)
+      if ((half.Mask & ring) == ring)
       {
         const int end = (half.Mask >> shape.Spine[0] & 1U) != 0 ? 0 : 1;
         const Point at = Centre(diamond) + (1 << diamond.Scale) * shape.Offsets[shape.Spine[end]];
@@ -188,12 +190,6 @@ private:
         }
       }
     }
-  }
-
-  static std::uint32_t VertexAt(const TypeTable& shape, const Point& offset)
-  {
-    const auto* const begin = shape.Offsets.data();
-    return 1U << (std::find(begin, begin + shape.VertexCount, offset) - begin);
   }
 
   /** A tetrahedron with positions, and the diamond that it lies in. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GradientNormals.h"
 
+#include "Vector.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +10,6 @@ namespace isodiamond
 {
 namespace
 {
-
-using Vector = std::array<double, 3>;
 
 /** Central differences in index space at a sample. */
 template <typename T>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RegionOfInterest.h"
 
+#include "Vector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,23 +12,6 @@ namespace isodiamond
 {
 namespace
 {
-
-using Vector = std::array<double, 3>;
-
-Vector Cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-Vector Difference(const Vector& a, const Vector& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double Dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /** The smallest box around lattice points placed in the world. */
 template <typename Points>
@@ -182,7 +167,7 @@ bool RegionOfInterest::TouchesTetrahedron(const std::array<Point, 4>& corners) c
     {
       for (int j = 0; j < i; ++j)
       {
-        if (isSeparating(Cross(axis, Difference(points[i], points[j]))))
+        if (isSeparating(Cross(axis, points[i] - points[j])))
         {
           return false;
         }
@@ -192,8 +177,7 @@ bool RegionOfInterest::TouchesTetrahedron(const std::array<Point, 4>& corners) c
   for (int opposite = 0; opposite < 4; ++opposite)
   {
     const Vector& a = points[(opposite + 1) % 4];
-    if (isSeparating(Cross(
-          Difference(points[(opposite + 2) % 4], a), Difference(points[(opposite + 3) % 4], a))))
+    if (isSeparating(Cross(points[(opposite + 2) % 4] - a, points[(opposite + 3) % 4] - a)))
     {
       return false;
     }

@@ -5,11 +5,19 @@
 #include "WorldMetric.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace isodiamond
 {
 
-/** Squared distances to a triangle. */
+/**
+ * Squared distances to a triangle.
+ *
+ * Where a point lies over the triangle is told by its barycentric coordinates, which come from the
+ * normal: so they are right for thin triangles too, where dot products of the sides would cancel.
+ */
 class TriangleDistance
 {
 public:
@@ -18,61 +26,71 @@ public:
     : Corner(a)
     , First(b - a)
     , Second(c - a)
-    , FirstFirst(Dot(this->First, this->First))
-    , FirstSecond(Dot(this->First, this->Second))
-    , SecondSecond(Dot(this->Second, this->Second))
+    , Third(c - b)
+    , Lengths{ Dot(this->First, this->First), Dot(this->Second, this->Second),
+      Dot(this->Third, this->Third) }
   {
-    const Vector& u = this->First;
-    const Vector& v = this->Second;
-    const Vector normal = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-      u[0] * v[1] - u[1] * v[0] };
+    const Vector normal = Cross(this->First, this->Second);
     const double squaredLength = Dot(normal, normal);
-    const double inverse = squaredLength > 0.0 ? 1.0 / squaredLength : 0.0;
-    this->InverseArea = inverse;
-    const double scale = std::sqrt(inverse);
-    this->Normal = { scale * normal[0], scale * normal[1], scale * normal[2] };
+    this->IsDegenerate = !(squaredLength > 0.0);
+    if (!this->IsDegenerate)
+    {
+      const double inverse = 1.0 / squaredLength;
+      this->Normal = std::sqrt(inverse) * normal;
+      this->AlongFirst = inverse * Cross(this->Second, normal);
+      this->AlongSecond = inverse * Cross(normal, this->First);
+    }
   }
 
   double Squared(const Vector& point) const
   {
     const Vector p = point - this->Corner;
-    const double alongFirst = Dot(p, this->First);
-    const double alongSecond = Dot(p, this->Second);
-    const double s = this->SecondSecond * alongFirst - this->FirstSecond * alongSecond;
-    const double t = this->FirstFirst * alongSecond - this->FirstSecond * alongFirst;
-    if (s >= 0.0 && t >= 0.0 && (s + t) * this->InverseArea <= 1.0 && this->InverseArea > 0.0)
+    const double first = Dot(p, this->AlongFirst);
+    const double second = Dot(p, this->AlongSecond);
+    // The nearest point lies on a side that is seen from the point, or inside.
+    const bool seesFirst = second < 0.0 || this->IsDegenerate;
+    const bool seesSecond = first < 0.0 || this->IsDegenerate;
+    const bool seesThird = first + second > 1.0 || this->IsDegenerate;
+    if (!(seesFirst || seesSecond || seesThird))
     {
       const double height = Dot(p, this->Normal);
       return height * height;
     }
-    // Outside of the prism over the triangle: to the nearest of its sides.
-    const Vector third = this->Second - this->First;
-    const double toFirst = SquaredToSide(p, this->First, this->FirstFirst, alongFirst);
-    const double toSecond = SquaredToSide(p, this->Second, this->SecondSecond, alongSecond);
-    const Vector fromThird = p - this->First;
-    const double toThird =
-      SquaredToSide(fromThird, third, Dot(third, third), Dot(fromThird, third));
-    return std::min(toFirst, std::min(toSecond, toThird));
+    double squared = std::numeric_limits<double>::infinity();
+    if (seesFirst)
+    {
+      squared = SquaredToSide(p, this->First, this->Lengths[0]);
+    }
+    if (seesSecond)
+    {
+      squared = std::min(squared, SquaredToSide(p, this->Second, this->Lengths[1]));
+    }
+    if (seesThird)
+    {
+      squared = std::min(squared, SquaredToSide(p - this->First, this->Third, this->Lengths[2]));
+    }
+    return squared;
   }
 
 private:
-  static double SquaredToSide(
-    const Vector& p, const Vector& side, double squaredLength, double along)
+  static double SquaredToSide(const Vector& p, const Vector& side, double squaredLength)
   {
+    const double along = Dot(p, side);
     const double place =
       along <= 0.0 ? 0.0 : (along >= squaredLength ? 1.0 : along / squaredLength);
-    const Vector rest = { p[0] - place * side[0], p[1] - place * side[1], p[2] - place * side[2] };
+    const Vector rest = p - place * side;
     return Dot(rest, rest);
   }
 
   Vector Corner{};
   Vector First{};
   Vector Second{};
+  Vector Third{};
+  std::array<double, 3> Lengths{}; ///< of the sides, squared
   Vector Normal{};
-  double FirstFirst = 0.0;
-  double FirstSecond = 0.0;
-  double SecondSecond = 0.0;
-  double InverseArea = 0.0; ///< of the squared length of the normal; 0 for a degenerate triangle
+  Vector AlongFirst{}; ///< barycentric coordinates as dot products
+  Vector AlongSecond{};
+  bool IsDegenerate = true;
 };
 
 }

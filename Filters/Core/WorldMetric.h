@@ -4,23 +4,13 @@
 
 #include "AffineMap.h"
 #include "FinePlane.h"
+#include "Vector.h"
 
 #include <array>
 #include <cmath>
 
 namespace isodiamond
 {
-
-using Vector = std::array<double, 3>;
-
-inline Vector operator-(const Vector& a, const Vector& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-inline double Dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /**
  * World lengths in index space: maps fine positions to a space in which distances are the world's
