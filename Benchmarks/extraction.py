@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Build and extraction times against vtkFlyingEdges3D on a synthetic volume, one thread each.
+"""Build and extraction times against vtkFlyingEdges3D on synthetic volumes, one thread each.
 
     PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/extraction.py [SIZE]
 
@@ -65,22 +65,28 @@ def main():
         contour.ComputeScalarsOff()
         # The second builder's output stays, so that extraction finds it checked.
         builder, unchanged = make_builder(image), make_builder(image)
+        by_distance = make_builder(image)
+        by_distance.SetErrorMetricToDistance()
         extractor = vtkIsodiamondExtractor()
         extractor.SetInputConnection(unchanged.GetOutputPort())
         extractor.SetNumberOfThreads(1)
         extractor.Update()
-        theirs, builds, extractions = [], [], []
+        theirs, builds, distance_builds, extractions = [], [], [], []
         for _ in range(RUNS):
             theirs.append(timed(contour))
             builds.append(timed(builder))
+            if len(distance_builds) < 3:
+                distance_builds.append(timed(by_distance))
             extractions.append(timed(extractor))
         reference = statistics.median(theirs)
         build = statistics.median(builds)
+        distance_build = statistics.median(distance_builds)
         extraction = statistics.median(extractions)
         print(
             f"{name:>12}: flying edges {reference:.0f}"
             f" ({contour.GetOutput().GetNumberOfCells():,} triangles),"
             f" build {build:.0f} ({build / reference:.1f} x),"
+            f" by distance {distance_build:.0f} ({distance_build / reference:.1f} x),"
             f" extraction {extraction:.0f} ({extraction / reference:.2f} x,"
             f" {extractor.GetOutput().GetNumberOfCells():,} triangles)"
         )

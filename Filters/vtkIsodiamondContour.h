@@ -5,8 +5,9 @@
  *
  * A drop-in for a contour filter: vtkImageData in, vtkPolyData of triangles out, with an error
  * tolerance in addition. The filter keeps one minimal isodiamond hierarchy per isovalue; a new
- * tolerance only extracts again. A new input, array, boundary option or isovalue builds what is
- * missing.
+ * tolerance or region of interest only extracts again. A new input, array, isovalue, boundary
+ * option or error metric, other isovertices or features, and with the distance metric another
+ * spacing or direction, build what is missing.
  *
  * Point data: the isovalue under the input array's name (ComputeScalars), "Normals" toward lower
  * values from the full-resolution gradient (ComputeNormals). Cell data: "Level", see
@@ -117,7 +118,8 @@ public:
   ///@{
   /**
    * Finer in a region of interest: ErrorTolerance holds in the closed box RegionOfInterest (xmin,
-   * xmax, ymin, ymax, zmin, zmax, in the world), OutsideErrorTolerance elsewhere. Position is the
+   * xmax, ymin, ymax, zmin, zmax, in the world), OutsideErrorTolerance elsewhere, and everywhere if
+   * it is smaller; in the units of ErrorTolerance, negative values are errors. Position is the
    * box's lowest corner. A new region only extracts again. See vtkIsodiamondExtractor. Defaults:
    * off, the unit cube, VTK_DOUBLE_MAX.
    */

@@ -70,10 +70,11 @@ public:
   ///@{
   /**
    * The region of interest, a closed box along the world's axes (xmin, xmax, ymin, ymax, zmin,
-   * zmax), whatever the image's direction. In it the mesh is the uniform one of ErrorTolerance,
-   * outside as coarse as OutsideErrorTolerance and conformity let it be. Bounds may be infinite; a
-   * box with a minimum greater than its maximum is empty. Position is its lowest corner; setting it
-   * keeps the size, setting the size keeps the position. Default: the unit cube [0, 1]^3.
+   * zmax), whatever the image's direction. In it the mesh is the uniform one of ErrorTolerance (or
+   * of OutsideErrorTolerance, should that be smaller), outside as coarse as OutsideErrorTolerance
+   * and conformity let it be. Bounds may be infinite; a box with a minimum greater than its maximum
+   * is empty. Position is its lowest corner; setting it keeps the size, setting the size keeps the
+   * position. Default: the unit cube [0, 1]^3.
    */
   vtkSetVector6Macro(RegionOfInterest, double);
   vtkGetVector6Macro(RegionOfInterest, double);
@@ -92,7 +93,8 @@ public:
   ///@{
   /**
    * The error that is tolerated outside of the region of interest, in the units of ErrorTolerance.
-   * Default: VTK_DOUBLE_MAX, as good as infinity.
+   * Negative values and NaN are errors while the region is used. Default: VTK_DOUBLE_MAX, as good
+   * as infinity.
    */
   vtkSetMacro(OutsideErrorTolerance, double);
   vtkGetMacro(OutsideErrorTolerance, double);
@@ -102,8 +104,9 @@ public:
   /**
    * Of the last execution: how many stored diamonds were subdivided, and the size of the active
    * front: diamonds that were not but have a subdivided parent, or the root alone. All diamonds of
-   * the domain count for HD and RI, stored ones for MI. 0 before the first execution and after an
-   * error. They are counted on demand: the front takes about as long as the extraction.
+   * the domain count for HD and RI; of an MI stored ones with a stored parent. 0 before the first
+   * execution and after an error. They are counted on demand, since the front takes about as long
+   * as the extraction: for that the filter keeps the hierarchy alive until it executes again.
    */
   vtkIdType GetNumberOfSubdividedDiamonds();
   vtkIdType GetNumberOfFrontDiamonds();

@@ -104,7 +104,8 @@ public:
   ///@{
   /**
    * Finer in a region of interest: ErrorTolerance holds in the closed box RegionOfInterest (xmin,
-   * xmax, ymin, ymax, zmin, zmax, in the world), OutsideErrorTolerance elsewhere. Position is the
+   * xmax, ymin, ymax, zmin, zmax, in the world), OutsideErrorTolerance elsewhere, and everywhere if
+   * it is smaller; in the units of ErrorTolerance, negative values are errors. Position is the
    * box's lowest corner. A new region only extracts again. See vtkIsodiamondExtractor. Defaults:
    * off, the unit cube, VTK_DOUBLE_MAX.
    */

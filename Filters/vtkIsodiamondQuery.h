@@ -57,7 +57,10 @@ inline void CheckTolerances(const Query& query)
 {
   CheckTolerance(query.ErrorTolerance);
   CheckTolerance(query.InteriorTolerance, "interior");
-  CheckTolerance(query.OutsideErrorTolerance, "outside error");
+  if (query.Region)
+  {
+    CheckTolerance(query.OutsideErrorTolerance, "outside error");
+  }
 }
 
 /** The query in terms of the core. @param world from the grid's index space */

@@ -246,8 +246,9 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   {
     throw std::invalid_argument("the hierarchy has an unknown format version");
   }
-  if (header[1] < 0 || header[1] > 2 || header[2] < 0 || header[2] > 1 || header[MetricAt] < 0 ||
-    header[MetricAt] > 1)
+  const auto isFlag = [&](int at) { return header[at] == 0 || header[at] == 1; };
+  if (header[1] < 0 || header[1] > 2 || !isFlag(2) || !isFlag(MetricAt) || !isFlag(ExactAt) ||
+    (header[1] == 0 && header[MetricAt] != 0)) // an HD has no distances
   {
     throw std::invalid_argument("the hierarchy is of an unknown model, shape or metric");
   }

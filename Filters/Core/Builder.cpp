@@ -176,10 +176,15 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
     }
     arrays.BrickCounts.push_back(static_cast<std::uint32_t>(bricks - before));
   }
-  arrays.BrickIndices.resize(bricks);
-  arrays.BrickMasks.resize(8 * bricks);
-  arrays.Records.resize(diamonds);
-  arrays.InteriorCodes.resize(arrays.InteriorCodes.empty() ? 0 : diamonds);
+  const auto shorten = [](auto& array, std::size_t size)
+  {
+    array.resize(size);
+    array.shrink_to_fit();
+  };
+  shorten(arrays.BrickIndices, bricks);
+  shorten(arrays.BrickMasks, 8 * bricks);
+  shorten(arrays.Records, diamonds);
+  shorten(arrays.InteriorCodes, arrays.InteriorCodes.empty() ? 0 : diamonds);
 }
 
 Encoding Build(Model model, const Source& source, const Isoregion& region,
@@ -293,9 +298,10 @@ Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregio
 {
   const ErrorCode code(FieldErrorScale(samples));
   const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
+  const FieldErrors errors(grid, samples, parallelFor);
   const auto summary = [&](const Place& place)
   {
-    const DomainSummary domain = SummarizeDomain(grid, samples, place);
+    const DomainSummary domain = errors.Summarize(place);
     return std::make_pair(code.Encode(domain.Error), domain.Range);
   };
   return Build(model, { grid, samples, code.Scale(), summary }, region, options, parallelFor);

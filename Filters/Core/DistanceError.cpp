@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DistanceError.h"
 
+#include "Bisection.h"
 #include "DiamondPatches.h"
-#include "FinePlane.h"
 
 #include <algorithm>
 #include <atomic>
@@ -20,29 +20,6 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 using FinePositions = std::vector<FinePosition>;
 
-/** Whether a tetrahedron shares volume with the grid's box. */
-bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
-{
-  const int h = 1 << tetrahedron.Parent.Scale;
-  const TypeTable& shape = tetrahedron.Shape();
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    int low = 0; // offsets from the centre, which is a corner
-    int high = 0;
-    for (const std::uint8_t vertex : tetrahedron.Half->Vertices)
-    {
-      low = std::min(low, shape.Offsets[vertex][axis]);
-      high = std::max(high, shape.Offsets[vertex][axis]);
-    }
-    const int centre = h * tetrahedron.Parent.Position[axis];
-    if (centre + h * low >= grid.Last(axis) || centre + h * high <= 0)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 /**
  * Hands the full-resolution isovertices down the tree of bisected tetrahedra. Every tetrahedron
  * that holds some raises the error of the diamond that it lies in.
@@ -50,8 +27,10 @@ bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
 class DistanceWalk
 {
 public:
-  DistanceWalk(const IsodiamondHierarchy& hierarchy, const AffineMap& world, bool preserveFeatures)
+  DistanceWalk(const IsodiamondHierarchy& hierarchy, const AnySamples& samples,
+    const AffineMap& world, bool preserveFeatures)
     : Hierarchy(hierarchy)
+    , Samples(samples)
     , Neighbourhood(hierarchy)
     , Metric(world)
     , Code(DistanceErrorScale(hierarchy.Domain(), world))
@@ -129,69 +108,6 @@ private:
     return tasks;
   }
 
-  static bool Holds(const HalfPlace& tetrahedron, const FinePosition& position)
-  {
-    const TypeTable& shape = tetrahedron.Shape();
-    std::array<Point, 4> corners{}; // as offsets from the centre
-    for (int i = 0; i < 3; ++i)
-    {
-      corners[i + 1] = shape.Offsets[tetrahedron.Half->Vertices[i]];
-    }
-    for (int opposite = 0; opposite < 4; ++opposite)
-    {
-      const Point& origin = corners[(opposite + 1) % 4];
-      const Point at = Centre(tetrahedron.Parent) + (1 << tetrahedron.Parent.Scale) * origin;
-      const FinePlane face(
-        at, corners[(opposite + 2) % 4] + -1 * origin, corners[(opposite + 3) % 4] + -1 * origin);
-      const Point inside =
-        Centre(tetrahedron.Parent) + (1 << tetrahedron.Parent.Scale) * corners[opposite];
-      if ((face.Side(position) < 0) != (face.Side(FineUnits * inside) < 0) &&
-        face.Side(position) != 0)
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  /** Splits the range of positions from `begin` on at the plane through the centre of the diamond
-   *  that a tetrahedron lies in and its ring edge: calls body(half, positive side) for both. */
-  template <typename Body>
-  void ForEachHalf(
-    const HalfPlace& tetrahedron, const Place& diamond, std::uint32_t rank, Body&& body) const
-  {
-    // The corners of the tetrahedron among the diamond's vertices.
-    const TypeTable& shape = ShapeOf(diamond.Position);
-    const int ratio = 1 << (tetrahedron.Parent.Scale - diamond.Scale);
-    const Point toParent = ratio * tetrahedron.Parent.Position + -1 * diamond.Position;
-    const auto vertexAt = [&](const Point& offset)
-    { return 1U << VertexIndex(diamond.Position, offset); };
-    std::uint32_t corners = vertexAt(toParent);
-    for (int i = 0; i < 3; ++i)
-    {
-      const Point& offset = tetrahedron.Shape().Offsets[tetrahedron.Half->Vertices[i]];
-      corners |= vertexAt(toParent + ratio * offset);
-    }
-    const std::uint32_t ends = (1U << shape.Spine[0]) | (1U << shape.Spine[1]);
-    const std::uint32_t ring = corners & ~ends;
-    const FinePlane plane(
-      Centre(diamond), shape.Offsets[LowestBit(ring)], shape.Offsets[LowestBit(ring & (ring - 1))]);
-    for (int i = 0; i < shape.HalfTetrahedronCount; ++i)
-    {
-      const HalfTetrahedron& half = shape.HalfTetrahedra[i];
-      if ((half.Mask & ring) == ring)
-      {
-        const int end = (half.Mask >> shape.Spine[0] & 1U) != 0 ? 0 : 1;
-        const Point at = Centre(diamond) + (1 << diamond.Scale) * shape.Offsets[shape.Spine[end]];
-        const HalfPlace place{ diamond, rank, &half };
-        if (IsInGrid(this->Hierarchy.Domain(), place))
-        {
-          body(place, plane, plane.Side(FineUnits * at) > 0);
-        }
-      }
-    }
-  }
-
   /** A tetrahedron with positions, and the diamond that it lies in. */
   struct Held
   {
@@ -204,6 +120,7 @@ private:
 
   Held Hold(const HalfPlace& tetrahedron, std::size_t begin, std::size_t end) const
   {
+    // A diamond in the grid that holds an isovertex is a member: it leads to the surface.
     const Place diamond = tetrahedron.Child();
     const std::int64_t rank = diamond.Scale < 0 ? 0 : this->Hierarchy.Diamonds().Rank(diamond);
     return { tetrahedron, diamond, static_cast<std::uint32_t>(rank), begin, end };
@@ -213,7 +130,7 @@ private:
   void Split(const Held& held, const FinePositions& positions, std::vector<Held>& halves,
     FinePositions& positionsOfHalves) const
   {
-    this->ForEachHalf(held.Tetrahedron, held.Diamond, held.Rank,
+    ForEachHalf(this->Hierarchy.Domain(), held.Tetrahedron, held.Diamond, held.Rank,
       [&](const HalfPlace& half, const FinePlane& plane, bool positive)
       {
         const std::size_t begin = positionsOfHalves.size();
@@ -288,7 +205,8 @@ private:
   {
     const Place& diamond = begin->Diamond;
     const std::uint32_t rank = begin->Rank;
-    if (this->RaisesAll || this->Hierarchy.Domain().SticksOut(diamond.Position, diamond.Scale))
+    if (this->RaisesAll || this->Hierarchy.Domain().SticksOut(diamond.Position, diamond.Scale) ||
+      !this->HasFiniteVertices(diamond))
     {
       this->Raise(rank, ErrorCode::Always);
     }
@@ -297,8 +215,9 @@ private:
     {
       return;
     }
-    // Only what exceeds the error so far is of interest: it is a maximum.
-    const double known = code == 0 ? 0.0 : this->Code.Decode(code);
+    // Only what exceeds the error so far is of interest: it is a maximum. What would only just not
+    // raise the code counts too, or the order of threads would.
+    const double known = code == 0 ? 0.0 : this->Code.Decode(code) / (Margin * Margin);
     double largest = known * known;
     patches.Reset(diamond);
     for (const Held* held = begin; held != end; ++held)
@@ -319,9 +238,30 @@ private:
     }
     if (largest > known * known || code == 0)
     {
-      // Rounding up by much more than the arithmetic's own rounding.
-      this->Raise(rank, this->Code.Encode(std::sqrt(largest) * (1.0 + 1e-12)));
+      this->Raise(rank, this->Code.Encode(std::sqrt(largest) * Margin));
     }
+  }
+
+  bool HasFiniteVertices(const Place& diamond) const
+  {
+    return std::visit(
+      [&](const auto& view)
+      {
+        using T = typename std::decay_t<decltype(view)>::Value;
+        bool finite = true;
+        if constexpr (std::is_floating_point_v<T>)
+        {
+          const TypeTable& shape = ShapeOf(diamond.Position);
+          ForEachBit(SampledVertices(this->Hierarchy.Domain(), diamond, shape),
+            [&](int i)
+            {
+              const Point vertex = diamond.Position + shape.Offsets[i];
+              finite = finite && std::isfinite(view((1 << diamond.Scale) * vertex));
+            });
+        }
+        return finite;
+      },
+      this->Samples);
   }
 
   double SquaredDiameter(const Place& diamond) const
@@ -349,7 +289,11 @@ private:
     }
   }
 
+  /** Errors are rounded up by more than the arithmetic's own rounding. */
+  static constexpr double Margin = 1.0 + 1e-12;
+
   const IsodiamondHierarchy& Hierarchy;
+  const AnySamples& Samples;
   SpineNeighbourhood Neighbourhood;
   WorldMetric Metric;
   ErrorCode Code;
@@ -391,11 +335,12 @@ struct FullResolution
 
 double DistanceErrorScale(const Grid& grid, const AffineMap& world)
 {
-  if (!(std::fabs(world.Determinant()) > 0.0) || !std::isfinite(world.Determinant()))
+  const WorldMetric metric(world);
+  if (!metric.IsValid())
   {
     throw std::invalid_argument("Distances need a spacing that is neither 0 nor infinite.");
   }
-  const Vector diagonal = WorldMetric(world)(grid.Last(0), grid.Last(1), grid.Last(2));
+  const Vector diagonal = metric(grid.Last(0), grid.Last(1), grid.Last(2));
   return ErrorCode(std::sqrt(Dot(diagonal, diagonal))).Scale();
 }
 
@@ -403,7 +348,7 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   const AnySamples& samples, const AffineMap& world, bool preserveFeatures,
   const ParallelFor& parallelFor)
 {
-  DistanceWalk walk(relevant, world, preserveFeatures);
+  DistanceWalk walk(relevant, samples, world, preserveFeatures);
   for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
   {
     const FullResolution isovertices(relevant, samples, surface);

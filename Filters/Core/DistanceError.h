@@ -14,19 +14,20 @@
  * world units.
  *
  * The error of a diamond is the largest distance from a full-resolution isovertex in its closed
- * domain to the patch of the tetrahedron that holds the isovertex, as extraction would make it. An
- * isovertex on a border counts for every tetrahedron that has it. So if every leaf of a mesh lies
- * in a diamond with an error of at most t, no full-resolution isovertex is farther than t from the
- * mesh: the tolerance is a promise. Of an interval volume both surfaces count, each against its
- * own patches.
+ * domain to the nearest patch of the diamond, as extraction would make it, that is sure to be in a
+ * mesh together with the tetrahedron that holds the isovertex. So if every leaf of a mesh lies in a
+ * diamond with an error of at most t, no full-resolution isovertex is farther than t from the mesh:
+ * the tolerance is a promise. An isovertex on a border counts for every tetrahedron that has it; of
+ * an interval volume both surfaces count, each against its own patches.
  *
- * A tetrahedron without a patch can hold isovertices too, where the surface bulges into it. These
- * count with the distance to another tetrahedron of the same diamond, one that is in every mesh
- * that the first is in: its *mate*, which the same parent made. The others, which other parents
- * made, may be replaced by the coarser tetrahedra around the spine that they come from, as long as
- * that parent is not subdivided: there the largest of the distances to what can be in that place
- * counts, and of all places the nearest. If there is none, the diamond is always subdivided:
- * features never vanish.
+ * What is sure to be there: the tetrahedron itself and its *mate*, which the same parent made. In
+ * the place of another one, made by another parent, there can be coarser tetrahedra around the
+ * spine, those that it comes from, as long as that parent is not subdivided: of what can be in one
+ * place the farthest patch counts. A place where there may be none does not count. If no place is
+ * left, the diamond is always subdivided: features never vanish.
+ *
+ * So are diamonds that stick out of the grid, that have a vertex that is not finite, or that hold
+ * an isovertex on an edge with such an end.
  */
 namespace isodiamond
 {
@@ -39,8 +40,7 @@ double DistanceErrorScale(const Grid& grid, const AffineMap& world);
  * The distance errors of all diamonds.
  *
  * @param relevant an RI of the surface, whatever its error codes
- * @param samples that it was built from: a diamond that holds an isovertex on an edge with an end
- *        that is not finite is always subdivided
+ * @param samples that it was built from, to tell which are finite
  * @param world from index space to the world; lengths count there
  * @param preserveFeatures otherwise isovertices without a patch to count with count with the
  *        diameter of the diamond, so that features that are thinner than the tolerance may vanish

@@ -2,6 +2,7 @@
 #ifndef isodiamond_FieldError_h
 #define isodiamond_FieldError_h
 
+#include "BlockRanges.h"
 #include "DiamondTables.h"
 #include "Isoregion.h"
 
@@ -37,6 +38,21 @@ bool HasAllVerticesInside(
 
 /** Visits every sampled lattice point of one diamond's domain. */
 DomainSummary SummarizeDomain(const Grid& grid, const AnySamples& samples, const Place& place);
+
+/** The same for many diamonds of one field, without visiting what cannot matter. */
+class FieldErrors
+{
+public:
+  /** The grid and the samples must outlive it. */
+  FieldErrors(const Grid& grid, const AnySamples& samples, const ParallelFor& parallelFor);
+
+  DomainSummary Summarize(const Place& place) const;
+
+private:
+  const Grid& Domain;
+  const AnySamples& Samples;
+  BlockRanges Ranges;
+};
 
 }
 

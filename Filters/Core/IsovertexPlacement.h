@@ -91,7 +91,8 @@ std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int
       ? placement::Code(placement::Crossing(edge, 0, isovalue), 1)
       : std::uint8_t{ 128 };
   }
-  const double guess = steps * ((isovalue - edge(0)) / (edge(steps) - edge(0)));
+  const double along = (isovalue - edge(0)) / (edge(steps) - edge(0));
+  const double guess = steps * (along == along ? along : 0.5); // huge values overflow
   constexpr double tie = 1e-9; // equal distances may differ by rounding: the first crossing wins
   double nearest = guess;
   double distance = HUGE_VAL;

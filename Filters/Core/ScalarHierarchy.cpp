@@ -233,6 +233,7 @@ ScalarEncoding BuildScalarHierarchy(const AnySamples& samples, const ParallelFor
 {
   const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
   const ErrorCode code(FieldErrorScale(samples));
+  const FieldErrors errors(grid, samples, parallelFor);
   ScalarEncoding encoding;
   encoding.ErrorScale = code.Scale();
   encoding.Codes.assign(ScalarHierarchy::CodeCount(grid), 0);
@@ -257,7 +258,7 @@ ScalarEncoding BuildScalarHierarchy(const AnySamples& samples, const ParallelFor
                   static_cast<int>(row / count[1]) } };
               if (Parity(place.Position) != 0)
               {
-                const DomainSummary summary = SummarizeDomain(grid, samples, place);
+                const DomainSummary summary = errors.Summarize(place);
                 encoding.Codes[first + i] = code.Encode(summary.Error);
                 if (scale > 0)
                 {

@@ -14,35 +14,34 @@ namespace isodiamond
 
 /**
  * World lengths in index space: maps fine positions to a space in which distances are the world's
- * but orientation and origin do not matter, by the upper triangular factor of the map's metric.
+ * but orientation and origin do not matter, by the upper triangular factor of the map.
  */
 class WorldMetric
 {
 public:
   explicit WorldMetric(const AffineMap& world)
   {
-    const auto metric = [&](int i, int j)
+    // Gram-Schmidt on the columns.
+    std::array<Vector, 3> directions{};
+    for (int j = 0; j < 3; ++j)
     {
-      double sum = 0.0;
-      for (const std::array<double, 4>& row : world.Rows)
+      Vector rest = { world.Rows[0][j], world.Rows[1][j], world.Rows[2][j] };
+      for (int i = 0; i < j; ++i)
       {
-        sum += row[i] * row[j];
+        this->Factor[i][j] = Dot(directions[i], rest);
+        rest = rest - this->Factor[i][j] * directions[i];
       }
-      return sum;
-    };
-    // Cholesky: rows of the factor one after the other.
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int j = i; j < 3; ++j)
-      {
-        double rest = metric(i, j);
-        for (int k = 0; k < i; ++k)
-        {
-          rest -= this->Factor[k][i] * this->Factor[k][j];
-        }
-        this->Factor[i][j] = i == j ? std::sqrt(rest) : rest / this->Factor[i][i];
-      }
+      this->Factor[j][j] = std::hypot(rest[0], rest[1], rest[2]);
+      directions[j] = { rest[0] / this->Factor[j][j], rest[1] / this->Factor[j][j],
+        rest[2] / this->Factor[j][j] };
     }
+  }
+
+  /** Whether the world has lengths along all axes. */
+  bool IsValid() const
+  {
+    return this->Factor[0][0] > 0.0 && this->Factor[1][1] > 0.0 && this->Factor[2][2] > 0.0 &&
+      std::isfinite(this->Factor[0][0] + this->Factor[1][1] + this->Factor[2][2]);
   }
 
   Vector operator()(double x, double y, double z) const

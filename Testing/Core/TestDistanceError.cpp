@@ -3,6 +3,7 @@
 // meshes, in worlds and of real data, are checked with VTK in Testing/Filters/TestDistance.cpp.
 #include "DistanceError.h"
 #include "IntervalTestTools.h"
+#include "SurfacePatch.h"
 
 #include "ReferenceDistance.h"
 
@@ -179,6 +180,96 @@ TEST(DistanceError, DoesNotDependOnThreadsOrOnTheSource)
     BuildIsodiamonds(Model::Minimal, *scalars.Hierarchy, field.Isovalue, SerialFor, options);
   EXPECT_EQ(fromScalars.Arrays.Records, expected.Arrays.Records);
   EXPECT_EQ(fromScalars.Arrays.Isovertices, expected.Arrays.Isovertices);
+}
+
+// Integers on a cube of 2^N + 1 samples: many distances are equal, or equal to the value of a code.
+TEST(DistanceError, DoesNotDependOnTheOrderOfRanges)
+{
+  const ParallelFor reversed = [](std::int64_t count, std::int64_t,
+                                 const std::function<void(std::int64_t, std::int64_t)>& body)
+  {
+    for (std::int64_t i = count; i > 0; --i)
+    {
+      body(i - 1, i);
+    }
+  };
+  for (unsigned seed = 0; seed < 300; ++seed)
+  {
+    const test::Field field = test::NoiseField({ 17, 17, 17 }, seed);
+    const auto build = [&](const ParallelFor& parallelFor)
+    {
+      return BuildIsodiamonds(
+        Model::Minimal, field.View(), field.Isovalue, parallelFor, test::Distance());
+    };
+    ASSERT_EQ(build(reversed).Arrays.Records, build(SerialFor).Arrays.Records) << "seed " << seed;
+  }
+}
+
+// A mesh has no vertex on an edge to a sample that is not finite, wherever that is.
+TEST(DistanceError, SubdividesAroundValuesThatAreNotFinite)
+{
+  test::Field field = test::WaveField({ 33, 33, 33 });
+  for (int i = 0; i < 33 * 33 * 33; ++i)
+  {
+    field.Samples[i] = static_cast<float>(i % 33);
+  }
+  field.Isovalue = 26.3;
+  field.Samples[0] = std::numeric_limits<float>::quiet_NaN();
+  const test::Built built = test::Build(Model::Minimal, field, test::Distance());
+  for (const double tolerance : { 0.5, 100.0, Infinity })
+  {
+    for (const test::Corner& point : test::Extract(*built.Hierarchy, tolerance).Points)
+    {
+      ASSERT_NEAR(point[0], 26.3, 33.0 / 256);
+    }
+  }
+}
+
+TEST(DistanceError, RefusesWorldsWithoutLengths)
+{
+  const Grid grid({ 5, 5, 5 });
+  EXPECT_THROW(DistanceErrorScale(grid, Spacing(1.0, 0.0, 1.0)), std::invalid_argument);
+  EXPECT_THROW(DistanceErrorScale(grid, Spacing(1.0, Infinity, 1.0)), std::invalid_argument);
+  EXPECT_GT(DistanceErrorScale(grid, Spacing(1e-110, 1e-110, 1e-110)), 0.0);
+  AffineMap flat; // y and z lie in one direction
+  flat.Rows = { { { 1, 0, 0, 0 }, { 0, 1, 2, 0 }, { 0, 0, 0, 0 } } };
+  EXPECT_THROW(DistanceErrorScale(grid, flat), std::invalid_argument);
+}
+
+// What distances are measured to is what extraction makes: the patches of all leaves are the faces
+// of the interval volume on its surfaces.
+TEST(DistanceError, PatchesAreTheSurfacesOfIntervalVolumes)
+{
+  for (const test::Field& field : { test::NoiseField({ 9, 9, 9 }, 21),
+         test::SphereField({ 17, 17, 17 }), test::WaveField({ 10, 6, 13 }) })
+  {
+    SCOPED_TRACE(field.Name);
+    const test::Built built(
+      BuildIsodiamonds(Model::Relevant, field.View(), test::RegionOf(test::RangesOf(field)[0]),
+        SerialFor, test::Distance()),
+      SerialFor);
+    const IsodiamondHierarchy& hierarchy = *built.Hierarchy;
+    for (const double tolerance : { 0.0, 0.5, Infinity })
+    {
+      const RefinedSet refined(hierarchy, { tolerance }, SerialFor);
+      std::array<std::size_t, 2> triangles{};
+      for (const BrickPlace& brick : AllBricks(hierarchy.Diamonds()))
+      {
+        ForEachLeaf(
+          refined, brick, [&](std::uint32_t rank) { return hierarchy.CarryingEdges(rank); },
+          [&](const Leaf& leaf)
+          {
+            for (int surface = 0; surface < 2; ++surface)
+            {
+              triangles[surface] += PatchOf(hierarchy, leaf.Rank, leaf.Half, surface).TriangleCount;
+            }
+          });
+      }
+      const test::Volume volume = test::ExtractVolume(hierarchy, tolerance);
+      EXPECT_EQ(triangles[0], test::CountSurfaceFaces(volume, -1));
+      EXPECT_EQ(triangles[1], test::CountSurfaceFaces(volume, 1));
+    }
+  }
 }
 
 TEST(DistanceError, GivesTheSameMeshInBothModels)

@@ -106,32 +106,64 @@ TEST(IsovertexPlacement, OfIntervalVolumesIsTheReferences)
   EXPECT_GT(both, 1000);
 }
 
-// Every vertex of every level of detail: on the full-resolution field along its own edge there is a
-// crossing within one coefficient step, within two where the edge carries both surfaces.
+namespace
+{
+
+/** On the full-resolution field along its own edge every isovertex has a crossing within one
+ *  coefficient step, within two where the edge carries both surfaces. */
+void ExpectOnSurface(const test::Field& field, const Isoregion& region)
+{
+  SCOPED_TRACE(field.Name);
+  const test::Built built(
+    BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor), SerialFor);
+  const IsodiamondHierarchy& hierarchy = *built.Hierarchy;
+  ForEachIsovertex(hierarchy,
+    [&](const Place& place, std::uint32_t rank, int edge, int surface, int coefficient)
+    {
+      const int steps = 1 << place.Scale;
+      const double isovalue = region.Isovalue(surface);
+      const bool both = region.IsVolume() &&
+        (((hierarchy.Edges(rank) & hierarchy.UpperEdges(rank)) >> edge) & 1U) != 0;
+      const Point& offset = tables::Parities[Parity(place.Position)].Offsets[edge];
+      const auto sample = [&](int i) { return SampleAt(field.View(), Centre(place) + i * offset); };
+      double nearest = 2.0 * steps;
+      for (int i = 0; i < steps; ++i)
+      {
+        if (region.IsAbove(surface, sample(i)) != region.IsAbove(surface, sample(i + 1)))
+        {
+          const double crossing = i + (isovalue - sample(i)) / (sample(i + 1) - sample(i));
+          nearest = std::min(nearest, std::abs(crossing - coefficient / 256.0 * steps));
+        }
+      }
+      ASSERT_LE(nearest, (both ? 2 : 1) * steps / 256.0);
+    });
+}
+
+}
+
 TEST(IsovertexPlacement, PutsVerticesOnTheFullResolutionSurface)
 {
   for (const test::Field& field : { test::NoiseField({ 33, 33, 33 }, 5),
          test::WaveField({ 33, 20, 27 }), test::SphereField({ 40, 33, 29 }) })
   {
-    SCOPED_TRACE(field.Name);
-    const test::Built built = test::Build(Model::Minimal, field);
-    ForEachIsovertex(*built.Hierarchy,
-      [&](const Place& place, std::uint32_t, int edge, int, int coefficient)
-      {
-        const int steps = 1 << place.Scale;
-        const Point& offset = tables::Parities[Parity(place.Position)].Offsets[edge];
-        const auto sample = [&](int i)
-        { return SampleAt(field.View(), Centre(place) + i * offset); };
-        double nearest = 2.0 * steps;
-        for (int i = 0; i < steps; ++i)
-        {
-          if ((sample(i) > field.Isovalue) != (sample(i + 1) > field.Isovalue))
-          {
-            const double crossing = i + (field.Isovalue - sample(i)) / (sample(i + 1) - sample(i));
-            nearest = std::min(nearest, std::abs(crossing - coefficient / 256.0 * steps));
-          }
-        }
-        ASSERT_LE(nearest, steps / 256.0);
-      });
+    ExpectOnSurface(field, field.Isovalue);
+    ExpectOnSurface(field, Isoregion(field.Isovalue - 0.4, field.Isovalue + 0.3));
+  }
+}
+
+// Differences that overflow: in order, in the middle, anything but not a number.
+TEST(IsovertexPlacement, StaysInRangeForHugeValues)
+{
+  std::vector<double> samples(125);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    samples[i] = i * i % 3 == 1 ? 1.7e308 : -1.7e308;
+  }
+  const SampleView<double> view(samples.data(), { 5, 5, 5 });
+  for (const Isoregion& region : { Isoregion(1e308), Isoregion(-1e308, 1e308) })
+  {
+    const Encoding encoding = BuildIsodiamonds(Model::Minimal, view, region, SerialFor);
+    EXPECT_GT(encoding.Arrays.Isovertices.size(), 100U);
+    EXPECT_NO_THROW(IsodiamondHierarchy(encoding, SerialFor));
   }
 }

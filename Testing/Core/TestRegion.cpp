@@ -288,7 +288,8 @@ TEST(Region, IsTheSmallestClosedSupersetOnSurfaces)
 {
   for (const test::Field& field :
     { test::NoiseField({ 9, 9, 9 }, 41), test::SphereField({ 17, 17, 17 }),
-      test::SparseField({ 17, 17, 17 }, 42), test::WaveField({ 10, 6, 13 }) })
+      test::SparseField({ 17, 17, 17 }, 42), test::WaveField({ 10, 6, 13 }),
+      test::NoiseField({ 2, 3, 20 }, 44), test::BrokenField({ 9, 7, 8 }, 45) })
   {
     SCOPED_TRACE(field.Name);
     ExpectAllModels(field, field.Isovalue,
@@ -318,6 +319,46 @@ TEST(Region, IsTheSmallestClosedSupersetOnIntervalVolumes)
         EXPECT_TRUE(placed == test::PlacedTetrahedra(test::ExtractVolume(relevant, query)));
         EXPECT_TRUE(placed == test::PlacedTetrahedra(test::ExtractVolume(answer, 0.0)));
       });
+  }
+}
+
+// Mirrored, and far from the origin: the same diamonds.
+TEST(Region, FollowsNegativeSpacingsAndFarOrigins)
+{
+  const std::array<int, 3> dims = { 9, 6, 12 };
+  const Grid grid(dims);
+  AffineMap world;
+  world.Rows = { { { -0.5, 0, 0, 4096 }, { 0, 2, 0, -8192 }, { 0, 0, 1, 65536 } } };
+  const reference::Hierarchy hierarchy(dims);
+  for (const Box& box : RandomBoxes(dims, 17, 20))
+  {
+    const Box inWorld{ { 4096 - 0.5 * box.Maximum[0], 2 * box.Minimum[1] - 8192,
+                         box.Minimum[2] + 65536 },
+      { 4096 - 0.5 * box.Minimum[0], 2 * box.Maximum[1] - 8192, box.Maximum[2] + 65536 } };
+    const RegionOfInterest region(inWorld, grid, world);
+    for (int i = 0; i < hierarchy.Size(); ++i)
+    {
+      ASSERT_EQ(region.Touches(test::PlaceOf(grid, hierarchy.At(i).Center)),
+        reference::Touches(hierarchy, i, ReferenceBox(box)));
+    }
+  }
+}
+
+TEST(Region, GivesOneMeshByTheDistanceMetricWhateverTheThreads)
+{
+  for (const test::Field& field :
+    { test::NoiseField({ 17, 12, 19 }, 51), test::SphereField({ 33, 33, 33 }) })
+  {
+    const test::Built relevant = test::Build(Model::Relevant, field, test::Distance());
+    const test::Built minimal = test::Build(Model::Minimal, field, test::Distance());
+    for (const Box& box : RandomBoxes(field.Dims, 52, 10))
+    {
+      const Query query{ 0.1, HUGE_VAL,
+        RegionOfInterest(box, minimal.Hierarchy->Domain(), AffineMap()), 2.0 };
+      const test::Mesh mesh = test::Extract(*minimal.Hierarchy, query);
+      EXPECT_TRUE(mesh == test::Extract(*relevant.Hierarchy, query));
+      EXPECT_TRUE(mesh == test::Extract(*minimal.Hierarchy, query, test::ThreadedFor(3)));
+    }
   }
 }
 

@@ -258,3 +258,29 @@ TEST(BadInput, DamagedHierarchies)
     }
   }
 }
+
+TEST(BadInput, HeadersThatMakeNoSense)
+{
+  for (const bool scalars : { false, true })
+  {
+    vtkNew<vtkIsodiamondBuilder> builder;
+    builder->SetInputData(test::BallImage({ 9, 9, 9 }));
+    builder->SetModel(scalars ? 0 : 2);
+    builder->Update();
+    // Version, model, shape, metric, exactness; an HD with distances.
+    const std::vector<std::pair<vtkIdType, double>> faults = { { 0, 1 }, { 1, 3 }, { 2, 2 },
+      { 7, 2 }, { 8, 77 }, { 7, scalars ? 1 : -1 } };
+    for (const auto& [index, value] : faults)
+    {
+      vtkNew<vtkPolyData> bad;
+      bad->DeepCopy(builder->GetOutput());
+      bad->GetFieldData()->GetArray("IsodiamondHeader")->SetTuple1(index, value);
+      vtkNew<vtkIsodiamondExtractor> extractor;
+      extractor->SetInputData(bad);
+      const auto messages = test::Watch(extractor);
+      extractor->Update();
+      EXPECT_EQ(messages->ErrorCount, 1) << "header " << index << " " << value;
+      EXPECT_EQ(extractor->GetOutput()->GetNumberOfCells(), 0);
+    }
+  }
+}

@@ -215,6 +215,10 @@ TEST(RegionOfInterest, RefusesWhatIsNoBoxOrTolerance)
   contour->Update();
   EXPECT_EQ(messages->ErrorCount, 2);
   EXPECT_NE(messages->Errors.find("outside error tolerance"), std::string::npos);
+  contour->UseRegionOfInterestOff(); // then it does not matter
+  contour->Update();
+  EXPECT_EQ(messages->ErrorCount, 2);
+  contour->UseRegionOfInterestOn();
   contour->SetOutsideErrorTolerance(0.0);
   contour->Update();
   EXPECT_EQ(messages->ErrorCount, 2);

@@ -290,6 +290,10 @@ public:
   {
     for (const Diamond& diamond : hierarchy.Diamonds())
     {
+      this->HaveFiniteVertices.push_back(
+        std::all_of(diamond.Vertices.begin(), diamond.Vertices.end(),
+          [&](const Point& vertex)
+          { return !hierarchy.IsSampled(vertex) || std::isfinite(field.At(vertex)); }));
       this->Patches.emplace_back();
       for (const Tetrahedron& tetrahedron : diamond.Tetrahedra)
       {
@@ -307,7 +311,8 @@ public:
       const std::vector<FineIsovertex> inside = this->Isovertices.In(diamond.Tetrahedra[i]);
       const bool areFinite = std::all_of(inside.begin(), inside.end(),
         [](const FineIsovertex& isovertex) { return isovertex.IsFinite; });
-      if (!areFinite || (!inside.empty() && diamond.SticksOut))
+      if (!areFinite ||
+        (!inside.empty() && (diamond.SticksOut || !this->HaveFiniteVertices[index])))
       {
         return Infinity;
       }
@@ -434,6 +439,7 @@ private:
   FineIsovertices Isovertices;
   std::array<double, 3> Spacing;
   bool PreserveFeatures;
+  std::vector<bool> HaveFiniteVertices;
   /** For every diamond, the triangles in each of its tetrahedra. */
   std::vector<std::vector<std::vector<SurfaceTriangle>>> Patches;
 };

@@ -53,7 +53,7 @@ double Distance(const std::array<double, 3>& point, const std::vector<SurfaceTri
  *
  * -Infinity for diamonds whose domain holds no isovertex of full resolution. Infinity for those
  * that are always to be subdivided:
- *  - diamonds that hold one and stick out of the grid,
+ *  - diamonds that hold one and stick out of the grid, or have a vertex that is not finite,
  *  - diamonds that hold one on an edge with an end that is not finite,
  *  - diamonds with an isovertex whose distance error is infinite, if features are to be preserved.
  * If not, these have their diameter instead: the largest distance between two of their vertices.
