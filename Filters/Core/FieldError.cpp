@@ -474,7 +474,7 @@ FieldErrors::FieldErrors(
 
 DomainSummary FieldErrors::Summarize(const Place& place) const
 {
-  constexpr int blockwise = 4; // the least scale at which looking at blocks pays
+  constexpr int blockwise = 6; // the least scale at which looking at blocks pays
   if (place.Scale < blockwise)
   {
     return SummarizeDomain(this->Domain, this->Samples, place);

@@ -183,6 +183,7 @@ TEST(DistanceError, DoesNotDependOnThreadsOrOnTheSource)
 }
 
 // Integers on a cube of 2^N + 1 samples: many distances are equal, or equal to the value of a code.
+// With these seeds of 3000 the order decided as long as codes were compared without a margin.
 TEST(DistanceError, DoesNotDependOnTheOrderOfRanges)
 {
   const ParallelFor reversed = [](std::int64_t count, std::int64_t,
@@ -193,7 +194,7 @@ TEST(DistanceError, DoesNotDependOnTheOrderOfRanges)
       body(i - 1, i);
     }
   };
-  for (unsigned seed = 0; seed < 300; ++seed)
+  for (const unsigned seed : { 16U, 200U, 340U, 500U, 582U, 598U, 603U, 847U, 1505U, 1876U })
   {
     const test::Field field = test::NoiseField({ 17, 17, 17 }, seed);
     const auto build = [&](const ParallelFor& parallelFor)

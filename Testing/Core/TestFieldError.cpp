@@ -94,6 +94,46 @@ TEST(FieldError, IsZeroForALinearField)
   }
 }
 
+// Blocks that cannot matter are passed over: the summaries must be those of a visit to every
+// sample.
+TEST(FieldError, IsTheSameBlockByBlock)
+{
+  for (const test::Field& field :
+    { test::NoiseField({ 65, 65, 65 }, 3), test::WaveField({ 129, 70, 100 }),
+      test::SphereField({ 128, 128, 128 }), test::SpikeField({ 129, 129, 129 }, 1e30),
+      test::SpikeField({ 129, 65, 129 }, std::numeric_limits<double>::quiet_NaN()) })
+  {
+    SCOPED_TRACE(field.Name);
+    const Grid grid(field.Dims);
+    const AnySamples samples = field.View();
+    const FieldErrors errors(grid, samples, test::ThreadedFor(2));
+    for (int scale = 4; scale < grid.Depth(); ++scale)
+    {
+      const std::array<int, 3> count = grid.Positions(scale);
+      for (Point p{}; p[2] < count[2]; ++p[2])
+      {
+        for (p[1] = 0; p[1] < count[1]; ++p[1])
+        {
+          for (p[0] = 0; p[0] < count[0]; ++p[0])
+          {
+            if (Parity(p) == 0)
+            {
+              continue;
+            }
+            const DomainSummary expected = SummarizeDomain(grid, samples, { scale, p });
+            const DomainSummary found = errors.Summarize({ scale, p });
+            ASSERT_TRUE(found.Error == expected.Error ||
+              std::abs(found.Error - expected.Error) < 1e-9 * expected.Error);
+            ASSERT_EQ(found.Range.Maximum, expected.Range.Maximum);
+            ASSERT_TRUE(found.Range.Minimum == expected.Range.Minimum ||
+              (std::isnan(found.Range.Minimum) && std::isnan(expected.Range.Minimum)));
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(FieldError, AcceptsEveryScalarType)
 {
   const std::array<int, 3> dims = { 9, 9, 9 };
