@@ -330,6 +330,7 @@ Encoding EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, 
   header.Region = region;
   header.ErrorScale = hierarchy.Codes().Scale();
   header.ExactIsovertices = exactIsovertices;
+  header.IsAnswer = true;
   header.RelevantCount = set.Size();
   return Encode(header, grid, hierarchy.Samples(), set, ErrorCode::Always, parallelFor);
 }

@@ -94,6 +94,9 @@ struct EncodingHeader
   double ErrorScale = 1.0; ///< of the records' ErrorCode, in the metric's units
   double FieldScale = 1.0; ///< of the interior codes' ErrorCode, in field units
   bool ExactIsovertices = true;
+  /** Whether it holds the subdivided diamonds of one query only, not all that lead to the surface;
+   *  never so in files. */
+  bool IsAnswer = false;
   /** m_r: the relevant isodiamonds that there are, creation ones included, stored or not. */
   std::int64_t RelevantCount = 0;
 };

@@ -59,6 +59,7 @@ void RefinedSet::RefineUniformly(
   double tolerance, double interiorTolerance, const ParallelFor& parallelFor)
 {
   const Exceeds exceeds(this->Source, tolerance, interiorTolerance);
+  this->Full = exceeds.All() && !this->Source.Header().IsAnswer;
   for (int scale = 0; scale < this->Source.Diamonds().ScaleCount(); ++scale)
   {
     const std::vector<Brick>& bricks = this->Source.Diamonds().Level(scale).Bricks;

@@ -29,6 +29,13 @@ public:
 
   const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
 
+  /**
+   * Whether this is full resolution. Then all that carries a surface lies at scale 0: the middle of
+   * a coarser edge that the surface crosses, and the child of a coarser half-tetrahedron that has a
+   * patch, are active diamonds, and refined.
+   */
+  bool IsFull() const { return this->Full; }
+
   /** The refined diamonds of a brick. */
   const BrickMask& Mask(int scale, std::int64_t brick) const { return this->Masks[scale][brick]; }
 
@@ -67,6 +74,7 @@ private:
   void RefineRegion(const Query& query, const ParallelFor& parallelFor);
 
   const IsodiamondHierarchy& Source;
+  bool Full = false;
   std::vector<std::vector<BrickMask>> Masks;
 };
 
@@ -149,15 +157,39 @@ inline std::int64_t RankAtVertex(const DiamondSet& set, const Leaf& leaf, int ve
   return set.Rank(place);
 }
 
+/** All positions of a brick. */
+inline BrickMask EveryPosition()
+{
+  BrickMask mask{};
+  mask.fill(~std::uint64_t{ 0 });
+  return mask;
+}
+
+/** The positions of a brick that have diamonds of class 2: one coordinate is odd. */
+inline BrickMask ClassTwoPositions()
+{
+  BrickMask mask{};
+  for (int z = 0; z < 8; ++z)
+  {
+    for (int bit = 0; bit < 64; ++bit)
+    {
+      const int parity = Parity(PositionOf({ 0, 0, 0 }, z, bit));
+      mask[z] |= static_cast<std::uint64_t>(tables::Parities[parity].DiamondClass == 2) << bit;
+    }
+  }
+  return mask;
+}
+
 /**
  * Calls body(leaf) for the leaves of one brick's refined diamonds.
  *
  * @param crossed(rank) mask of the subdivision edges that make a half-tetrahedron wanted: it is
  *        visited if it has one of them
+ * @param among the positions that are looked at
  */
 template <typename Crossed, typename Body>
-void ForEachLeaf(
-  const RefinedSet& refined, const BrickPlace& brickPlace, Crossed&& crossed, Body&& body)
+void ForEachLeaf(const RefinedSet& refined, const BrickPlace& brickPlace, Crossed&& crossed,
+  Body&& body, const BrickMask& among = EveryPosition())
 {
   const IsodiamondHierarchy& hierarchy = refined.Hierarchy();
   const Grid& grid = hierarchy.Domain();
@@ -170,7 +202,7 @@ void ForEachLeaf(
     grid.IsSampled((1 << brickPlace.Scale) * (origin + Point{ 8, 8, 8 }));
   for (int z = 0; z < 8; ++z)
   {
-    ForEachBit(mask[z],
+    ForEachBit(mask[z] & among[z],
       [&](int bit)
       {
         const Place place{ brickPlace.Scale, PositionOf(origin, z, bit) };

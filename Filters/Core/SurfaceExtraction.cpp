@@ -9,14 +9,27 @@ SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFo
   : Refined(refined)
   , Source(refined.Hierarchy())
   , Passes(refined, parallelFor)
+  , Among(refined.IsFull() ? ClassTwoPositions() : EveryPosition())
   , Slots(refined.Hierarchy().Diamonds().Size())
 {
   this->Passes.CountPoints(this->Slots, [this](std::int64_t i) { return this->CountBrick(i); });
 }
 
+template <typename Body>
+void SurfaceExtraction::ForEachCrossedLeaf(const BrickPlace& place, Body&& body) const
+{
+  ForEachLeaf(
+    this->Refined, place, [this](std::uint32_t rank) { return this->Source.Edges(rank); }, body,
+    this->Among);
+}
+
 ExtractionPasses::Counts SurfaceExtraction::CountBrick(std::int64_t brickNumber)
 {
   const BrickPlace& place = this->Passes.PlaceOf(brickNumber);
+  if (this->IsIdle(place))
+  {
+    return {};
+  }
   const BrickLevel& level = this->Source.Diamonds().Level(place.Scale);
   const Brick& brick = level.Bricks[place.Index];
   const BrickMask& mask = this->Refined.Mask(place.Scale, place.Index);
@@ -35,8 +48,7 @@ ExtractionPasses::Counts SurfaceExtraction::CountBrick(std::int64_t brickNumber)
       });
   }
   std::int64_t triangles = 0;
-  ForEachLeaf(
-    this->Refined, place, [this](std::uint32_t rank) { return this->Source.Edges(rank); },
+  this->ForEachCrossedLeaf(place,
     [&](const Leaf& leaf)
     { triangles += IsosurfacePatch(leaf.Half, this->Source.Edges(leaf.Rank)).TriangleCount; });
   return { points, triangles };
@@ -47,6 +59,10 @@ void SurfaceExtraction::WritePoints(const AffineMap& world, float* points) const
   this->Passes.ForEachBrick(16,
     [&](std::int64_t i)
     {
+      if (this->IsIdle(this->Passes.PlaceOf(i)))
+      {
+        return;
+      }
       const Brick& brick = this->Passes.BrickAt(i);
       float* next = points + 3 * this->Passes.FirstOf(i).Points;
       this->Source.Diamonds().ForEachInBrick(this->Passes.PlaceOf(i).Scale, brick,
@@ -154,12 +170,14 @@ void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity, std::int
   this->Passes.ForEachBrick(16,
     [&](std::int64_t i)
     {
+      if (this->IsIdle(this->Passes.PlaceOf(i)))
+      {
+        return;
+      }
       TriangleWriter<Id> writer(*this, mirrored, connectivity + 3 * this->Passes.FirstOf(i).Cells,
         levels + this->Passes.FirstOf(i).Cells);
-      ForEachLeaf(
-        this->Refined, this->Passes.PlaceOf(i),
-        [this](std::uint32_t rank) { return this->Source.Edges(rank); },
-        [&](const Leaf& leaf) { writer.Write(leaf); });
+      this->ForEachCrossedLeaf(
+        this->Passes.PlaceOf(i), [&](const Leaf& leaf) { writer.Write(leaf); });
     });
 }
 

@@ -61,12 +61,20 @@ private:
 
   ExtractionPasses::Counts CountBrick(std::int64_t brick);
 
+  /** Whether a brick has nothing to do with the surface. */
+  bool IsIdle(const BrickPlace& place) const { return this->Refined.IsFull() && place.Scale > 0; }
+
+  /** Calls body(leaf) for the leaves of a brick that carry the surface. */
+  template <typename Body>
+  void ForEachCrossedLeaf(const BrickPlace& place, Body&& body) const;
+
   template <typename Id>
   class TriangleWriter;
 
   const RefinedSet& Refined;
   const IsodiamondHierarchy& Source;
   ExtractionPasses Passes;
+  BrickMask Among;         ///< the positions that can have leaves
   std::vector<Slot> Slots; ///< by rank
 };
 
