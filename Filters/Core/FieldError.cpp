@@ -266,7 +266,7 @@ private:
     }
     const ValueRange& range = this->Ranges(block);
     const double interpolated = this->Inside(first + Point{ size / 2, size / 2, size / 2 });
-    const double reach = size / 2 * (this->Slopes[0] + this->Slopes[1] + this->Slopes[2]);
+    const double reach = 0.5 * size * (this->Slopes[0] + this->Slopes[1] + this->Slopes[2]);
     const double bound =
       std::max(range.Maximum - interpolated, interpolated - range.Minimum) + reach;
     // More than the arithmetic's rounding, and NaN counts as large.
