@@ -11,7 +11,7 @@
 
 /**
  * @file Bisection.h
- * The tree of bisected tetrahedra, and which of them hold a position; exact.
+ * The tree of bisected tetrahedra, and what lies in which of them; exact.
  */
 namespace isodiamond
 {
@@ -40,35 +40,57 @@ inline bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
   return true;
 }
 
-/** Whether a position lies in a closed tetrahedron. */
-inline bool Holds(const HalfPlace& tetrahedron, const FinePosition& position)
+/** A closed tetrahedron: what lies in it, exactly. */
+class ClosedTetrahedron
 {
-  const TypeTable& shape = tetrahedron.Shape();
-  std::array<Point, 4> corners{}; // as offsets from the centre
-  for (int i = 0; i < 3; ++i)
+public:
+  explicit ClosedTetrahedron(const HalfPlace& tetrahedron)
   {
-    corners[i + 1] = shape.Offsets[tetrahedron.Half->Vertices[i]];
-  }
-  for (int opposite = 0; opposite < 4; ++opposite)
-  {
-    const Point& origin = corners[(opposite + 1) % 4];
-    const Point at = Centre(tetrahedron.Parent) + (1 << tetrahedron.Parent.Scale) * origin;
-    const FinePlane face(
-      at, corners[(opposite + 2) % 4] + -1 * origin, corners[(opposite + 3) % 4] + -1 * origin);
-    const Point inside =
-      Centre(tetrahedron.Parent) + (1 << tetrahedron.Parent.Scale) * corners[opposite];
-    if ((face.Side(position) < 0) != (face.Side(FineUnits * inside) < 0) &&
-      face.Side(position) != 0)
+    const TypeTable& shape = tetrahedron.Shape();
+    const Point centre = Centre(tetrahedron.Parent);
+    const int h = 1 << tetrahedron.Parent.Scale;
+    std::array<Point, 4> corners{}; // as offsets from the centre
+    for (int i = 0; i < 3; ++i)
     {
-      return false;
+      corners[i + 1] = shape.Offsets[tetrahedron.Half->Vertices[i]];
+    }
+    for (int opposite = 0; opposite < 4; ++opposite)
+    {
+      const Point& origin = corners[(opposite + 1) % 4];
+      FinePlane& face = this->Faces[opposite];
+      face = FinePlane(centre + h * origin, corners[(opposite + 2) % 4] + -1 * origin,
+        corners[(opposite + 3) % 4] + -1 * origin);
+      face.TurnTo(centre + h * corners[opposite]);
     }
   }
-  return true;
-}
+
+  bool Holds(const FinePosition& position) const
+  {
+    return std::all_of(this->Faces.begin(), this->Faces.end(),
+      [&](const FinePlane& face) { return face.Side(position) >= 0; });
+  }
+
+  /** Whether all of a box lies in it. */
+  bool HoldsAll(const FineBox& box) const
+  {
+    return std::all_of(this->Faces.begin(), this->Faces.end(),
+      [&](const FinePlane& face) { return face.Sides(box)[0] >= 0; });
+  }
+
+  /** False only if nothing of a box lies in it. */
+  bool MayHold(const FineBox& box) const
+  {
+    return std::all_of(this->Faces.begin(), this->Faces.end(),
+      [&](const FinePlane& face) { return face.Sides(box)[1] >= 0; });
+  }
+
+private:
+  std::array<FinePlane, 4> Faces; ///< positive inside
+};
 
 /**
- * Bisects a tetrahedron: calls body(half, plane, positive) for those of its halves that lie in the
- * grid, with the plane between them and whether the half lies on its positive side.
+ * Bisects a tetrahedron: calls body(half, plane) for those of its halves that lie in the grid, with
+ * the plane between them, whose positive side is the half's.
  *
  * @param diamond,rank that the tetrahedron lies in; its centre is the halves' youngest vertex
  */
@@ -90,7 +112,7 @@ void ForEachHalf(const Grid& grid, const HalfPlace& tetrahedron, const Place& di
   }
   const std::uint32_t ends = (1U << shape.Spine[0]) | (1U << shape.Spine[1]);
   const std::uint32_t ring = corners & ~ends;
-  const FinePlane plane(
+  FinePlane plane(
     Centre(diamond), shape.Offsets[LowestBit(ring)], shape.Offsets[LowestBit(ring & (ring - 1))]);
   for (int i = 0; i < shape.HalfTetrahedronCount; ++i)
   {
@@ -102,7 +124,8 @@ void ForEachHalf(const Grid& grid, const HalfPlace& tetrahedron, const Place& di
       const HalfPlace place{ diamond, rank, &half };
       if (IsInGrid(grid, place))
       {
-        body(place, plane, plane.Side(FineUnits * at) > 0);
+        plane.TurnTo(at);
+        body(place, plane);
       }
     }
   }

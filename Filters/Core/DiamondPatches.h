@@ -33,8 +33,12 @@ public:
     this->Diamond = diamond;
     this->Count = 0;
     this->Neighbourhood.ForEachTetrahedron(diamond, true,
-      [&](const HalfPlace& tetrahedron)
+      [&](int number, const HalfPlace& tetrahedron)
       {
+        for (; this->Count < number; ++this->Count)
+        {
+          this->Entries[this->Count].Tetrahedron.Half = nullptr; // is not there
+        }
         Entry& entry = this->Entries[this->Count++];
         entry.Tetrahedron = tetrahedron;
         entry.HasOwn = false;
@@ -42,7 +46,7 @@ public:
       });
   }
 
-  /** The index of one of the diamond's tetrahedra. */
+  /** The number of one of the diamond's tetrahedra. */
   int Find(const HalfPlace& tetrahedron) const
   {
     int i = 0;
@@ -54,6 +58,12 @@ public:
     return i;
   }
 
+  /** Whether the diamond has a tetrahedron of a number, with samples at all of its vertices. */
+  bool IsThere(int tetrahedron) const
+  {
+    return tetrahedron < this->Count && this->Entries[tetrahedron].Tetrahedron.Half != nullptr;
+  }
+
   /** The squared distance to the patch of a tetrahedron; infinite if it has none. */
   double SquaredTo(int tetrahedron, const Vector& point)
   {
@@ -63,21 +73,23 @@ public:
   /**
    * The squared distance to the nearest patch that is in every mesh that a tetrahedron is in; or to
    * some that is near enough.
+   *
+   * @param own the squared distance to the tetrahedron's own patch
    */
-  double SquaredToNearest(int tetrahedron, const Vector& point, double enough)
+  double SquaredToNearest(int tetrahedron, const Vector& point, double own, double enough)
   {
     const std::uint32_t parent = this->Entries[tetrahedron].Tetrahedron.Rank;
-    double nearest = this->SquaredTo(tetrahedron, point);
+    double nearest = own;
     for (int i = 0; i < this->Count && nearest > enough; ++i) // the mate: in the mesh as well
     {
-      if (this->Entries[i].Tetrahedron.Rank == parent && i != tetrahedron)
+      if (this->IsThere(i) && this->Entries[i].Tetrahedron.Rank == parent && i != tetrahedron)
       {
         nearest = std::min(nearest, this->SquaredTo(i, point));
       }
     }
     for (int i = 0; i < this->Count && nearest > enough; ++i)
     {
-      if (this->Entries[i].Tetrahedron.Rank != parent)
+      if (this->IsThere(i) && this->Entries[i].Tetrahedron.Rank != parent)
       {
         nearest = std::min(nearest, this->SquaredToFarthest(this->Entries[i], point, nearest));
       }

@@ -440,6 +440,13 @@ inline constexpr int TypeOf(const Point& position)
   return Parity(position) | (Parity({ position[0] >> 1, position[1] >> 1, position[2] >> 1 }) << 3);
 }
 
+/** A position of a type, with room for parents on all sides. */
+inline constexpr Point PositionOfType(int type)
+{
+  return { 8 + (type & 1) + ((type >> 2) & 2), 8 + ((type >> 1) & 1) + ((type >> 3) & 2),
+    8 + ((type >> 2) & 1) + ((type >> 4) & 2) };
+}
+
 /** The shape of the diamond at a position; invalid where all three coordinates are even. */
 inline constexpr const TypeTable& ShapeOf(const Point& position)
 {

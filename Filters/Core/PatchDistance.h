@@ -2,6 +2,7 @@
 #ifndef isodiamond_PatchDistance_h
 #define isodiamond_PatchDistance_h
 
+#include "IsovertexClusters.h"
 #include "SpineNeighbourhood.h"
 #include "SurfacePatch.h"
 #include "TriangleDistance.h"
@@ -13,19 +14,6 @@
 namespace isodiamond
 {
 
-/** The isovertex of a stored diamond on one of its subdivision edges. */
-inline FinePosition IsovertexAt(const IsodiamondHierarchy& hierarchy, const Place& place,
-  std::uint32_t rank, int edge, int surface)
-{
-  const std::uint32_t lower = hierarchy.Edges(rank);
-  const std::uint32_t before = (1U << edge) - 1U;
-  const int index = surface == 0 ? PopCount(lower & before)
-                                 : PopCount(lower) + PopCount(hierarchy.UpperEdges(rank) & before);
-  const std::int32_t along = hierarchy.Isovertices(rank)[index];
-  const Point& offset = tables::Parities[Parity(place.Position)].Offsets[edge];
-  return (1 << place.Scale) * (FineUnits * place.Position + along * offset);
-}
-
 /** Squared distances to the patch of a tetrahedron. */
 class PatchDistance
 {
@@ -35,14 +23,20 @@ public:
   {
     const SurfacePatch patch = PatchOf(hierarchy, tetrahedron.Rank, *tetrahedron.Half, surface);
     this->Count = patch.TriangleCount;
+    std::array<Vector, 6> corners;
+    std::uint32_t known = 0; // the edges whose isovertex is in corners
     for (int i = 0; i < patch.TriangleCount; ++i)
     {
-      std::array<Vector, 3> corners;
-      for (int j = 0; j < 3; ++j)
+      for (const std::uint8_t edge : patch.Triangles[i])
       {
-        corners[j] = metric(Corner(hierarchy, tetrahedron, patch.Triangles[i][j], surface));
+        if (((known >> edge) & 1U) == 0)
+        {
+          known |= 1U << edge;
+          corners[edge] = metric(Corner(hierarchy, tetrahedron, edge, surface));
+        }
       }
-      this->Triangles[i] = { corners[0], corners[1], corners[2] };
+      const std::array<std::uint8_t, 3>& edges = patch.Triangles[i];
+      this->Triangles[i] = { corners[edges[0]], corners[edges[1]], corners[edges[2]] };
     }
   }
 

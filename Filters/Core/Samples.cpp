@@ -29,6 +29,23 @@ int BytesOfSample(const AnySamples& samples)
     samples);
 }
 
+Finiteness::Finiteness(const AnySamples& samples)
+  : Samples(samples)
+  , All(std::visit(
+      [](const auto& view)
+      {
+        using T = typename std::decay_t<decltype(view)>::Value;
+        bool all = true;
+        for (std::int64_t i = 0; std::is_floating_point_v<T> && i < view.Size(); ++i)
+        {
+          all &= view.Pointer()[i] - view.Pointer()[i] == T{ 0 };
+        }
+        return all;
+      },
+      samples))
+{
+}
+
 ValueRange FiniteRange(const AnySamples& samples)
 {
   return std::visit(

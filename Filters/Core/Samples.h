@@ -4,6 +4,7 @@
 
 #include "Lattice.h"
 
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 #include <variant>
@@ -77,6 +78,22 @@ inline double SampleAt(const AnySamples& samples, const Point& point)
 {
   return std::visit([&](const auto& view) { return view(point); }, samples);
 }
+
+/** Tells which samples are finite; fast where all are. The samples must outlive it. */
+class Finiteness
+{
+public:
+  explicit Finiteness(const AnySamples& samples);
+
+  bool operator()(const Point& point) const
+  {
+    return this->All || std::isfinite(SampleAt(this->Samples, point));
+  }
+
+private:
+  const AnySamples& Samples;
+  bool All;
+};
 
 /** Smallest and largest finite sample; {0, 0} if there is none. */
 struct ValueRange

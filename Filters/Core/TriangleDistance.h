@@ -27,19 +27,13 @@ public:
     , First(b - a)
     , Second(c - a)
     , Third(c - b)
-    , Lengths{ Dot(this->First, this->First), Dot(this->Second, this->Second),
-      Dot(this->Third, this->Third) }
+    , Normal(Cross(this->First, this->Second))
+    , Inverse{ 1.0 / Dot(this->First, this->First), 1.0 / Dot(this->Second, this->Second),
+      1.0 / Dot(this->Third, this->Third), 1.0 / Dot(this->Normal, this->Normal) }
+    , AlongFirst(this->Inverse[3] * Cross(this->Second, this->Normal))
+    , AlongSecond(this->Inverse[3] * Cross(this->Normal, this->First))
+    , IsDegenerate(!std::isfinite(this->Inverse[3]))
   {
-    const Vector normal = Cross(this->First, this->Second);
-    const double squaredLength = Dot(normal, normal);
-    this->IsDegenerate = !(squaredLength > 0.0);
-    if (!this->IsDegenerate)
-    {
-      const double inverse = 1.0 / squaredLength;
-      this->Normal = std::sqrt(inverse) * normal;
-      this->AlongFirst = inverse * Cross(this->Second, normal);
-      this->AlongSecond = inverse * Cross(normal, this->First);
-    }
   }
 
   double Squared(const Vector& point) const
@@ -54,30 +48,30 @@ public:
     if (!(seesFirst || seesSecond || seesThird))
     {
       const double height = Dot(p, this->Normal);
-      return height * height;
+      return height * height * this->Inverse[3];
     }
     double squared = std::numeric_limits<double>::infinity();
     if (seesFirst)
     {
-      squared = SquaredToSide(p, this->First, this->Lengths[0]);
+      squared = SquaredToSide(p, this->First, this->Inverse[0]);
     }
     if (seesSecond)
     {
-      squared = std::min(squared, SquaredToSide(p, this->Second, this->Lengths[1]));
+      squared = std::min(squared, SquaredToSide(p, this->Second, this->Inverse[1]));
     }
     if (seesThird)
     {
-      squared = std::min(squared, SquaredToSide(p - this->First, this->Third, this->Lengths[2]));
+      squared = std::min(squared, SquaredToSide(p - this->First, this->Third, this->Inverse[2]));
     }
     return squared;
   }
 
 private:
-  static double SquaredToSide(const Vector& p, const Vector& side, double squaredLength)
+  /** @param inverse of the squared length; infinite if there is none */
+  static double SquaredToSide(const Vector& p, const Vector& side, double inverse)
   {
     const double along = Dot(p, side);
-    const double place =
-      along <= 0.0 ? 0.0 : (along >= squaredLength ? 1.0 : along / squaredLength);
+    const double place = along <= 0.0 ? 0.0 : std::min(along * inverse, 1.0);
     const Vector rest = p - place * side;
     return Dot(rest, rest);
   }
@@ -86,9 +80,9 @@ private:
   Vector First{};
   Vector Second{};
   Vector Third{};
-  std::array<double, 3> Lengths{}; ///< of the sides, squared
-  Vector Normal{};
-  Vector AlongFirst{}; ///< barycentric coordinates as dot products
+  Vector Normal{};                 ///< not of unit length
+  std::array<double, 4> Inverse{}; ///< of the squared lengths of the sides and the normal
+  Vector AlongFirst{};             ///< barycentric coordinates as dot products
   Vector AlongSecond{};
   bool IsDegenerate = true;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tables against the rules of the lattice and against explicit bisection of tetrahedra.
 #include "CoreTestTools.h"
-#include "DiamondTables.h"
+#include "DiamondTetrahedra.h"
 
 #include <gtest/gtest.h>
 
@@ -221,6 +221,82 @@ TEST(DiamondTables, EveryEdgeIsOwnedAtItsYoungerEnd)
         const ParityTable& ownerShape = tables::Parities[Parity(position)];
         EXPECT_EQ(Centre({ scale, position + ownerShape.Offsets[edge.OwnerEdge] }), expected[1]);
       }
+    }
+  }
+}
+
+namespace
+{
+
+using Corners = std::array<Point, 4>;
+
+/** Corners relative to a position of scale 0, sorted. */
+Corners CornersAround(const Point& position, const HalfPlace& tetrahedron)
+{
+  const Place& parent = tetrahedron.Parent;
+  Corners corners{ Centre(parent) };
+  for (int i = 0; i < 3; ++i)
+  {
+    corners[i + 1] = (1 << parent.Scale) *
+      (parent.Position + tetrahedron.Shape().Offsets[tetrahedron.Half->Vertices[i]]);
+  }
+  for (Point& corner : corners)
+  {
+    corner = corner + -1 * position;
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+std::vector<Corners> TetrahedraAround(const Point& position)
+{
+  std::vector<Corners> tetrahedra;
+  ForEachParentHalf({ 0, position },
+    [&](int number, const Place& parent, const HalfTetrahedron& half)
+    {
+      EXPECT_EQ(number, static_cast<int>(tetrahedra.size()));
+      tetrahedra.push_back(CornersAround(position, { parent, 0, &half }));
+      EXPECT_EQ(CornersAround(position, TetrahedronOf({ 0, position }, number)), tetrahedra.back());
+    });
+  return tetrahedra;
+}
+
+}
+
+TEST(DiamondTables, NumbersMeanTheSameTetrahedraForAllDiamondsOfAType)
+{
+  // The next two bits of a position say more than its type: parents of class 0 depend on them.
+  for (int code = 0; code < 16 * 16 * 16; ++code)
+  {
+    const Point position = { 16 + code % 16, 16 + code / 16 % 16, 16 + code / 256 };
+    if (ShapeOf(position).Valid)
+    {
+      EXPECT_EQ(TetrahedraAround(position), TetrahedraAround(PositionOfType(TypeOf(position))));
+    }
+  }
+}
+
+TEST(DiamondTables, AHalfIsHalfOfItsWhole)
+{
+  for (int type = 0; type < 64; ++type)
+  {
+    const Point position = PositionOfType(type);
+    const TypeTable& shape = ShapeOf(position);
+    ASSERT_EQ(TypeOf(position), type);
+    for (int i = 0; i < shape.HalfTetrahedronCount; ++i)
+    {
+      const HalfTetrahedron& half = shape.HalfTetrahedra[i];
+      const int number = NumberOfWhole(position, half);
+      const Corners whole = CornersAround(position, TetrahedronOf({ 0, position }, number));
+      const auto isCorner = [&](const Point& offset)
+      { return std::find(whole.begin(), whole.end(), offset) != whole.end(); };
+      // The whole has the half's outer corners and the spine, whose middle is the centre.
+      for (const std::uint8_t vertex : half.Vertices)
+      {
+        EXPECT_TRUE(isCorner(shape.Offsets[vertex]));
+      }
+      EXPECT_TRUE(isCorner(shape.Offsets[shape.Spine[0]]));
+      EXPECT_TRUE(isCorner(shape.Offsets[shape.Spine[1]]));
     }
   }
 }
