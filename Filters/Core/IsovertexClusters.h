@@ -40,7 +40,8 @@ struct IsovertexCluster
 class IsovertexClusters
 {
 public:
-  /** Those on edges whose ends both are finite, or the others. */
+  /** Those on edges whose ends both are finite, or the others: these always subdivide the diamonds
+   *  that hold them. */
   enum class Ends
   {
     Finite,
@@ -52,7 +53,7 @@ public:
     const IsodiamondHierarchy& hierarchy, const Finiteness& isFinite, int surface, Ends ends)
     : Hierarchy(hierarchy)
     , IsFinite(isFinite)
-    , Surface(surface)
+    , OnSurface(surface)
     , Wanted(ends)
   {
     const std::vector<Brick>& bricks = hierarchy.Diamonds().Level(0).Bricks;
@@ -70,6 +71,8 @@ public:
     }
   }
 
+  int Surface() const { return this->OnSurface; }
+  bool AlwaysSubdivide() const { return this->Wanted == Ends::NotFinite; }
   const std::vector<IsovertexCluster>& All() const { return this->Clusters; }
 
   /** Calls body(position) for the isovertices of a cluster. */
@@ -90,12 +93,12 @@ public:
           const Place place{ 0, PositionOf(origin, z, bit) };
           const std::uint32_t rank = brick.Rank(z, bit);
           ForEachBit(
-            this->Surface == 0 ? this->Hierarchy.Edges(rank) : this->Hierarchy.UpperEdges(rank),
+            this->OnSurface == 0 ? this->Hierarchy.Edges(rank) : this->Hierarchy.UpperEdges(rank),
             [&](int edge)
             {
               if (this->IsWanted(place, edge))
               {
-                body(IsovertexAt(this->Hierarchy, place, rank, edge, this->Surface));
+                body(IsovertexAt(this->Hierarchy, place, rank, edge, this->OnSurface));
               }
             });
         });
@@ -113,7 +116,7 @@ public:
 private:
   const IsodiamondHierarchy& Hierarchy;
   const Finiteness& IsFinite;
-  int Surface;
+  int OnSurface;
   Ends Wanted;
   std::vector<IsovertexCluster> Clusters;
 };

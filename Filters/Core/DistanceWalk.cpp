@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceWalk.h"
+
+#include "Bisection.h"
+#include "FarthestSearch.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** What a tetrahedron has of a cluster of isovertices. */
+struct ClusterPart
+{
+  std::uint32_t Index = 0;
+  bool Straddles = false; ///< some of the cluster may lie outside
+};
+
+/** A tetrahedron with its items, isovertices or parts of clusters, and the diamond that it lies
+ *  in. */
+struct Holder
+{
+  HalfPlace Tetrahedron;
+  Place Diamond;
+  std::uint32_t Rank = 0; ///< of the diamond
+  std::size_t Begin = 0;  ///< its items in the level's
+  std::size_t End = 0;
+};
+
+/** Tetrahedra of one generation. */
+template <typename Item>
+struct Generation
+{
+  std::vector<Holder> Holders;
+  std::vector<Item> Items; ///< the first Count; memory that was used once is kept
+  std::size_t Count = 0;
+
+  /** Where some more items fit. */
+  Item* Room(std::size_t more)
+  {
+    if (this->Count + more > this->Items.size())
+    {
+      this->Items.resize(std::max(this->Count + more, 2 * this->Items.size()));
+    }
+    return this->Items.data() + this->Count;
+  }
+  void Add(const Item& item)
+  {
+    *this->Room(1) = item;
+    ++this->Count;
+  }
+  void Clear()
+  {
+    this->Holders.clear();
+    this->Count = 0;
+  }
+};
+
+/** The walk with the clusters of one surface. */
+class Walk
+{
+public:
+  Walk(const IsovertexClusters& clusters, RisingErrors& errors)
+    : Clusters(clusters)
+    , Errors(errors)
+    , Neighbourhood(errors.Hierarchy())
+  {
+  }
+
+  void Run(const ParallelFor& parallelFor)
+  {
+    std::vector<Task> tasks = this->RootTasks();
+    // Generation by generation until there is work for many threads, then each subtree by itself.
+    constexpr std::size_t enough = 128;
+    while (!tasks.empty() && tasks.size() < enough && IsCoarse(tasks[0].Holders[0]))
+    {
+      std::vector<std::vector<Task>> halves(tasks.size());
+      parallelFor(static_cast<std::int64_t>(tasks.size()), 1,
+        [&](std::int64_t begin, std::int64_t end)
+        {
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            halves[i] = this->Bisect(tasks[i]);
+          }
+        });
+      tasks.clear();
+      for (std::vector<Task>& some : halves)
+      {
+        std::move(some.begin(), some.end(), std::back_inserter(tasks));
+      }
+    }
+    parallelFor(static_cast<std::int64_t>(tasks.size()), 1,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          this->Descend(std::move(tasks[i]));
+        }
+      });
+  }
+
+private:
+  /** One tetrahedron, with all below. */
+  using Task = Generation<ClusterPart>;
+
+  /** Whether a cluster is small beside the diamond. */
+  static bool IsCoarse(const Holder& holder) { return holder.Diamond.Scale >= 4; }
+
+  /** The six tetrahedra of the base cube. */
+  std::vector<Task> RootTasks() const
+  {
+    std::vector<Task> tasks;
+    const Place root{ this->Errors.Hierarchy().Domain().Depth() - 1, { 1, 1, 1 } };
+    this->Neighbourhood.ForEachTetrahedron(root, false,
+      [&](int /*number*/, const HalfPlace& tetrahedron)
+      {
+        const ClosedTetrahedron closed(tetrahedron);
+        Task task;
+        for (std::uint32_t i = 0; i < this->Clusters.All().size(); ++i)
+        {
+          const FineBox& box = this->Clusters.All()[i].Box;
+          if (closed.MayHold(box))
+          {
+            task.Add({ i, !closed.HoldsAll(box) });
+          }
+        }
+        this->Hold(tetrahedron, 0, task);
+        if (!task.Holders.empty())
+        {
+          tasks.push_back(std::move(task));
+        }
+      });
+    return tasks;
+  }
+
+  /** Makes the items from a first one on those of a tetrahedron. Without any there is none, nor
+   *  at scale 0. */
+  template <typename Item>
+  void Hold(const HalfPlace& tetrahedron, std::size_t begin, Generation<Item>& generation) const
+  {
+    // A diamond in the grid that holds an isovertex is a member: it leads to the surface.
+    const Place diamond = tetrahedron.Child();
+    const bool isWanted = generation.Count > begin && diamond.Scale > 0;
+    const std::int64_t rank =
+      isWanted ? this->Errors.Hierarchy().Diamonds().Rank(diamond) : DiamondSet::None;
+    if (rank == DiamondSet::None)
+    {
+      generation.Count = begin;
+      return;
+    }
+    generation.Holders.push_back(
+      { tetrahedron, diamond, static_cast<std::uint32_t>(rank), begin, generation.Count });
+  }
+
+  /** Appends a tetrahedron's halves, and what lies in them, to the next generation. */
+  template <typename Item>
+  void Split(const Holder& holder, const std::vector<Item>& items, Generation<Item>& halves) const
+  {
+    ForEachHalf(this->Errors.Hierarchy().Domain(), holder.Tetrahedron, holder.Diamond, holder.Rank,
+      [&](const HalfPlace& half, const FinePlane& plane)
+      {
+        const std::size_t begin = halves.Count;
+        Item* const room = halves.Room(holder.End - holder.Begin);
+        Item* next = room;
+        for (std::size_t i = holder.Begin; i < holder.End; ++i)
+        {
+          *next = items[i];
+          next += this->IsInHalf(plane, *next) ? 1 : 0;
+        }
+        halves.Count += next - room;
+        this->Hold(half, begin, halves);
+      });
+  }
+
+  bool IsInHalf(const FinePlane& plane, const FinePosition& position) const
+  {
+    return plane.Side(position) >= 0;
+  }
+  bool IsInHalf(const FinePlane& plane, ClusterPart& part) const
+  {
+    const auto [least, greatest] = plane.Sides(this->Clusters.All()[part.Index].Box);
+    part.Straddles = part.Straddles || least < 0;
+    return greatest >= 0;
+  }
+
+  /** A tetrahedron's part, and what it leaves to its halves. */
+  std::vector<Task> Bisect(const Task& task)
+  {
+    FarthestSearch search(this->Errors, this->Clusters.Surface());
+    const Holder& holder = task.Holders[0];
+    this->Measure(search, &holder, &holder + 1, task.Items);
+    Task both;
+    this->Split(holder, task.Items, both);
+    std::vector<Task> halves(both.Holders.size());
+    for (std::size_t i = 0; i < halves.size(); ++i)
+    {
+      const Holder& half = both.Holders[i];
+      halves[i].Items.assign(both.Items.data() + half.Begin, both.Items.data() + half.End);
+      halves[i].Count = halves[i].Items.size();
+      this->Hold(half.Tetrahedron, 0, halves[i]);
+    }
+    return halves;
+  }
+
+  /** A tetrahedron and all below. */
+  void Descend(Task task)
+  {
+    FarthestSearch search(this->Errors, this->Clusters.Surface());
+    Generation<ClusterPart> next;
+    while (!task.Holders.empty() && IsCoarse(task.Holders[0]))
+    {
+      this->Measure(search, task);
+      this->Split(task, next);
+    }
+    Generation<FinePosition> positions = this->Expand(task);
+    Generation<FinePosition> nextPositions;
+    while (!positions.Holders.empty())
+    {
+      this->Measure(search, positions);
+      this->Split(positions, nextPositions);
+    }
+  }
+
+  /** Replaces a generation by the next. */
+  template <typename Item>
+  void Split(Generation<Item>& generation, Generation<Item>& next) const
+  {
+    next.Clear();
+    for (const Holder& holder : generation.Holders)
+    {
+      this->Split(holder, generation.Items, next);
+    }
+    std::swap(generation, next);
+  }
+
+  /** The isovertices of clusters that lie in the tetrahedra. */
+  Generation<FinePosition> Expand(const Generation<ClusterPart>& generation) const
+  {
+    Generation<FinePosition> expanded;
+    for (const Holder& holder : generation.Holders)
+    {
+      const std::size_t begin = expanded.Count;
+      const ClosedTetrahedron closed(holder.Tetrahedron);
+      for (std::size_t i = holder.Begin; i < holder.End; ++i)
+      {
+        this->ForEachIn(generation.Items[i], closed,
+          [&](const FinePosition& position) { expanded.Add(position); });
+      }
+      this->Hold(holder.Tetrahedron, begin, expanded);
+    }
+    return expanded;
+  }
+
+  /** Calls body(position) for what of a cluster lies in a tetrahedron. */
+  template <typename Body>
+  void ForEachIn(const ClusterPart& part, const ClosedTetrahedron& closed, Body&& body) const
+  {
+    this->Clusters.ForEach(this->Clusters.All()[part.Index],
+      [&](const FinePosition& position)
+      {
+        if (!part.Straddles || closed.Holds(position))
+        {
+          body(position);
+        }
+      });
+  }
+
+  /** Measures all diamonds of a generation: the tetrahedra of each come together. */
+  template <typename Item>
+  void Measure(FarthestSearch& search, Generation<Item>& generation)
+  {
+    std::vector<Holder>& holders = generation.Holders;
+    std::sort(holders.begin(), holders.end(),
+      [](const Holder& a, const Holder& b) { return a.Rank < b.Rank; });
+    for (std::size_t begin = 0, end = 0; begin < holders.size(); begin = end)
+    {
+      while (end < holders.size() && holders[end].Rank == holders[begin].Rank)
+      {
+        ++end;
+      }
+      this->Measure(search, holders.data() + begin, holders.data() + end, generation.Items);
+    }
+  }
+
+  /** Raises the error of a diamond by the items that some of its tetrahedra hold. */
+  template <typename Item>
+  void Measure(
+    FarthestSearch& search, const Holder* begin, const Holder* end, const std::vector<Item>& items)
+  {
+    const Place& diamond = begin->Diamond;
+    const std::uint32_t rank = begin->Rank;
+    if (this->Errors.IsAlways(rank))
+    {
+      return;
+    }
+    if (this->Clusters.AlwaysSubdivide() || this->Errors.HasNoInterpolant(diamond))
+    {
+      if (std::any_of(
+            begin, end, [&](const Holder& holder) { return this->HasIsovertex(holder, items); }))
+      {
+        this->Errors.RaiseToAlways(rank);
+      }
+      return;
+    }
+    search.Reset(diamond);
+    this->Errors.RaiseToFarthest(diamond, rank,
+      [&](Farthest& farthest)
+      {
+        for (const Holder* holder = begin; holder != end; ++holder)
+        {
+          this->FindFarthest(search, *holder, items, farthest);
+        }
+        search.Decide(farthest);
+      });
+  }
+
+  bool HasIsovertex(const Holder& /*holder*/, const std::vector<FinePosition>& /*items*/) const
+  {
+    return true;
+  }
+  bool HasIsovertex(const Holder& holder, const std::vector<ClusterPart>& items) const
+  {
+    const ClosedTetrahedron closed(holder.Tetrahedron);
+    bool has = false;
+    for (std::size_t i = holder.Begin; i < holder.End && !has; ++i)
+    {
+      this->ForEachIn(items[i], closed, [&](const FinePosition&) { has = true; });
+    }
+    return has;
+  }
+
+  void FindFarthest(FarthestSearch& search, const Holder& holder,
+    const std::vector<FinePosition>& positions, Farthest& farthest) const
+  {
+    const int tetrahedron = search.Find(holder.Tetrahedron);
+    for (std::size_t i = holder.Begin; i < holder.End; ++i)
+    {
+      search.Propose(tetrahedron, positions[i], farthest);
+    }
+  }
+
+  void FindFarthest(FarthestSearch& search, const Holder& holder,
+    const std::vector<ClusterPart>& parts, Farthest& farthest) const
+  {
+    const ClosedTetrahedron closed(holder.Tetrahedron);
+    const int tetrahedron = search.Find(holder.Tetrahedron);
+    for (std::size_t i = holder.Begin; i < holder.End; ++i)
+    {
+      const FineBox& box = this->Clusters.All()[parts[i].Index].Box;
+      if (!farthest.IsAny || !search.IsWithin(tetrahedron, box, farthest.Squared))
+      {
+        this->ForEachIn(parts[i], closed,
+          [&](const FinePosition& position) { search.Propose(tetrahedron, position, farthest); });
+        search.Decide(farthest);
+      }
+    }
+  }
+
+  const IsovertexClusters& Clusters;
+  RisingErrors& Errors;
+  SpineNeighbourhood Neighbourhood;
+};
+
+}
+
+void MeasureCoarse(
+  const IsovertexClusters& clusters, RisingErrors& errors, const ParallelFor& parallelFor)
+{
+  Walk(clusters, errors).Run(parallelFor);
+}
+
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FinestDistances.h"
+
+#include "Bisection.h"
+#include "FarthestSearch.h"
+#include "FinestDomain.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** Measures one diamond of scale 0 after the other. */
+class FinestMeasure
+{
+public:
+  FinestMeasure(const IsovertexClusters& clusters, RisingErrors& errors)
+    : Clusters(clusters)
+    , Errors(errors)
+    , Hierarchy(errors.Hierarchy())
+    , Search(errors, clusters.Surface())
+  {
+  }
+
+  void Run(const Brick& brick)
+  {
+    const DiamondSet& set = this->Hierarchy.Diamonds();
+    const BrickWindow window(set.Level(0), brick);
+    set.ForEachInBrick(0, brick,
+      [&](const Place& diamond, std::uint32_t rank)
+      {
+        this->Located.clear();
+        for (const FinestDomain::Owner& owner : FinestDomainOf(diamond.Position).Owners)
+        {
+          // The isovertices of older owners are corners of the patches: at a distance of 0.
+          if (!owner.IsOlder || this->Clusters.AlwaysSubdivide())
+          {
+            this->Locate(window, diamond, owner);
+          }
+        }
+        if (!this->Located.empty())
+        {
+          this->Measure(diamond, rank);
+        }
+      });
+  }
+
+private:
+  /** An isovertex in the domain. */
+  struct LocatedIsovertex
+  {
+    std::uint16_t Tetrahedra = 0; ///< that hold it, a mask of numbers
+    FinePosition Position{};
+  };
+
+  /** Finds the isovertices on the edges of one owner in the domain of a diamond of scale 0. */
+  void Locate(const BrickWindow& window, const Place& diamond, const FinestDomain::Owner& owner)
+  {
+    const Place place{ 0, diamond.Position + owner.Offset };
+    const std::int32_t index = window.IndexAt(place.Position);
+    if (index < 0)
+    {
+      return;
+    }
+    const Brick& brick = this->Hierarchy.Diamonds().Level(0).Bricks[index];
+    const int z = place.Position[2] & 7;
+    const int bit = BitOf(place.Position);
+    if (!brick.Contains(z, bit))
+    {
+      return;
+    }
+    const std::uint32_t rank = brick.Rank(z, bit);
+    const std::uint32_t crossed = owner.EdgeMask &
+      (this->Clusters.Surface() == 0 ? this->Hierarchy.Edges(rank)
+                                     : this->Hierarchy.UpperEdges(rank));
+    for (const FinestDomain::Edge& edge : owner.Edges)
+    {
+      if (((crossed >> edge.OwnerEdge) & 1U) != 0 && this->Clusters.IsWanted(place, edge.OwnerEdge))
+      {
+        this->Located.push_back({ edge.Tetrahedra,
+          IsovertexAt(this->Hierarchy, place, rank, edge.OwnerEdge, this->Clusters.Surface()) });
+      }
+    }
+  }
+
+  void Measure(const Place& diamond, std::uint32_t rank)
+  {
+    if (this->Errors.IsAlways(rank))
+    {
+      return;
+    }
+    if (this->Clusters.AlwaysSubdivide() || this->Errors.HasNoInterpolant(diamond))
+    {
+      if (this->IsAnyInGrid(diamond))
+      {
+        this->Errors.RaiseToAlways(rank);
+      }
+      return;
+    }
+    this->Search.Reset(diamond);
+    this->Errors.RaiseToFarthest(diamond, rank,
+      [&](Farthest& farthest)
+      {
+        for (const LocatedIsovertex& isovertex : this->Located)
+        {
+          ForEachBit(isovertex.Tetrahedra,
+            [&](int tetrahedron)
+            {
+              if (this->Search.IsThere(tetrahedron))
+              {
+                this->Search.Propose(tetrahedron, isovertex.Position, farthest);
+              }
+            });
+        }
+        this->Search.Decide(farthest);
+      });
+  }
+
+  /** Whether a tetrahedron in the grid holds one of the isovertices. */
+  bool IsAnyInGrid(const Place& diamond) const
+  {
+    std::uint32_t holders = 0;
+    for (const LocatedIsovertex& isovertex : this->Located)
+    {
+      holders |= isovertex.Tetrahedra;
+    }
+    bool isAny = false;
+    SpineNeighbourhood(this->Hierarchy)
+      .ForEachTetrahedron(diamond, false,
+        [&](int number, const HalfPlace& tetrahedron)
+        {
+          isAny = isAny ||
+            (((holders >> number) & 1U) != 0 && IsInGrid(this->Hierarchy.Domain(), tetrahedron));
+        });
+    return isAny;
+  }
+
+  const IsovertexClusters& Clusters;
+  RisingErrors& Errors;
+  const IsodiamondHierarchy& Hierarchy;
+  FarthestSearch Search;
+  std::vector<LocatedIsovertex> Located;
+};
+
+}
+
+void MeasureFinest(
+  const IsovertexClusters& clusters, RisingErrors& errors, const ParallelFor& parallelFor)
+{
+  if (clusters.All().empty())
+  {
+    return;
+  }
+  const std::vector<Brick>& bricks = errors.Hierarchy().Diamonds().Level(0).Bricks;
+  parallelFor(static_cast<std::int64_t>(bricks.size()), 16,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      FinestMeasure measure(clusters, errors);
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        measure.Run(bricks[i]);
+      }
+    });
+}
+
+}
