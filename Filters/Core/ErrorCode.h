@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace isodiamond
 {
@@ -40,9 +41,10 @@ public:
     {
       return HUGE_VAL;
     }
-    const int exponent = code >> 9;
-    const double mantissa = 1.0 + (code & 511) / 512.0;
-    return std::ldexp(this->ScaleValue * mantissa, exponent - 31);
+    // 1 + i / 512, and a power of two, as the bits of doubles.
+    const double mantissa = FromBits((Bias << 52) | (std::uint64_t{ code & 511U } << 43));
+    const double power = FromBits((Bias - 31 + (code >> 9)) << 52);
+    return this->ScaleValue * mantissa * power;
   }
 
   /** The smallest code >= Least whose value is not below the error; Always for NaN and beyond. */
@@ -57,10 +59,10 @@ public:
     {
       return Least;
     }
-    int exponent = 0;
-    const double mantissa = 2.0 * std::frexp(relative, &exponent); // in [1, 2)
-    const int steps = static_cast<int>(std::ceil((mantissa - 1.0) * 512.0));
-    int code = 512 * (exponent - 1 + 31) + steps;
+    // The exponent and nine more bits of the double, rounded up.
+    const std::uint64_t bits = ToBits(relative);
+    const std::uint64_t rounded = (bits + (std::uint64_t{ 1 } << 43) - 1) >> 43;
+    int code = static_cast<int>(rounded - ((Bias - 31) << 9));
     while (code < Always && this->Decode(static_cast<Type>(code)) < error)
     {
       ++code; // the division may have rounded down
@@ -92,6 +94,21 @@ public:
   }
 
 private:
+  static constexpr std::uint64_t Bias = 1023; ///< of a double's exponent
+
+  static double FromBits(std::uint64_t bits)
+  {
+    double value = 0.0;
+    std::memcpy(&value, &bits, sizeof(value));
+    return value;
+  }
+  static std::uint64_t ToBits(double value)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof(bits));
+    return bits;
+  }
+
   double ScaleValue;
 };
 
