@@ -35,7 +35,8 @@ install_packages() {
     "${missing[@]}" >/dev/null
 }
 
-# configure_and_build PRESET: configures build/ by a preset of CMakePresets.json, and builds it.
+# configure_and_build PRESET [CMAKE_ARGUMENT...]: configures build/ by a preset of
+# CMakePresets.json, and builds it.
 configure_and_build() {
-  (cd "$root" && cmake --preset "$1" --log-level=WARNING >/dev/null && cmake --build --preset "$1")
+  (cd "$root" && cmake --preset "$@" --log-level=WARNING >/dev/null && cmake --build --preset "$1")
 }

@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 install_packages $build_packages $render_packages $test_packages
-configure_and_build release
+configure_and_build release -DISODIAMONDS_BUILD_BENCHMARKS=ON
 
 # One display for all tests: several xvfb-run at once get into each other's way.
 cd "$build"
