@@ -39,6 +39,22 @@ struct Generation
   std::vector<Holder> Holders;
   std::vector<Item> Items; ///< the first Count; memory that was used once is kept
   std::size_t Count = 0;
+  std::vector<std::uint64_t> Order; ///< rank of the diamond, and index of the holder in 32 bits
+
+  /** Brings the tetrahedra of a diamond together, in the order. */
+  void SortByDiamond()
+  {
+    this->Order.clear();
+    for (std::size_t i = 0; i < this->Holders.size(); ++i)
+    {
+      this->Order.push_back(std::uint64_t{ this->Holders[i].Rank } << 32 | i);
+    }
+    std::sort(this->Order.begin(), this->Order.end());
+  }
+  const Holder& At(std::size_t inOrder) const
+  {
+    return this->Holders[this->Order[inOrder] & 0xffffffffU];
+  }
 
   /** Where some more items fit. */
   Item* Room(std::size_t more)
@@ -189,13 +205,12 @@ private:
   }
 
   /** A tetrahedron's part, and what it leaves to its halves. */
-  std::vector<Task> Bisect(const Task& task)
+  std::vector<Task> Bisect(Task& task)
   {
     FarthestSearch search(this->Errors, this->Clusters.Surface());
-    const Holder& holder = task.Holders[0];
-    this->Measure(search, &holder, &holder + 1, task.Items);
+    this->Measure(search, task);
     Task both;
-    this->Split(holder, task.Items, both);
+    this->Split(task.Holders[0], task.Items, both);
     std::vector<Task> halves(both.Holders.size());
     for (std::size_t i = 0; i < halves.size(); ++i)
     {
@@ -274,36 +289,40 @@ private:
   template <typename Item>
   void Measure(FarthestSearch& search, Generation<Item>& generation)
   {
-    std::vector<Holder>& holders = generation.Holders;
-    std::sort(holders.begin(), holders.end(),
-      [](const Holder& a, const Holder& b) { return a.Rank < b.Rank; });
-    for (std::size_t begin = 0, end = 0; begin < holders.size(); begin = end)
+    generation.SortByDiamond();
+    const std::vector<std::uint64_t>& order = generation.Order;
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end)
     {
-      while (end < holders.size() && holders[end].Rank == holders[begin].Rank)
+      const std::uint64_t rank = order[begin] >> 32;
+      while (end < order.size() && order[end] >> 32 == rank)
       {
         ++end;
       }
-      this->Measure(search, holders.data() + begin, holders.data() + end, generation.Items);
+      this->Measure(search, generation, begin, end);
     }
   }
 
-  /** Raises the error of a diamond by the items that some of its tetrahedra hold. */
+  /** Raises the error of a diamond by the items that some of its tetrahedra hold, a range of the
+   *  order. */
   template <typename Item>
   void Measure(
-    FarthestSearch& search, const Holder* begin, const Holder* end, const std::vector<Item>& items)
+    FarthestSearch& search, const Generation<Item>& generation, std::size_t begin, std::size_t end)
   {
-    const Place& diamond = begin->Diamond;
-    const std::uint32_t rank = begin->Rank;
+    const Place diamond = generation.At(begin).Diamond;
+    const std::uint32_t rank = generation.At(begin).Rank;
     if (this->Errors.IsAlways(rank))
     {
       return;
     }
     if (this->Clusters.AlwaysSubdivide() || this->Errors.HasNoInterpolant(diamond))
     {
-      if (std::any_of(
-            begin, end, [&](const Holder& holder) { return this->HasIsovertex(holder, items); }))
+      for (std::size_t i = begin; i < end; ++i)
       {
-        this->Errors.RaiseToAlways(rank);
+        if (this->HasIsovertex(generation.At(i), generation.Items))
+        {
+          this->Errors.RaiseToAlways(rank);
+          return;
+        }
       }
       return;
     }
@@ -311,9 +330,9 @@ private:
     this->Errors.RaiseToFarthest(diamond, rank,
       [&](Farthest& farthest)
       {
-        for (const Holder* holder = begin; holder != end; ++holder)
+        for (std::size_t i = begin; i < end; ++i)
         {
-          this->FindFarthest(search, *holder, items, farthest);
+          this->FindFarthest(search, generation.At(i), generation.Items, farthest);
         }
         search.Decide(farthest);
       });

@@ -31,7 +31,12 @@ struct FineBox
   }
 };
 
-/** A plane between lattice points, for exact tests of which side a position is on. */
+/**
+ * A plane between lattice points, for exact tests of which side a position is on.
+ *
+ * Numbers of 32 bits suffice: coordinates are at most 2^28 (a grid's depth is 20 at most), and of a
+ * normal, the product of two offsets of lattice steps, no more than 4 in sum.
+ */
 class FinePlane
 {
 public:
@@ -40,9 +45,8 @@ public:
   /** Through a point, spanned by two small offsets. */
   FinePlane(const Point& point, const Point& first, const Point& second)
     : Origin(FineUnits * point)
-    , Normal{ std::int64_t{ 1 } * first[1] * second[2] - first[2] * second[1],
-      std::int64_t{ 1 } * first[2] * second[0] - first[0] * second[2],
-      std::int64_t{ 1 } * first[0] * second[1] - first[1] * second[0] }
+    , Normal{ first[1] * second[2] - first[2] * second[1],
+      first[2] * second[0] - first[0] * second[2], first[0] * second[1] - first[1] * second[0] }
   {
   }
 
@@ -56,7 +60,7 @@ public:
   }
 
   /** Positive on one side, negative on the other, 0 on the plane. */
-  std::int64_t Side(const FinePosition& position) const
+  std::int32_t Side(const FinePosition& position) const
   {
     return this->Normal[0] * (position[0] - this->Origin[0]) +
       this->Normal[1] * (position[1] - this->Origin[1]) +
@@ -64,13 +68,13 @@ public:
   }
 
   /** The least and the greatest Side() in a box. */
-  std::array<std::int64_t, 2> Sides(const FineBox& box) const
+  std::array<std::int32_t, 2> Sides(const FineBox& box) const
   {
-    std::array<std::int64_t, 2> sides{};
+    std::array<std::int32_t, 2> sides{};
     for (int axis = 0; axis < 3; ++axis)
     {
-      const std::int64_t a = this->Normal[axis] * (box.Low[axis] - this->Origin[axis]);
-      const std::int64_t b = this->Normal[axis] * (box.High[axis] - this->Origin[axis]);
+      const std::int32_t a = this->Normal[axis] * (box.Low[axis] - this->Origin[axis]);
+      const std::int32_t b = this->Normal[axis] * (box.High[axis] - this->Origin[axis]);
       sides[0] += std::min(a, b);
       sides[1] += std::max(a, b);
     }
@@ -79,7 +83,7 @@ public:
 
 private:
   FinePosition Origin{};
-  std::array<std::int64_t, 3> Normal{};
+  std::array<std::int32_t, 3> Normal{};
 };
 
 }

@@ -62,7 +62,7 @@ public:
   bool HasNoInterpolant(const Place& diamond) const
   {
     return this->Source.Domain().SticksOut(diamond.Position, diamond.Scale) ||
-      !this->HasFiniteVertices(diamond);
+      !(this->Finite.All() || this->HasFiniteVertices(diamond));
   }
 
   /** Raises an error to the distance of the farthest isovertex, as find(farthest) finds it. */

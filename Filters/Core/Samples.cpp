@@ -31,7 +31,7 @@ int BytesOfSample(const AnySamples& samples)
 
 Finiteness::Finiteness(const AnySamples& samples)
   : Samples(samples)
-  , All(std::visit(
+  , AreAll(std::visit(
       [](const auto& view)
       {
         using T = typename std::decay_t<decltype(view)>::Value;

@@ -85,14 +85,15 @@ class Finiteness
 public:
   explicit Finiteness(const AnySamples& samples);
 
+  bool All() const { return this->AreAll; }
   bool operator()(const Point& point) const
   {
-    return this->All || std::isfinite(SampleAt(this->Samples, point));
+    return this->AreAll || std::isfinite(SampleAt(this->Samples, point));
   }
 
 private:
   const AnySamples& Samples;
-  bool All;
+  bool AreAll;
 };
 
 /** Smallest and largest finite sample; {0, 0} if there is none. */
