@@ -39,10 +39,13 @@ std::vector<Contestant> FromVolume(
   {
     return contestants;
   }
-  contestants.push_back(BuildContestant(task, RIDistance));
-  contestants.push_back(BuildContestant(task, MIDistance));
   contestants.push_back(OneStepContestant(task, vtkIsodiamondHierarchy::FIELD));
-  contestants.push_back(OneStepContestant(task, vtkIsodiamondHierarchy::DISTANCE));
+  if (options.HasDistance)
+  {
+    contestants.push_back(BuildContestant(task, RIDistance));
+    contestants.push_back(BuildContestant(task, MIDistance));
+    contestants.push_back(OneStepContestant(task, vtkIsodiamondHierarchy::DISTANCE));
+  }
   if (task.Shape == Shape::Isosurface)
   {
     contestants.push_back(FlyingEdgesContestant(task));
@@ -77,24 +80,34 @@ void AddExtractions(const Task& task, const Model& model, vtkIsodiamondHierarchy
   }
 }
 
-/** Extraction to a tenth, by both metrics and in one step; tells the goal of simplification. */
-void AddTenths(const Task& task, vtkIsodiamondHierarchy* field, vtkIsodiamondHierarchy* distance,
-  const Goal& goal, std::vector<Contestant>& contestants)
+/** Extraction to a tenth by one metric. @return what it kept; no cells if that cannot be */
+Level AddTenth(const Task& task, const Model& model, vtkIsodiamondHierarchy* hierarchy,
+  std::vector<Contestant>& contestants)
 {
-  const Level byField = FindLevel(task, MIField, field, 0.1);
-  if (byField.Cells > 0.0)
+  const Level level = FindLevel(task, model, hierarchy, 0.1);
+  if (level.Cells > 0.0)
   {
-    contestants.push_back(
-      ExtractContestant(task, MIField, field, byField.Tolerance, "MI extract a tenth, field"));
-  }
-  const Level byDistance = FindLevel(task, MIDistance, distance, 0.1);
-  if (byDistance.Cells > 0.0)
-  {
-    *goal = byDistance.Cells;
+    const char* const metric = model.Metric == vtkIsodiamondHierarchy::FIELD ? "field" : "distance";
     contestants.push_back(ExtractContestant(
-      task, MIDistance, distance, byDistance.Tolerance, "MI extract a tenth, distance"));
+      task, model, hierarchy, level.Tolerance, std::string("MI extract a tenth, ") + metric));
+  }
+  return level;
+}
+
+/** What one-step filters do when only the tolerance is new. */
+void AddNewTolerances(
+  const Task& task, int metric, const Level& tenth, std::vector<Contestant>& contestants)
+{
+  contestants.push_back(NewToleranceContestant(task, metric, 0.0, "one step, new tolerance"));
+  if (tenth.Cells > 0.0)
+  {
     contestants.push_back(
-      NewToleranceContestant(task, byDistance.Tolerance, "one step, new tolerance, a tenth"));
+      NewToleranceContestant(task, metric, tenth.Tolerance, "one step, new tolerance, a tenth"));
+  }
+  if (task.Threads == 1 && std::thread::hardware_concurrency() > 1)
+  {
+    contestants.push_back(
+      NewToleranceContestant(task, metric, 0.0, "one step, new tolerance, 2 threads", 2));
   }
 }
 
@@ -116,22 +129,22 @@ std::vector<Contestant> FromHierarchies(
   const std::array<double, 2> ends = { PaperTolerances[0], PaperTolerances[5] };
   AddExtractions(task, RIField, ri, ends, contestants);
   AddExtractions(task, HD, hd, ends, contestants);
-  const Hierarchy distance = BuildHierarchy(task, MIDistance);
-  AddExtractions(task, MIDistance, distance, DistanceTolerances, contestants);
-  contestants.push_back(CheckContestant(MIDistance, distance));
-  contestants.push_back(NewToleranceContestant(task, 0.0, "one step, new tolerance"));
-  if (task.Shape == Shape::Isosurface)
+  Level tenth = AddTenth(task, MIField, mi, contestants);
+  if (options.HasDistance)
   {
-    AddTenths(task, mi, distance, goal, contestants);
+    const Hierarchy distance = BuildHierarchy(task, MIDistance);
+    AddExtractions(task, MIDistance, distance, DistanceTolerances, contestants);
+    contestants.push_back(CheckContestant(MIDistance, distance));
+    tenth = AddTenth(task, MIDistance, distance, contestants);
   }
-  if (task.Threads == 1 && std::thread::hardware_concurrency() > 1)
+  *goal = tenth.Cells;
+  const int metric =
+    options.HasDistance ? vtkIsodiamondHierarchy::DISTANCE : vtkIsodiamondHierarchy::FIELD;
+  AddNewTolerances(task, metric, tenth, contestants);
+  if (task.Threads == 1 && task.Shape == Shape::Isosurface &&
+    std::thread::hardware_concurrency() > 1)
   {
-    contestants.push_back(
-      NewToleranceContestant(task, 0.0, "one step, new tolerance, 2 threads", 2));
-    if (task.Shape == Shape::Isosurface)
-    {
-      contestants.push_back(FlyingEdgesContestant(task, 2));
-    }
+    contestants.push_back(FlyingEdgesContestant(task, 2));
   }
   return contestants;
 }
@@ -167,7 +180,7 @@ VolumeResult DescribeVolume(const Volume& volume)
 
 void MeasureMemoryOf(const Volume& volume, const BenchmarkOptions& options, VolumeResult& result)
 {
-  for (const Shape shape : { Shape::Isosurface, Shape::IntervalVolume })
+  for (const Shape shape : options.Shapes)
   {
     const Task task = { volume, shape, options.Threads };
     const Goal goal = std::make_shared<double>(0.0);
@@ -177,7 +190,7 @@ void MeasureMemoryOf(const Volume& volume, const BenchmarkOptions& options, Volu
 
 void MeasureTimesOf(const Volume& volume, const BenchmarkOptions& options, VolumeResult& result)
 {
-  for (const Shape shape : { Shape::Isosurface, Shape::IntervalVolume })
+  for (const Shape shape : options.Shapes)
   {
     const Task task = { volume, shape, options.Threads };
     const Goal goal = std::make_shared<double>(0.0);

@@ -5,6 +5,8 @@
 #include "Results.h"
 #include "Volumes.h"
 
+#include <vector>
+
 /**
  * @file Benchmark.h
  * Which contestants run on a volume.
@@ -18,6 +20,8 @@ struct BenchmarkOptions
   int Repetitions = 5;
   bool IsPaper = false; ///< only what Table 2 and figure 15 need
   bool IsAll = false;   ///< also what takes minutes
+  std::vector<Shape> Shapes = { Shape::Isosurface, Shape::IntervalVolume };
+  bool HasDistance = true; ///< the distance metric beside the field metric
 };
 
 /** What a volume is, without anything measured yet. */

@@ -30,6 +30,8 @@ and clipping to a range of values, all in one process. Prints Markdown and write
   --size N[,N...]  sizes of the synthetic volumes [256; none beside files]
   --fields A[,B]   of marschner-lobb, gyroid (with metaballs), phantom (noisy CT), odd (the
                    gyroid with an odd number of samples, different on each axis) [all]
+  --shape S        isosurface or interval-volume only [both]
+  --metric field   without the distance metric
   --threads N      for all contestants; with 1 also what two threads gain [1]
   --repetitions N  all contestants run in turn, so many times, slow ones less often; the median
                    counts [5]
@@ -96,6 +98,15 @@ bool TakeOption(const std::string& option, const std::string& value, Arguments& 
   {
     arguments.Options.Repetitions = PositiveNumber(value, 1000);
   }
+  else if (option == "--shape" && (value == "isosurface" || value == "interval-volume"))
+  {
+    arguments.Options.Shapes = { value == "isosurface" ? Shape::Isosurface
+                                                       : Shape::IntervalVolume };
+  }
+  else if (option == "--metric" && value == "field")
+  {
+    arguments.Options.HasDistance = false;
+  }
   else if (option == "--json")
   {
     arguments.Json = value;
@@ -135,7 +146,8 @@ Arguments Parse(const std::vector<std::string>& words)
       const std::string value = i + 1 < words.size() ? words[i + 1] : "";
       if (!TakeOption(words[i], value, arguments))
       {
-        throw std::invalid_argument("There is no option " + words[i] + "; see --help.");
+        throw std::invalid_argument(
+          "There is no option \"" + words[i] + " " + value + "\"; see --help.");
       }
       ++i;
     }

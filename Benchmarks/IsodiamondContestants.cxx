@@ -227,14 +227,13 @@ Contestant OneStepContestant(const Task& task, int metric)
 }
 
 Contestant NewToleranceContestant(
-  const Task& task, double tolerance, const std::string& name, int threads)
+  const Task& task, int metric, double tolerance, const std::string& name, int threads)
 {
   Task own = task;
   own.Threads = threads > 0 ? threads : task.Threads;
-  const vtkSmartPointer<vtkAlgorithm> filter =
-    MakeOneStep(own, vtkIsodiamondHierarchy::DISTANCE, tolerance);
+  const vtkSmartPointer<vtkAlgorithm> filter = MakeOneStep(own, metric, tolerance);
   Contestant contestant = FilterContestant(name, { filter });
-  contestant.Tolerance = Tolerance::Voxels(tolerance);
+  contestant.Tolerance = Model{ vtkIsodiamondHierarchy::MINIMAL, metric }.ToleranceOf(tolerance);
   contestant.Prepare = [filter] { filter->Update(); }; // builds
   contestant.Threads = threads;
   return contestant;

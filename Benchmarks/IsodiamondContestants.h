@@ -68,10 +68,9 @@ Contestant ExtractContestant(const Task& task, const Model& model,
  *  tolerance 0. "one step, field" or "one step, distance". */
 Contestant OneStepContestant(const Task& task, int metric);
 
-/** The same filter with a new tolerance on the same volume, by distance. @param threads 0 for the
- *  task's */
+/** The same filter with a new tolerance on the same volume. @param threads 0 for the task's */
 Contestant NewToleranceContestant(
-  const Task& task, double tolerance, const std::string& name, int threads = 0);
+  const Task& task, int metric, double tolerance, const std::string& name, int threads = 0);
 
 }
 

@@ -143,12 +143,18 @@ void PrintFigure15Rows(const VolumeResult& volume, Shape shape, std::ostream& ou
 void PrintVolume(const VolumeResult& volume, std::ostream& out)
 {
   out << "## " << volume.Title() << ", " << volume.ScalarType << "\n\n";
-  out << "Isosurface of " << Value(volume.Isovalue)
-      << "; the reference is vtkFlyingEdges3D. Bytes a cell: of the full resolution's cells.\n\n";
-  PrintContestants(volume.Isosurface, "vtkFlyingEdges3D", out);
-  out << "Interval volume of " << Interval(volume.Isorange)
-      << "; the reference is vtkTableBasedClipDataSet twice (IsoVolume).\n\n";
-  PrintContestants(volume.IntervalVolume, "vtkTableBasedClipDataSet twice", out);
+  if (!volume.Isosurface.Rows.empty())
+  {
+    out << "Isosurface of " << Value(volume.Isovalue)
+        << "; the reference is vtkFlyingEdges3D. Bytes a cell: of the full resolution's cells.\n\n";
+    PrintContestants(volume.Isosurface, "vtkFlyingEdges3D", out);
+  }
+  if (!volume.IntervalVolume.Rows.empty())
+  {
+    out << "Interval volume of " << Interval(volume.Isorange)
+        << "; the reference is vtkTableBasedClipDataSet twice (IsoVolume).\n\n";
+    PrintContestants(volume.IntervalVolume, "vtkTableBasedClipDataSet twice", out);
+  }
 }
 
 void PrintTable2(const Report& report, std::ostream& out)

@@ -69,6 +69,8 @@ def plot_figure_15(volume, shape, folder):
 def plot_levels(volume, shape, folder):
     rows = volume[shape]
     metrics = [m for m in ("field", "distance") if rows_of(rows, f"MI extract, {m}")]
+    if not metrics:
+        return  # a run with --shape has only the other one
     figure, panels = pyplot.subplots(
         2, len(metrics), figsize=(4.5 * len(metrics), 6.5), squeeze=False
     )
