@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DiamondMesh.h"
 
+#include "Leaves.h"
+
 #include <map>
 
 namespace isodiamond
@@ -21,7 +23,7 @@ DiamondMesh ExtractDiamondMesh(const RefinedSet& refined)
     }
     return entry->second;
   };
-  for (const BrickPlace& brick : AllBricks(hierarchy.Diamonds()))
+  for (const BrickPlace& brick : AllBricks(refined.Diamonds()))
   {
     ForEachLeaf(
       refined, brick,

@@ -135,6 +135,8 @@ void DiamondSet::Append(int scale, std::int64_t brickIndex, const BrickMask& mas
     throw std::length_error("more than 2^32 - 1 isodiamonds");
   }
   BrickLevel& level = this->Levels[scale];
+  level.FirstNumber = level.Bricks.empty() ? this->BrickCount : level.FirstNumber;
+  ++this->BrickCount;
   level.Lookup[brickIndex] = static_cast<std::int32_t>(level.Bricks.size());
   level.Bricks.push_back(brick);
 }

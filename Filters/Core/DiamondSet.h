@@ -205,11 +205,18 @@ struct BrickLevel
   BrickBox Box;
   std::vector<std::int32_t> Lookup; ///< box index -> index in Bricks, -1 where there is none
   std::vector<Brick> Bricks;        ///< in the order of their box indices
+  std::int64_t FirstNumber = 0;     ///< of its bricks, in the order of AllBricks()
 
   const Brick* Find(const Point& position) const
   {
-    const std::int64_t index = this->Box.Index(BrickOf(position));
-    return index < 0 || this->Lookup[index] < 0 ? nullptr : &this->Bricks[this->Lookup[index]];
+    return this->Find(this->Box.Index(BrickOf(position)));
+  }
+
+  /** @param boxIndex -1 for a brick outside of the box */
+  const Brick* Find(std::int64_t boxIndex) const
+  {
+    return boxIndex < 0 || this->Lookup[boxIndex] < 0 ? nullptr
+                                                      : &this->Bricks[this->Lookup[boxIndex]];
   }
 };
 
@@ -310,6 +317,7 @@ public:
 private:
   std::vector<BrickLevel> Levels;
   std::int64_t Count = 0;
+  std::int64_t BrickCount = 0;
 };
 
 /** A brick of a set: the unit of work of encoding and extraction. */

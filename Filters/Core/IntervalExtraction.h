@@ -5,8 +5,6 @@
 #include "AffineMap.h"
 #include "ExtractionPasses.h"
 
-#include <vector>
-
 namespace isodiamond
 {
 
@@ -55,46 +53,7 @@ public:
   void WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const;
 
 private:
-  /** The points of one refined diamond have consecutive ids: its centre if that lies inside, its
-   *  alive isovertices on the lower surface, those on the upper one. */
-  struct Slot
-  {
-    std::uint32_t First = 0;
-    std::uint16_t HasCentre = 0;
-    std::array<std::uint16_t, 2> Alive{}; ///< by surface
-
-    /** Ids of points that there are not, which only a damaged file asks for, are 0. */
-    std::uint32_t CentreId() const { return this->HasCentre != 0 ? this->First : 0; }
-    std::uint32_t Id(int surface, int edge) const
-    {
-      if (((this->Alive[surface] >> edge) & 1U) == 0)
-      {
-        return 0;
-      }
-      const std::uint32_t before = (1U << edge) - 1U;
-      return this->First + this->HasCentre +
-        static_cast<std::uint32_t>(surface == 0
-            ? PopCount(this->Alive[0] & before)
-            : PopCount(this->Alive[0]) + PopCount(this->Alive[1] & before));
-    }
-    std::uint32_t Size() const
-    {
-      return this->HasCentre +
-        static_cast<std::uint32_t>(PopCount(this->Alive[0]) + PopCount(this->Alive[1]));
-    }
-  };
-
-  ExtractionPasses::Counts CountBrick(std::int64_t brick);
-
-  template <typename Body>
-  void ForEachPoint(Body&& body) const;
-  template <typename Id>
-  class TetrahedronWriter;
-
-  const RefinedSet& Refined;
-  const IsodiamondHierarchy& Source;
   ExtractionPasses Passes;
-  std::vector<Slot> Slots; ///< by rank
 };
 
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IsodiamondHierarchy.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -71,6 +72,7 @@ IsodiamondHierarchy::IsodiamondHierarchy(
   this->DeriveAllEdges(parallelFor);
   this->CountByKind();
   this->CountInsideValues();
+  this->FindHighestThresholds();
 }
 
 void IsodiamondHierarchy::DeriveAllEdges(const ParallelFor& parallelFor)
@@ -134,10 +136,31 @@ void IsodiamondHierarchy::CountInsideValues()
     "the number of inside values does not match the signs");
 }
 
+void IsodiamondHierarchy::FindHighestThresholds()
+{
+  for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    for (const Brick& brick : this->Set.Level(scale).Bricks)
+    {
+      Thresholds highest;
+      for (std::uint32_t rank = brick.First; rank < brick.First + brick.Size(); ++rank)
+      {
+        highest.Surface = std::max(highest.Surface, this->Threshold(rank));
+        if (this->RefinesInterior())
+        {
+          highest.Interior = std::max(highest.Interior, this->InteriorThreshold(rank));
+        }
+      }
+      this->Highest.push_back(highest);
+    }
+  }
+}
+
 std::int64_t IsodiamondHierarchy::DerivedSize() const
 {
   std::int64_t size = static_cast<std::int64_t>(2 * this->EdgesAndKinds.size() +
-    2 * this->EdgesOfUpper.size() + 8 * this->FirstInside.size() + 4 * this->FirstIsovertex.size());
+    2 * this->EdgesOfUpper.size() + 8 * this->FirstInside.size() + 4 * this->FirstIsovertex.size() +
+    sizeof(Thresholds) * this->Highest.size());
   for (int scale = 0; scale < this->Set.ScaleCount(); ++scale)
   {
     const BrickLevel& level = this->Set.Level(scale);

@@ -180,6 +180,15 @@ public:
     return this->View.Arrays.InteriorCodes[rank];
   }
 
+  /** The highest thresholds of a brick's diamonds: queries pass over a brick that they are too low
+   *  for. @param brick numbered as AllBricks() does */
+  struct Thresholds
+  {
+    ErrorCode::Type Surface = 0;
+    ErrorCode::Type Interior = 0; ///< 0 without any
+  };
+  const Thresholds& HighestOfBrick(std::int64_t brick) const { return this->Highest[brick]; }
+
   /** Mask of the subdivision edges that the isosurface, or the lower surface, crosses. */
   std::uint32_t Edges(std::int64_t rank) const { return this->EdgesAndKinds[rank] & 0x3ffU; }
 
@@ -228,6 +237,7 @@ private:
   void DeriveAllEdges(const ParallelFor& parallelFor);
   void CountByKind();
   void CountInsideValues();
+  void FindHighestThresholds();
   int SignAt(const Place& place) const;
   void DeriveDiamond(const Place& place, std::int64_t rank);
 
@@ -240,6 +250,7 @@ private:
   std::vector<std::uint16_t> EdgesOfUpper; ///< interval volumes only
   std::vector<std::int64_t> FirstInside;   ///< interval volumes only: by brick, and the total
   std::vector<std::uint32_t> FirstIsovertex;
+  std::vector<Thresholds> Highest; ///< by brick
   std::array<std::int64_t, 3> Counts{};
 };
 

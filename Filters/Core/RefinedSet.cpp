@@ -24,7 +24,15 @@ public:
       (this->Interior && this->Hierarchy.InteriorThreshold(rank) > this->AcceptedInside);
   }
 
-  /** Whether all diamonds do: full resolution. */
+  /** Whether a brick can have such diamonds. @param brick numbered as AllBricks() does */
+  bool InBrick(std::int64_t brick) const
+  {
+    const IsodiamondHierarchy::Thresholds& highest = this->Hierarchy.HighestOfBrick(brick);
+    return highest.Surface > this->Accepted ||
+      (this->Interior && highest.Interior > this->AcceptedInside);
+  }
+
+  /** Whether all diamonds do. */
   bool All() const
   {
     return this->Accepted < ErrorCode::Least && !this->Hierarchy.RefinesInterior();
@@ -37,67 +45,46 @@ private:
   bool Interior;
 };
 
+/** The diamonds of a brick that exceed. */
+BrickMask ExceedingIn(const Brick& brick, const Exceeds& exceeds)
+{
+  BrickMask mask{};
+  std::uint32_t rank = brick.First;
+  for (int z = 0; z < 8; ++z)
+  {
+    ForEachBit(brick.Occupancy[z],
+      [&](int bit) { mask[z] |= static_cast<std::uint64_t>(exceeds(rank++)) << bit; });
+  }
+  return mask;
 }
 
-RefinedSet::RefinedSet(
-  const IsodiamondHierarchy& hierarchy, const Query& query, const ParallelFor& parallelFor)
-  : Source(hierarchy)
-  , Masks(hierarchy.Diamonds().ScaleCount())
+/** Of a brick's diamonds those that exceed, are no relevant ones and touch the region. */
+BrickMask ExceedingInRegion(const IsodiamondHierarchy& hierarchy, int scale, const Brick& brick,
+  const Exceeds& exceeds, const RegionOfInterest& region)
 {
-  if (query.Region)
-  {
-    this->RefineUniformly(query.OutsideTolerance, HUGE_VAL, parallelFor);
-    this->RefineRegion(query, parallelFor);
-  }
-  else
-  {
-    this->RefineUniformly(query.Tolerance, query.InteriorTolerance, parallelFor);
-  }
+  BrickMask mask{};
+  hierarchy.Diamonds().ForEachInBrick(scale, brick,
+    [&](const Place& place, std::uint32_t rank)
+    {
+      const bool wanted =
+        exceeds(rank) && hierarchy.KindOf(rank) != Kind::Relevant && region.Touches(place);
+      mask[place.Position[2] & 7] |= static_cast<std::uint64_t>(wanted) << BitOf(place.Position);
+    });
+  return mask;
 }
 
-void RefinedSet::RefineUniformly(
-  double tolerance, double interiorTolerance, const ParallelFor& parallelFor)
+/**
+ * What a region asks for beyond the diamonds that exceed outside of it, with all ancestors: those
+ * that an MI does not store lead to others that it does.
+ */
+DiamondMask WantedInRegion(const IsodiamondHierarchy& hierarchy, const Query& query,
+  const Exceeds& exceedsOutside, const ParallelFor& parallelFor)
 {
-  const Exceeds exceeds(this->Source, tolerance, interiorTolerance);
-  this->Full = exceeds.All() && !this->Source.Header().IsAnswer;
-  for (int scale = 0; scale < this->Source.Diamonds().ScaleCount(); ++scale)
+  const Exceeds exceeds(hierarchy, query.Tolerance, query.InteriorTolerance);
+  DiamondMask wanted(hierarchy.Domain());
+  for (int scale = 0; scale < hierarchy.Domain().Depth(); ++scale)
   {
-    const std::vector<Brick>& bricks = this->Source.Diamonds().Level(scale).Bricks;
-    this->Masks[scale].resize(bricks.size());
-    parallelFor(static_cast<std::int64_t>(bricks.size()), 64,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          BrickMask& mask = this->Masks[scale][i];
-          mask = bricks[i].Occupancy;
-          if (exceeds.All())
-          {
-            continue;
-          }
-          std::uint32_t rank = bricks[i].First;
-          for (std::uint64_t& word : mask)
-          {
-            std::uint64_t kept = 0;
-            ForEachBit(
-              word, [&](int bit) { kept |= static_cast<std::uint64_t>(exceeds(rank++)) << bit; });
-            word = kept;
-          }
-        }
-      });
-  }
-}
-
-/** Adds what the region asks for. Ancestors that an MI does not store lead to others that it does:
- *  closure needs them. */
-void RefinedSet::RefineRegion(const Query& query, const ParallelFor& parallelFor)
-{
-  const DiamondSet& set = this->Source.Diamonds();
-  const Exceeds exceeds(this->Source, query.Tolerance, query.InteriorTolerance);
-  DiamondMask wanted(this->Source.Domain());
-  for (int scale = 0; scale < this->Source.Domain().Depth(); ++scale)
-  {
-    const BrickLevel& level = set.Level(scale);
+    const BrickLevel& level = hierarchy.Diamonds().Level(scale);
     std::vector<BrickMask> added(level.Bricks.size());
     parallelFor(static_cast<std::int64_t>(level.Bricks.size()), 16,
       [&](std::int64_t begin, std::int64_t end)
@@ -105,21 +92,15 @@ void RefinedSet::RefineRegion(const Query& query, const ParallelFor& parallelFor
         for (std::int64_t i = begin; i < end; ++i)
         {
           const Brick& brick = level.Bricks[i];
-          if (!query.Region->MayTouch(scale, level.Box.Origin(brick.BoxIndex)))
+          if (query.Region->MayTouch(scale, level.Box.Origin(brick.BoxIndex)))
           {
-            continue;
-          }
-          set.ForEachInBrick(scale, brick,
-            [&](const Place& place, std::uint32_t rank)
+            added[i] = ExceedingInRegion(hierarchy, scale, brick, exceeds, *query.Region);
+            const BrickMask outside = ExceedingIn(brick, exceedsOutside);
+            for (int z = 0; z < 8; ++z)
             {
-              const int z = place.Position[2] & 7;
-              const std::uint64_t bit = std::uint64_t{ 1 } << BitOf(place.Position);
-              if ((this->Masks[scale][i][z] & bit) == 0 && exceeds(rank) &&
-                this->Source.KindOf(rank) != Kind::Relevant && query.Region->Touches(place))
-              {
-                added[i][z] |= bit;
-              }
-            });
+              added[i][z] &= ~outside[z];
+            }
+          }
         }
       });
     for (std::size_t i = 0; i < added.size(); ++i)
@@ -130,18 +111,69 @@ void RefinedSet::RefineRegion(const Query& query, const ParallelFor& parallelFor
       }
     }
   }
-  wanted.CloseOverParents(this->Source.Domain());
-  for (int scale = 0; scale < this->Source.Domain().Depth(); ++scale)
+  wanted.CloseOverParents(hierarchy.Domain());
+  return wanted;
+}
+
+/** The stored diamonds that exceed, and those that are wanted. @param wanted may be null */
+DiamondSet Select(const IsodiamondHierarchy& hierarchy, const Exceeds& exceeds,
+  const DiamondMask* wanted, const ParallelFor& parallelFor)
+{
+  DiamondSet selected(hierarchy.Domain());
+  std::int64_t number = 0;
+  for (int scale = hierarchy.Domain().Depth(); scale >= 0; --scale)
   {
-    const std::vector<Brick>& bricks = set.Level(scale).Bricks;
-    for (std::size_t i = 0; i < bricks.size(); ++i)
+    const std::vector<Brick>& bricks = hierarchy.Diamonds().Level(scale).Bricks;
+    std::vector<const Brick*> candidates;
+    for (const Brick& brick : bricks)
     {
-      const BrickMask* mask = wanted.Find(scale, bricks[i].BoxIndex);
-      for (int z = 0; mask != nullptr && z < 8; ++z)
+      if (exceeds.InBrick(number++) ||
+        (wanted != nullptr && wanted->Find(scale, brick.BoxIndex) != nullptr))
       {
-        this->Masks[scale][i][z] |= (*mask)[z] & bricks[i].Occupancy[z];
+        candidates.push_back(&brick);
       }
     }
+    std::vector<BrickMask> masks(candidates.size());
+    parallelFor(static_cast<std::int64_t>(candidates.size()), 64,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const Brick& brick = *candidates[i];
+          masks[i] = ExceedingIn(brick, exceeds);
+          const BrickMask* more = wanted != nullptr ? wanted->Find(scale, brick.BoxIndex) : nullptr;
+          for (int z = 0; more != nullptr && z < 8; ++z)
+          {
+            masks[i][z] |= (*more)[z] & brick.Occupancy[z];
+          }
+        }
+      });
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+    {
+      selected.Append(scale, candidates[i]->BoxIndex, masks[i]);
+    }
+  }
+  return selected;
+}
+
+}
+
+RefinedSet::RefinedSet(
+  const IsodiamondHierarchy& hierarchy, const Query& query, const ParallelFor& parallelFor)
+  : Source(hierarchy)
+{
+  const Exceeds exceeds = query.Region
+    ? Exceeds(hierarchy, query.OutsideTolerance, HUGE_VAL)
+    : Exceeds(hierarchy, query.Tolerance, query.InteriorTolerance);
+  this->All = exceeds.All();
+  if (!this->All && query.Region)
+  {
+    const DiamondMask wanted = WantedInRegion(hierarchy, query, exceeds, parallelFor);
+    this->Some = Select(hierarchy, exceeds, &wanted, parallelFor);
+  }
+  else if (!this->All)
+  {
+    this->Some = Select(hierarchy, exceeds, nullptr, parallelFor);
   }
 }
 
@@ -150,12 +182,9 @@ std::int64_t RefinedSet::Count() const
   std::int64_t count = 0;
   for (int scale = 0; scale < this->Source.Domain().Depth(); ++scale)
   {
-    for (const BrickMask& mask : this->Masks[scale])
+    for (const Brick& brick : this->Diamonds().Level(scale).Bricks)
     {
-      for (const std::uint64_t word : mask)
-      {
-        count += PopCount(word);
-      }
+      count += brick.Size();
     }
   }
   return count;
@@ -183,28 +212,16 @@ std::int64_t RefinedSet::CountFront() const
     return ParentPlace(shape, child, i).Position == parent.Position;
   };
   std::int64_t count = 0;
-  for (int scale = grid.Depth(); scale >= 0; --scale)
-  {
-    const BrickLevel& level = this->Source.Diamonds().Level(scale);
-    for (std::size_t i = 0; i < level.Bricks.size(); ++i)
+  this->Diamonds().ForEach(
+    [&](const Place& parent, std::uint32_t)
     {
-      const Point origin = level.Box.Origin(level.Bricks[i].BoxIndex);
-      for (int z = 0; z < 8; ++z)
+      const TypeTable& shape = ShapeOf(parent.Position);
+      for (int child = 0; child < shape.ChildCount; ++child)
       {
-        ForEachBit(this->Masks[scale][i][z],
-          [&](int bit)
-          {
-            const Place parent{ scale, PositionOf(origin, z, bit) };
-            const TypeTable& shape = ShapeOf(parent.Position);
-            for (int child = 0; child < shape.ChildCount; ++child)
-            {
-              const Place place = ChildPlace(shape, parent, child);
-              count += inFront(place) && isFirst(parent, place) ? 1 : 0;
-            }
-          });
+        const Place place = ChildPlace(shape, parent, child);
+        count += inFront(place) && isFirst(parent, place) ? 1 : 0;
       }
-    }
-  }
+    });
   return count;
 }
 

@@ -5,21 +5,19 @@
 #include "IsodiamondHierarchy.h"
 #include "Query.h"
 
-#include <vector>
-
 namespace isodiamond
 {
 
 /**
- * The subdivided diamonds of a query, a mask for every brick.
+ * The subdivided diamonds of a query: a set with ranks of its own, so that what passes keep for
+ * every diamond, and the bricks that they visit, are as many as the query asks for.
  *
  * Without a region of interest that is R(t) = {threshold > t}: no front, no closure, the thresholds
  * have them (see Activation.h). With one it is the smallest closed superset of R(outside tolerance)
  * and of those active and creation diamonds of R(tolerance) that touch the region: inside, the mesh
  * is the uniform one; outside it is what conformity needs.
  *
- * The corners of the base cube always count as subdivided. Leaves of the current mesh are the
- * half-tetrahedra of refined diamonds whose child is not refined.
+ * The corners of the base cube always count as subdivided.
  */
 class RefinedSet
 {
@@ -29,35 +27,21 @@ public:
 
   const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
 
+  /** The refined diamonds. */
+  const DiamondSet& Diamonds() const { return this->All ? this->Source.Diamonds() : this->Some; }
+
   /**
    * Whether this is full resolution. Then all that carries a surface lies at scale 0: the middle of
    * a coarser edge that the surface crosses, and the child of a coarser half-tetrahedron that has a
    * patch, are active diamonds, and refined.
    */
-  bool IsFull() const { return this->Full; }
-
-  /** The refined diamonds of a brick. */
-  const BrickMask& Mask(int scale, std::int64_t brick) const { return this->Masks[scale][brick]; }
+  bool IsFull() const { return this->All && !this->Source.Header().IsAnswer; }
 
   /** Whether a diamond is refined; those that are not stored are not. */
   bool Contains(const Place& place) const
   {
-    const BrickLevel& level = this->Source.Diamonds().Level(place.Scale);
-    const std::int64_t index = level.Box.Index(BrickOf(place.Position));
-    if (index < 0 || level.Lookup[index] < 0)
-    {
-      return false;
-    }
-    const BrickMask& mask = this->Masks[place.Scale][level.Lookup[index]];
-    return ((mask[place.Position[2] & 7] >> BitOf(place.Position)) & 1U) != 0;
-  }
-
-  /** The same for a place in a brick's window. */
-  bool Contains(const BrickWindow& window, const Place& place) const
-  {
-    const std::int32_t index = window.IndexAt(place.Position);
-    return index >= 0 &&
-      ((this->Masks[place.Scale][index][place.Position[2] & 7] >> BitOf(place.Position)) & 1U) != 0;
+    const Brick* brick = this->Diamonds().Level(place.Scale).Find(place.Position);
+    return brick != nullptr && brick->Contains(place.Position[2] & 7, BitOf(place.Position));
   }
 
   /** Number of refined diamonds, corners of the base cube not counted. */
@@ -70,32 +54,10 @@ public:
   std::int64_t CountFront() const;
 
 private:
-  void RefineUniformly(double tolerance, double interiorTolerance, const ParallelFor& parallelFor);
-  void RefineRegion(const Query& query, const ParallelFor& parallelFor);
-
   const IsodiamondHierarchy& Source;
-  bool Full = false;
-  std::vector<std::vector<BrickMask>> Masks;
+  bool All = false; ///< whether all stored diamonds are refined
+  DiamondSet Some;  ///< the refined diamonds, unless they are all
 };
-
-/** Of a refined diamond's subdivision edges, those that are edges of the current mesh: the diamond
- *  centred at the edge's midpoint is not refined. */
-inline std::uint32_t AliveEdges(const RefinedSet& refined, const Place& place, std::uint32_t edges)
-{
-  if (place.Scale == 0)
-  {
-    return edges;
-  }
-  const ParityTable& shape = tables::Parities[Parity(place.Position)];
-  std::uint32_t alive = 0;
-  ForEachBit(edges,
-    [&](int edge)
-    {
-      const Place middle{ place.Scale - 1, 2 * place.Position + shape.Offsets[edge] };
-      alive |= static_cast<std::uint32_t>(!refined.Contains(middle)) << edge;
-    });
-  return alive;
-}
 
 /** The index-space position of the isovertex on a subdivision edge. */
 inline std::array<double, 3> IsovertexPosition(
@@ -106,6 +68,28 @@ inline std::array<double, 3> IsovertexPosition(
   return { h * (place.Position[0] + along * offset[0]), h * (place.Position[1] + along * offset[1]),
     h * (place.Position[2] + along * offset[2]) };
 }
+
+/**
+ * Calls body(index-space position) for isovertices of a diamond on one surface.
+ *
+ * @param edges that the surface crosses @param wanted those of them that are visited
+ * @param coefficients of all of them
+ */
+template <typename Body>
+void ForEachIsovertex(const Place& place, std::uint32_t edges, std::uint32_t wanted,
+  const std::uint8_t* coefficients, Body&& body)
+{
+  const ParityTable& shape = tables::Parities[Parity(place.Position)];
+  ForEachBit(wanted,
+    [&](int edge)
+    {
+      const int index = PopCount(edges & ((1U << edge) - 1U));
+      body(IsovertexPosition(place, shape.Offsets[edge], coefficients[index]));
+    });
+}
+
+/** The mask of all subdivision edges, or vertices, of any diamond. */
+inline constexpr std::uint32_t AllEdges = (1U << MaximumVertices) - 1U;
 
 /** The vertices of a diamond that have a sample, as an edge mask. */
 inline std::uint32_t SampledVertices(const Grid& grid, const Place& place, const TypeTable& shape)
@@ -119,127 +103,66 @@ inline std::uint32_t SampledVertices(const Grid& grid, const Place& place, const
   return mask;
 }
 
-/** A leaf of the current mesh: a half-tetrahedron whose vertices all have samples. */
-struct Leaf
+/** A brick of a refined set: its diamonds with their ranks among the stored and the refined ones.
+ */
+class RefinedBrick
 {
-  Place Parent;           ///< the refined diamond, whose centre is the leaf's youngest vertex
-  std::uint32_t Rank = 0; ///< of the parent
-  const TypeTable& Shape; ///< of the parent
-  const HalfTetrahedron& Half;
-  int Scale = 0;             ///< scale of the diamond that the leaf lies in; -1 at full resolution
-  const BrickWindow& Window; ///< of the parent's brick
+public:
+  /** @param place of a brick of refined.Diamonds() */
+  RefinedBrick(const RefinedSet& refined, const BrickPlace& place)
+    : Source(refined.Hierarchy())
+    , Refined(refined.Diamonds().Level(place.Scale).Bricks[place.Index])
+    , Stored(*this->StoredLevel(place.Scale).Find(this->Refined.BoxIndex))
+    , BrickScale(place.Scale)
+    , First(this->StoredLevel(place.Scale).Box.Origin(this->Refined.BoxIndex))
+  {
+    this->IsInner = this->First[0] > 0 && this->First[1] > 0 && this->First[2] > 0 &&
+      this->Source.Domain().IsSampled((1 << place.Scale) * (this->First + Point{ 8, 8, 8 }));
+  }
+
+  int Scale() const { return this->BrickScale; }
+  const Point& Origin() const { return this->First; }
+
+  /** The brick of the stored diamonds, and its number in the order of AllBricks(). */
+  const Brick& StoredBrick() const { return this->Stored; }
+  std::int64_t StoredNumber() const
+  {
+    const BrickLevel& level = this->StoredLevel(this->BrickScale);
+    return level.FirstNumber + level.Lookup[this->Refined.BoxIndex];
+  }
+
+  /** Calls body(place, rank among the stored ones, rank among the refined ones), in order. */
+  template <typename Body>
+  void ForEachDiamond(Body&& body) const
+  {
+    std::uint32_t refinedRank = this->Refined.First;
+    for (int z = 0; z < 8; ++z)
+    {
+      ForEachBit(this->Refined.Occupancy[z],
+        [&](int bit)
+        {
+          body(Place{ this->BrickScale, PositionOf(this->First, z, bit) },
+            this->Stored.Rank(z, bit), refinedRank++);
+        });
+    }
+  }
+
+  /** SampledVertices() of a diamond of this brick. */
+  std::uint32_t Sampled(const Place& place, const TypeTable& shape) const
+  {
+    return this->IsInner ? AllEdges : SampledVertices(this->Source.Domain(), place, shape);
+  }
+
+private:
+  const BrickLevel& StoredLevel(int scale) const { return this->Source.Diamonds().Level(scale); }
+
+  const IsodiamondHierarchy& Source;
+  const Brick& Refined;
+  const Brick& Stored;
+  int BrickScale;
+  Point First;
+  bool IsInner = false; ///< whether all vertices of all diamonds have samples
 };
-
-/**
- * The rank of the diamond that is centred at a vertex of a leaf's parent. None only if a file is
- * damaged: all vertices of a mesh that carry something are centres of stored diamonds.
- */
-inline std::int64_t RankAtVertex(const DiamondSet& set, const Leaf& leaf, int vertex)
-{
-  Place place{ leaf.Parent.Scale, leaf.Parent.Position + leaf.Shape.Offsets[vertex] };
-  if (Parity(place.Position) != 0)
-  {
-    const std::int32_t index = leaf.Window.IndexAt(place.Position);
-    if (index < 0)
-    {
-      return DiamondSet::None;
-    }
-    const Brick& brick = set.Level(place.Scale).Bricks[index];
-    const int z = place.Position[2] & 7;
-    const int bit = BitOf(place.Position);
-    return brick.Contains(z, bit) ? std::int64_t{ brick.Rank(z, bit) } : DiamondSet::None;
-  }
-  while (Parity(place.Position) == 0 && place.Scale < set.ScaleCount() - 1)
-  {
-    place = { place.Scale + 1,
-      { place.Position[0] >> 1, place.Position[1] >> 1, place.Position[2] >> 1 } };
-  }
-  return set.Rank(place);
-}
-
-/** All positions of a brick. */
-inline BrickMask EveryPosition()
-{
-  BrickMask mask{};
-  mask.fill(~std::uint64_t{ 0 });
-  return mask;
-}
-
-/** The positions of a brick that have diamonds of class 2: one coordinate is odd. */
-inline BrickMask ClassTwoPositions()
-{
-  BrickMask mask{};
-  for (int z = 0; z < 8; ++z)
-  {
-    for (int bit = 0; bit < 64; ++bit)
-    {
-      const int parity = Parity(PositionOf({ 0, 0, 0 }, z, bit));
-      mask[z] |= static_cast<std::uint64_t>(tables::Parities[parity].DiamondClass == 2) << bit;
-    }
-  }
-  return mask;
-}
-
-/**
- * Calls body(leaf) for the leaves of one brick's refined diamonds.
- *
- * @param crossed(rank) mask of the subdivision edges that make a half-tetrahedron wanted: it is
- *        visited if it has one of them
- * @param among the positions that are looked at
- */
-template <typename Crossed, typename Body>
-void ForEachLeaf(const RefinedSet& refined, const BrickPlace& brickPlace, Crossed&& crossed,
-  Body&& body, const BrickMask& among = EveryPosition())
-{
-  const IsodiamondHierarchy& hierarchy = refined.Hierarchy();
-  const Grid& grid = hierarchy.Domain();
-  const BrickLevel& level = hierarchy.Diamonds().Level(brickPlace.Scale);
-  const Brick& brick = level.Bricks[brickPlace.Index];
-  const BrickMask& mask = refined.Mask(brickPlace.Scale, brickPlace.Index);
-  const BrickWindow window(level, brick);
-  const Point& origin = window.First();
-  const bool interior = origin[0] > 0 && origin[1] > 0 && origin[2] > 0 &&
-    grid.IsSampled((1 << brickPlace.Scale) * (origin + Point{ 8, 8, 8 }));
-  for (int z = 0; z < 8; ++z)
-  {
-    ForEachBit(mask[z] & among[z],
-      [&](int bit)
-      {
-        const Place place{ brickPlace.Scale, PositionOf(origin, z, bit) };
-        const std::uint32_t rank = brick.Rank(z, bit);
-        const std::uint32_t wanted = crossed(rank);
-        if (wanted == 0)
-        {
-          return;
-        }
-        const TypeTable& shape = ShapeOf(place.Position);
-        const std::uint32_t sampled = interior ? 0x3ffU : SampledVertices(grid, place, shape);
-        for (int child = 0; child < shape.ChildCount; ++child)
-        {
-          if ((shape.ChildMasks[child] & wanted) == 0)
-          {
-            continue;
-          }
-          const Place childPlace = ChildPlace(shape, place, child);
-          const bool isRefined = shape.ChildStep == 0
-            ? refined.Contains(window, childPlace)
-            : childPlace.Scale >= 0 && refined.Contains(childPlace);
-          if (isRefined)
-          {
-            continue;
-          }
-          const HalfTetrahedron* half = &shape.HalfTetrahedra[child * shape.HalfTetrahedraPerChild];
-          for (int i = 0; i < shape.HalfTetrahedraPerChild; ++i, ++half)
-          {
-            if ((half->Mask & wanted) != 0 && (half->Mask & ~sampled) == 0)
-            {
-              body(Leaf{ place, rank, shape, *half, childPlace.Scale, window });
-            }
-          }
-        }
-      });
-  }
-}
 
 }
 

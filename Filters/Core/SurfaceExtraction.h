@@ -5,8 +5,6 @@
 #include "AffineMap.h"
 #include "ExtractionPasses.h"
 
-#include <vector>
-
 namespace isodiamond
 {
 
@@ -43,39 +41,7 @@ public:
   void WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const;
 
 private:
-  /** The points of one refined diamond: its alive isovertices have consecutive ids. */
-  struct Slot
-  {
-    std::uint32_t First = 0;
-    std::uint32_t Alive = 0;
-
-    /** The id of a point that there is not, which only a damaged file asks for, is 0. */
-    std::uint32_t Id(int edge) const
-    {
-      const std::uint32_t before = this->Alive & ((1U << edge) - 1U);
-      return ((this->Alive >> edge) & 1U) != 0
-        ? this->First + static_cast<std::uint32_t>(PopCount(before))
-        : 0;
-    }
-  };
-
-  ExtractionPasses::Counts CountBrick(std::int64_t brick);
-
-  /** Whether a brick has nothing to do with the surface. */
-  bool IsIdle(const BrickPlace& place) const { return this->Refined.IsFull() && place.Scale > 0; }
-
-  /** Calls body(leaf) for the leaves of a brick that carry the surface. */
-  template <typename Body>
-  void ForEachCrossedLeaf(const BrickPlace& place, Body&& body) const;
-
-  template <typename Id>
-  class TriangleWriter;
-
-  const RefinedSet& Refined;
-  const IsodiamondHierarchy& Source;
   ExtractionPasses Passes;
-  BrickMask Among;         ///< the positions that can have leaves
-  std::vector<Slot> Slots; ///< by rank
 };
 
 }

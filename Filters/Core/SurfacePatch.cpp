@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfacePatch.h"
 
-#include "IntervalPatches.h"
-
 #include <algorithm>
 #include <vector>
 
@@ -63,37 +61,6 @@ const CaseTriangles& AllTriangles()
   return triangles;
 }
 
-/** The edge of a half-tetrahedron between two of its vertices by age, the centre is 0. */
-std::uint8_t EdgeBetween(const HalfTetrahedron& half, int younger, int older)
-{
-  if (younger == 0)
-  {
-    return half.ByAge[older - 1];
-  }
-  // An outer edge lies opposite to the outer vertex that is none of its ends.
-  return static_cast<std::uint8_t>(OwnEdgeCount + half.ByAge[6 - younger - older - 1]);
-}
-
-}
-
-int IntervalCase(
-  const IsodiamondHierarchy& hierarchy, std::uint32_t rank, const HalfTetrahedron& half)
-{
-  // The signs of the outer vertices follow from the centre's and the crossings on the way there.
-  const int centre = hierarchy.Sign(rank);
-  const std::uint32_t lower = hierarchy.Edges(rank);
-  const std::uint32_t upper = hierarchy.UpperEdges(rank);
-  PatchSigns signs{ centre, 0, 0, 0 };
-  for (int i = 0; i < 3; ++i)
-  {
-    const int edge = half.Vertices[half.ByAge[i]];
-    const int crossesLower = static_cast<int>((lower >> edge) & 1U);
-    const int crossesUpper = static_cast<int>((upper >> edge) & 1U);
-    const int change =
-      (centre > 0 ? -crossesLower : crossesLower) + (centre > 1 ? -crossesUpper : crossesUpper);
-    signs[i + 1] = centre + change;
-  }
-  return PatchCase(signs);
 }
 
 SurfacePatch PatchOf(const IsodiamondHierarchy& hierarchy, std::uint32_t rank,
@@ -104,7 +71,8 @@ SurfacePatch PatchOf(const IsodiamondHierarchy& hierarchy, std::uint32_t rank,
     return IsosurfacePatch(half, hierarchy.Edges(rank));
   }
   SurfacePatch patch;
-  for (const Triangle& triangle : AllTriangles()[IntervalCase(hierarchy, rank, half)][surface])
+  for (const Triangle& triangle :
+    AllTriangles()[VertexSigns(hierarchy, rank).CaseOf(half)][surface])
   {
     std::array<std::uint8_t, 3>& corners = patch.Triangles[patch.TriangleCount++];
     for (int i = 0; i < 3; ++i)

@@ -3,6 +3,7 @@
 // meshes, in worlds and of real data, are checked with VTK in Testing/Filters/TestDistance.cpp.
 #include "DistanceError.h"
 #include "IntervalTestTools.h"
+#include "Leaves.h"
 #include "SurfacePatch.h"
 
 #include "ReferenceDistance.h"
@@ -254,7 +255,7 @@ TEST(DistanceError, PatchesAreTheSurfacesOfIntervalVolumes)
     {
       const RefinedSet refined(hierarchy, { tolerance }, SerialFor);
       std::array<std::size_t, 2> triangles{};
-      for (const BrickPlace& brick : AllBricks(hierarchy.Diamonds()))
+      for (const BrickPlace& brick : AllBricks(refined.Diamonds()))
       {
         ForEachLeaf(
           refined, brick, [&](std::uint32_t rank) { return hierarchy.CarryingEdges(rank); },
