@@ -16,27 +16,6 @@ ExtractionPasses::ExtractionPasses(const RefinedSet& refined, const ParallelFor&
 {
 }
 
-/** Fills the slots of a brick. */
-std::int64_t ExtractionPasses::CountPoints(std::int64_t number)
-{
-  const RefinedBrick brick = this->BrickAt(number);
-  if (this->Set.IsFull() && brick.Scale() > 0 && !this->Hierarchy().Region().IsVolume())
-  {
-    return 0;
-  }
-  const LeafFinder finder(this->Set, brick);
-  int points = 0;
-  brick.ForEachDiamond(
-    [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
-    {
-      Slot& slot = this->Slots[refinedRank];
-      slot = this->MakeSlot(finder, place, rank);
-      slot.First = static_cast<std::uint16_t>(points);
-      points += PopCount(slot.Points);
-    });
-  return points;
-}
-
 ExtractionPasses::Slot ExtractionPasses::MakeSlot(
   const LeafFinder& finder, const Place& place, std::uint32_t rank) const
 {

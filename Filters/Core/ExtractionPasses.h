@@ -74,10 +74,10 @@ public:
     this->ForEachBrick(
       [&](std::int64_t brick)
       {
-        Counts& counts = this->First[brick + 1];
-        counts.Points = this->CountPoints(brick);
-        this->ForEachLeafParent(
-          brick, [&](const LeafParent& parent) { counts.Cells += cellsOf(parent); });
+        if (!this->IsIdle(brick))
+        {
+          this->First[brick + 1] = this->CountBrick(this->BrickAt(brick), cellsOf);
+        }
       });
     this->SumUp();
   }
@@ -154,8 +154,7 @@ public:
       {
         if (const std::uint32_t children = this->Slots[refinedRank].LeafChildren)
         {
-          const TypeTable& shape = ShapeOf(place.Position);
-          body(LeafParent{ place, rank, shape, children, brick.Sampled(place, shape) });
+          body(MakeLeafParent(brick, place, rank, children, this->Hierarchy().CarryingEdges(rank)));
         }
       });
   }
@@ -184,7 +183,35 @@ private:
       });
   }
 
-  std::int64_t CountPoints(std::int64_t brick);
+  /** Whether a brick has nothing to do with the mesh. */
+  bool IsIdle(std::int64_t brick) const
+  {
+    return this->Set.IsFull() && !this->Hierarchy().Region().IsVolume() &&
+      this->Bricks[brick].Scale > 0;
+  }
+
+  /** Fills the slots of a brick, and counts. */
+  template <typename CellsOf>
+  Counts CountBrick(const RefinedBrick& brick, CellsOf&& cellsOf)
+  {
+    const LeafFinder finder(this->Set, brick);
+    Counts counts;
+    brick.ForEachDiamond(
+      [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
+      {
+        Slot& slot = this->Slots[refinedRank];
+        slot = this->MakeSlot(finder, place, rank);
+        slot.First = static_cast<std::uint16_t>(counts.Points);
+        counts.Points += PopCount(slot.Points);
+        if (slot.LeafChildren != 0)
+        {
+          counts.Cells += cellsOf(MakeLeafParent(
+            brick, place, rank, slot.LeafChildren, this->Hierarchy().CarryingEdges(rank)));
+        }
+      });
+    return counts;
+  }
+
   Slot MakeSlot(const LeafFinder& finder, const Place& place, std::uint32_t rank) const;
   void SumUp();
 

@@ -81,13 +81,44 @@ const PatchTables& AllPatchTables()
   return tables;
 }
 
+/** The cases of an interval volume in the half-tetrahedra of a diamond. */
+class IntervalCases
+{
+public:
+  IntervalCases(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
+    : Centre(hierarchy.Sign(parent.Rank))
+  {
+    // Signs of vertices follow from the centre's and the crossings on the way there.
+    const std::uint32_t lower = hierarchy.Edges(parent.Rank);
+    const std::uint32_t upper = hierarchy.UpperEdges(parent.Rank);
+    const VertexWords& words = tables::WordsByAge[parent.Type];
+    this->AboveLower = words(this->Centre > 0 ? ~lower : lower);
+    this->AboveUpper = words(this->Centre > 1 ? ~upper : upper);
+  }
+
+  int operator()(int half) const
+  {
+    return this->Centre + CaseOfVertices[(this->AboveLower >> (4 * half)) & 7U] +
+      CaseOfVertices[(this->AboveUpper >> (4 * half)) & 7U];
+  }
+
+private:
+  /** What a set of outer vertices above one surface, by age, adds to the case. */
+  static constexpr std::array<std::int8_t, 8> CaseOfVertices = { 0, PatchCase({ 0, 1, 0, 0 }),
+    PatchCase({ 0, 0, 1, 0 }), PatchCase({ 0, 1, 1, 0 }), PatchCase({ 0, 0, 0, 1 }),
+    PatchCase({ 0, 1, 0, 1 }), PatchCase({ 0, 0, 1, 1 }), PatchCase({ 0, 1, 1, 1 }) };
+
+  int Centre;
+  HalfWord AboveLower = 0; ///< the vertices above the lower surface, by age
+  HalfWord AboveUpper = 0;
+};
+
 std::int64_t CountTetrahedra(
   const PatchTables& tables, const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
 {
-  const VertexSigns signs(hierarchy, parent.Rank);
+  const IntervalCases cases(hierarchy, parent);
   std::int64_t tetrahedra = 0;
-  parent.ForEachLeaf([&](int half)
-    { tetrahedra += tables[signs.CaseOf(parent.Shape.HalfTetrahedra[half])].TetrahedronCount; });
+  parent.ForEachLeaf([&](int half) { tetrahedra += tables[cases(half)].TetrahedronCount; });
   return tetrahedra;
 }
 
@@ -110,22 +141,21 @@ public:
 
   void Write(const LeafParent& parent)
   {
-    const VertexSigns signs(this->Hierarchy, parent.Rank);
+    const IntervalCases cases(this->Hierarchy, parent);
     const int level = this->Hierarchy.Domain().Depth() - 1 - parent.LeafScale();
     const DiamondPoints* own = this->Window.At(parent.At.Position);
-    const auto& places = this->Places[TypeOf(parent.At.Position)];
+    const auto& places = this->Places[parent.Type];
     parent.ForEachLeaf(
-      [&](int index)
+      [&](int half)
       {
-        const HalfTetrahedron& half = parent.Shape.HalfTetrahedra[index];
-        const PatchTable& patch = this->Tables[signs.CaseOf(half)];
+        const PatchTable& patch = this->Tables[cases(half)];
         std::array<Id, MaximumPoints> ids;
         for (int i = 0; i < patch.PointCount; ++i)
         {
-          const PatchPointPlace& place = places[index].ByAge[patch.Points[i].Index];
+          const PatchPointPlace& place = places[half].ByAge[patch.Points[i].Index];
           ids[i] = static_cast<Id>(own[place.Distance].Id(place.Bit + patch.Points[i].Bits));
         }
-        const bool flip = half.OddByAge != this->Mirrored;
+        const bool flip = parent.Shape().HalfTetrahedra[half].OddByAge != this->Mirrored;
         for (int i = 0; i < patch.TetrahedronCount; ++i)
         {
           const std::array<std::uint8_t, 4>& corners = patch.Tetrahedra[i];

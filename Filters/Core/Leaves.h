@@ -2,6 +2,7 @@
 #ifndef isodiamond_Leaves_h
 #define isodiamond_Leaves_h
 
+#include "HalfWords.h"
 #include "RefinedSet.h"
 
 #include <array>
@@ -120,31 +121,37 @@ struct LeafParent
 {
   Place At;
   std::uint32_t Rank = 0; ///< among the stored diamonds
-  const TypeTable& Shape;
-  std::uint32_t Children = 0; ///< those that have leaves
-  std::uint32_t Sampled = 0;  ///< the vertices that have samples
+  int Type = 0;
+  HalfWord Leaves = 0; ///< its half-tetrahedra that are leaves
+
+  const TypeTable& Shape() const { return tables::Types[this->Type]; }
 
   /** The scale of the diamonds that the leaves lie in; -1 at full resolution. */
-  int LeafScale() const { return this->At.Scale - this->Shape.ChildStep; }
+  int LeafScale() const { return this->At.Scale - this->Shape().ChildStep; }
 
   /** Calls body(index of the half-tetrahedron) for every leaf. */
   template <typename Body>
   void ForEachLeaf(Body&& body) const
   {
-    ForEachBit(this->Children,
-      [&](int child)
-      {
-        const int first = child * this->Shape.HalfTetrahedraPerChild;
-        for (int half = first; half < first + this->Shape.HalfTetrahedraPerChild; ++half)
-        {
-          if ((this->Shape.HalfTetrahedra[half].Mask & ~this->Sampled) == 0)
-          {
-            body(half);
-          }
-        }
-      });
+    ForEachBit(this->Leaves, [&](int bit) { body(bit / 4); });
   }
 };
+
+/**
+ * The parent of leaves at a place.
+ *
+ * @param children that are not refined
+ * @param wanted edge mask: leaves with none of these edges do not count
+ */
+inline LeafParent MakeLeafParent(const RefinedBrick& brick, const Place& place, std::uint32_t rank,
+  std::uint32_t children, std::uint32_t wanted)
+{
+  const int type = TypeOf(place.Position);
+  const VertexWords& words = tables::WordsAsListed[type];
+  const std::uint32_t unsampled = AllEdges & ~brick.Sampled(place, tables::Types[type]);
+  return { place, rank, type,
+    HalvesOfChildren(children) & HalvesWithAny(words(wanted)) & ~HalvesWithAny(words(unsampled)) };
+}
 
 /** A leaf of the current mesh. */
 struct Leaf
@@ -171,18 +178,13 @@ void ForEachLeaf(const RefinedSet& refined, const BrickPlace& place, Crossed&& c
   brick.ForEachDiamond(
     [&](const Place& at, std::uint32_t rank, std::uint32_t /*refinedRank*/)
     {
-      const TypeTable& shape = ShapeOf(at.Position);
       const std::uint32_t wanted = crossed(rank);
-      const LeafParent parent{ at, rank, shape, finder.LeafChildren(at, wanted),
-        brick.Sampled(at, shape) };
+      const LeafParent parent =
+        MakeLeafParent(brick, at, rank, finder.LeafChildren(at, wanted), wanted);
+      const TypeTable& shape = parent.Shape();
       parent.ForEachLeaf(
-        [&](int index)
-        {
-          const HalfTetrahedron& half = shape.HalfTetrahedra[index];
-          if ((half.Mask & wanted) != 0)
-          {
-            body(Leaf{ at, rank, shape, half, parent.LeafScale() });
-          }
+        [&](int half) {
+          body(Leaf{ at, rank, shape, shape.HalfTetrahedra[half], parent.LeafScale() });
         });
     });
 }

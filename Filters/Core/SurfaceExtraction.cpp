@@ -15,11 +15,10 @@ constexpr int MaximumOwnerStep = 1;
 
 std::int64_t CountTriangles(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
 {
-  const std::uint32_t edges = hierarchy.Edges(parent.Rank);
-  std::int64_t triangles = 0;
-  parent.ForEachLeaf([&](int half)
-    { triangles += IsosurfacePatch(parent.Shape.HalfTetrahedra[half], edges).TriangleCount; });
-  return triangles;
+  // A patch has two triangles where two vertices lie on the other side than the third and the
+  // centre.
+  const HalfWord crossed = tables::WordsAsListed[parent.Type](hierarchy.Edges(parent.Rank));
+  return PopCount(parent.Leaves) + PopCount(parent.Leaves & HalvesWithTwo(crossed));
 }
 
 /** Writes the triangles of one brick's leaves, one after the other. */
@@ -40,16 +39,16 @@ public:
 
   void Write(const LeafParent& parent)
   {
-    const std::uint32_t edges = this->Hierarchy.Edges(parent.Rank);
+    const HalfWord crossed = tables::WordsAsListed[parent.Type](this->Hierarchy.Edges(parent.Rank));
     // For a centre above the isovalue triangles wind with normals away from it.
     const bool flip = (this->Hierarchy.Sign(parent.Rank) == 0) != this->Mirrored;
     const int level = this->Hierarchy.Domain().Depth() - 1 - parent.LeafScale();
     const DiamondPoints* own = this->Window.At(parent.At.Position);
-    const auto& places = this->Places[TypeOf(parent.At.Position)];
+    const auto& places = this->Places[parent.Type];
     parent.ForEachLeaf(
       [&](int half)
       {
-        const SurfacePatch& patch = IsosurfacePatch(parent.Shape.HalfTetrahedra[half], edges);
+        const SurfacePatch& patch = tables::IsosurfacePatches[(crossed >> (4 * half)) & 7U];
         const auto idOf = [&](int edge)
         {
           const PatchPointPlace& place = places[half].OnEdges[edge];

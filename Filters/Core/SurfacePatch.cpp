@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfacePatch.h"
 
+#include "IntervalPatches.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -61,6 +63,27 @@ const CaseTriangles& AllTriangles()
   return triangles;
 }
 
+/** The case of an interval volume in a half-tetrahedron of the diamond of a rank. */
+int IntervalCase(
+  const IsodiamondHierarchy& hierarchy, std::uint32_t rank, const HalfTetrahedron& half)
+{
+  // The signs of the outer vertices follow from the centre's and the crossings on the way there.
+  const int centre = hierarchy.Sign(rank);
+  const std::uint32_t lower = hierarchy.Edges(rank);
+  const std::uint32_t upper = hierarchy.UpperEdges(rank);
+  PatchSigns signs{ centre, 0, 0, 0 };
+  for (int i = 0; i < 3; ++i)
+  {
+    const int edge = half.Vertices[half.ByAge[i]];
+    const int crossesLower = static_cast<int>((lower >> edge) & 1U);
+    const int crossesUpper = static_cast<int>((upper >> edge) & 1U);
+    const int change =
+      (centre > 0 ? -crossesLower : crossesLower) + (centre > 1 ? -crossesUpper : crossesUpper);
+    signs[i + 1] = centre + change;
+  }
+  return PatchCase(signs);
+}
+
 }
 
 SurfacePatch PatchOf(const IsodiamondHierarchy& hierarchy, std::uint32_t rank,
@@ -71,8 +94,7 @@ SurfacePatch PatchOf(const IsodiamondHierarchy& hierarchy, std::uint32_t rank,
     return IsosurfacePatch(half, hierarchy.Edges(rank));
   }
   SurfacePatch patch;
-  for (const Triangle& triangle :
-    AllTriangles()[VertexSigns(hierarchy, rank).CaseOf(half)][surface])
+  for (const Triangle& triangle : AllTriangles()[IntervalCase(hierarchy, rank, half)][surface])
   {
     std::array<std::uint8_t, 3>& corners = patch.Triangles[patch.TriangleCount++];
     for (int i = 0; i < 3; ++i)

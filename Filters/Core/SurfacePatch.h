@@ -2,7 +2,6 @@
 #ifndef isodiamond_SurfacePatch_h
 #define isodiamond_SurfacePatch_h
 
-#include "IntervalPatches.h"
 #include "IsodiamondHierarchy.h"
 
 #include <array>
@@ -90,37 +89,6 @@ inline const SurfacePatch& IsosurfacePatch(const HalfTetrahedron& half, std::uin
   return tables::IsosurfacePatches[((edges >> v[0]) & 1U) | (((edges >> v[1]) & 1U) << 1) |
     (((edges >> v[2]) & 1U) << 2)];
 }
-
-/** The signs, for an interval volume, of a diamond's centre and vertices. */
-class VertexSigns
-{
-public:
-  VertexSigns(const IsodiamondHierarchy& hierarchy, std::uint32_t rank)
-    : Centre(hierarchy.Sign(rank))
-    , AboveLower(this->Centre > 0 ? ~hierarchy.Edges(rank) : hierarchy.Edges(rank))
-    , AboveUpper(this->Centre > 1 ? ~hierarchy.UpperEdges(rank) : hierarchy.UpperEdges(rank))
-  {
-  }
-
-  /** They follow from the centre's and the crossings on the way there. */
-  int OfVertex(int vertex) const
-  {
-    return static_cast<int>(
-      ((this->AboveLower >> vertex) & 1U) + ((this->AboveUpper >> vertex) & 1U));
-  }
-
-  /** The case of a half-tetrahedron, see IntervalPatches.h. */
-  int CaseOf(const HalfTetrahedron& half) const
-  {
-    return PatchCase({ this->Centre, this->OfVertex(half.Vertices[half.ByAge[0]]),
-      this->OfVertex(half.Vertices[half.ByAge[1]]), this->OfVertex(half.Vertices[half.ByAge[2]]) });
-  }
-
-private:
-  int Centre;
-  std::uint32_t AboveLower; ///< the vertices above the lower surface, as an edge mask
-  std::uint32_t AboveUpper;
-};
 
 /** The edge of a half-tetrahedron between two of its vertices by age, the centre is 0. */
 inline std::uint8_t EdgeBetween(const HalfTetrahedron& half, int younger, int older)
