@@ -13,12 +13,18 @@ namespace
 /** How much coarser than a leaf's parent the owner of one of its edges can be. */
 constexpr int MaximumOwnerStep = 1;
 
-std::int64_t CountTriangles(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
+/** The vertices that lie on the other side than the centre. */
+HalfWord CrossedVertices(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
 {
-  // A patch has two triangles where two vertices lie on the other side than the third and the
-  // centre.
-  const HalfWord crossed = tables::WordsAsListed[parent.Type](hierarchy.Edges(parent.Rank));
-  return PopCount(parent.Leaves) + PopCount(parent.Leaves & HalvesWithTwo(crossed));
+  return tables::WordsAsListed[parent.Type](hierarchy.Edges(parent.Rank));
+}
+
+/** The triangles in a diamond's leaves: bit 0 of the four of a half-tetrahedron stands for the
+ * first one of its patch, bit 1 for the second. */
+HalfWord TrianglesOf(const LeafParent& parent, HalfWord crossed)
+{
+  // There are two where two vertices lie on the other side than the third and the centre.
+  return parent.Leaves | ((parent.Leaves & HalvesWithTwo(crossed)) << 1);
 }
 
 /** Writes the triangles of one brick's leaves, one after the other. */
@@ -39,30 +45,28 @@ public:
 
   void Write(const LeafParent& parent)
   {
-    const HalfWord crossed = tables::WordsAsListed[parent.Type](this->Hierarchy.Edges(parent.Rank));
+    const HalfWord crossed = CrossedVertices(this->Hierarchy, parent);
     // For a centre above the isovalue triangles wind with normals away from it.
     const bool flip = (this->Hierarchy.Sign(parent.Rank) == 0) != this->Mirrored;
     const int level = this->Hierarchy.Domain().Depth() - 1 - parent.LeafScale();
     const DiamondPoints* own = this->Window.At(parent.At.Position);
     const auto& places = this->Places[parent.Type];
-    parent.ForEachLeaf(
-      [&](int half)
+    ForEachBit(TrianglesOf(parent, crossed),
+      [&](int bit)
       {
+        const int half = bit / 4;
         const SurfacePatch& patch = tables::IsosurfacePatches[(crossed >> (4 * half)) & 7U];
+        const std::array<std::uint8_t, 3>& corners = patch.Triangles[bit & 1];
         const auto idOf = [&](int edge)
         {
           const PatchPointPlace& place = places[half].OnEdges[edge];
           return static_cast<Id>(own[place.Distance].Id(place.Bit));
         };
-        for (int i = 0; i < patch.TriangleCount; ++i)
-        {
-          const std::array<std::uint8_t, 3>& corners = patch.Triangles[i];
-          this->Next[0] = idOf(corners[0]);
-          this->Next[1] = idOf(corners[flip ? 2 : 1]);
-          this->Next[2] = idOf(corners[flip ? 1 : 2]);
-          this->Next += 3;
-          *this->NextLevel++ = static_cast<std::int8_t>(level);
-        }
+        this->Next[0] = idOf(corners[0]);
+        this->Next[1] = idOf(corners[flip ? 2 : 1]);
+        this->Next[2] = idOf(corners[flip ? 1 : 2]);
+        this->Next += 3;
+        *this->NextLevel++ = static_cast<std::int8_t>(level);
       });
   }
 
@@ -79,7 +83,8 @@ private:
 
 SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
   : Passes(refined, parallelFor,
-      [&](const LeafParent& parent) { return CountTriangles(refined.Hierarchy(), parent); })
+      [&](const LeafParent& parent)
+      { return PopCount(TrianglesOf(parent, CrossedVertices(refined.Hierarchy(), parent))); })
 {
 }
 
