@@ -199,8 +199,7 @@ private:
     brick.ForEachDiamond(
       [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
       {
-        Slot& slot = this->Slots[refinedRank];
-        slot = this->MakeSlot(finder, place, rank);
+        Slot slot = this->MakeSlot(finder, place, rank);
         slot.First = static_cast<std::uint16_t>(counts.Points);
         counts.Points += PopCount(slot.Points);
         if (slot.LeafChildren != 0)
@@ -208,6 +207,7 @@ private:
           counts.Cells += cellsOf(MakeLeafParent(
             brick, place, rank, slot.LeafChildren, this->Hierarchy().CarryingEdges(rank)));
         }
+        this->Slots[refinedRank] = slot;
       });
     return counts;
   }

@@ -103,7 +103,7 @@ inline constexpr bool ChildrenHaveTwoHalves()
   }
   return true;
 }
-static_assert(ChildrenHaveTwoHalves(), "HalvesOfChildren() gives every child a byte");
+static_assert(ChildrenHaveTwoHalves(), "every child has a byte");
 
 }
 
@@ -131,6 +131,14 @@ inline constexpr HalfWord HalvesOfChildren(std::uint32_t children)
   const std::uint64_t tops =
     ((copies & 0x8040201008040201U) + 0x7f7f7f7f7f7f7f7fU) & 0x8080808080808080U;
   return (tops >> 7) * 0x11U;
+}
+
+/** The children that have one of some half-tetrahedra. */
+inline constexpr std::uint32_t ChildrenOfHalves(HalfWord halves)
+{
+  // Bit 0 of every byte i becomes bit i of the topmost byte.
+  const std::uint64_t bytes = (halves | (halves >> 4)) & 0x0101010101010101U;
+  return static_cast<std::uint32_t>((bytes * 0x0102040810204080U) >> 56);
 }
 
 }

@@ -89,13 +89,10 @@ public:
    *  @param wanted edge mask: children with none of these edges do not count */
   std::uint32_t LeafChildren(const Place& place, std::uint32_t wanted) const
   {
-    const TypeTable& shape = ShapeOf(place.Position);
+    const int type = TypeOf(place.Position);
+    const TypeTable& shape = tables::Types[type];
     const bool isFiner = shape.ChildStep != 0;
-    std::uint32_t leaves = 0;
-    for (int child = 0; child < shape.ChildCount; ++child)
-    {
-      leaves |= static_cast<std::uint32_t>((shape.ChildMasks[child] & wanted) != 0) << child;
-    }
+    std::uint32_t leaves = ChildrenOfHalves(HalvesWithAny(tables::WordsAsListed[type](wanted)));
     if (isFiner && !this->HasFiner)
     {
       return leaves;

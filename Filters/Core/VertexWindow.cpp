@@ -50,7 +50,7 @@ void VertexWindow::Fill(const ExtractionPasses& passes, int scale, int step)
         const std::int64_t index = level.Box.Index({ x, y, z });
         if (index >= 0 && level.Lookup[index] >= 0)
         {
-          this->FillFrom(passes, scale, level.Lookup[index], step);
+          this->FillFrom(passes, { scale, level.Lookup[index] }, 8 * Point{ x, y, z }, step);
         }
       }
     }
@@ -58,16 +58,16 @@ void VertexWindow::Fill(const ExtractionPasses& passes, int scale, int step)
 }
 
 /** Adds those diamonds of a brick that lie in the window. */
-void VertexWindow::FillFrom(const ExtractionPasses& passes, int scale, std::int64_t index, int step)
+void VertexWindow::FillFrom(
+  const ExtractionPasses& passes, const BrickPlace& place, const Point& origin, int step)
 {
-  const BrickLevel& level = passes.Refined().Diamonds().Level(scale);
-  const std::int64_t number = level.FirstNumber + index;
+  const BrickLevel& level = passes.Refined().Diamonds().Level(place.Scale);
+  const std::int64_t number = level.FirstNumber + place.Index;
   if (!passes.HasPoints(number))
   {
     return;
   }
-  const Brick& brick = level.Bricks[index];
-  const Point origin = level.Box.Origin(brick.BoxIndex);
+  const Brick& brick = level.Bricks[place.Index];
   std::array<int, 3> from{};
   std::array<int, 3> to{};
   for (int axis = 0; axis < 3; ++axis)
