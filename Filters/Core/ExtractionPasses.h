@@ -49,7 +49,8 @@ struct DiamondPoints
  *
  * Only bricks with refined diamonds are visited. They are independent: every brick has a range of
  * point ids and of cells of its own, and within it everything is in the order of the diamonds, so
- * order and values of the output do not depend on threads.
+ * order and values of the output do not depend on threads. Counting notes a diamond's points and
+ * those of its children that are leaves; writing asks no more what is refined.
  */
 class ExtractionPasses
 {
@@ -169,6 +170,7 @@ private:
   };
 
   ExtractionPasses(const RefinedSet& refined, const ParallelFor& parallelFor);
+
   /** Calls body(brick) for every brick, in parallel. */
   template <typename Body>
   void ForEachBrick(Body&& body) const
@@ -183,7 +185,8 @@ private:
       });
   }
 
-  /** Whether a brick has nothing to do with the mesh. */
+  /** Whether a brick has nothing to do with the mesh; an interval volume has its inside at all
+   *  scales. */
   bool IsIdle(std::int64_t brick) const
   {
     return this->Set.IsFull() && !this->Hierarchy().Region().IsVolume() &&

@@ -103,8 +103,7 @@ inline std::uint32_t SampledVertices(const Grid& grid, const Place& place, const
   return mask;
 }
 
-/** A brick of a refined set: its diamonds with their ranks among the stored and the refined ones.
- */
+/** A brick of a refined set, whose diamonds have ranks among the stored and the refined ones. */
 class RefinedBrick
 {
 public:
