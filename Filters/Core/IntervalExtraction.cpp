@@ -22,7 +22,7 @@ constexpr int MaximumTetrahedra = 6;
 /** A case of IntervalPatches() with every point listed once. */
 struct PatchTable
 {
-  /** A point: where PatchPointPlaces::ByAge has it, and how many bits after that. */
+  /** A point: where AgePointPlaces has it, and how many bits after that. */
   struct TablePoint
   {
     std::uint8_t Index = 0;
@@ -38,9 +38,8 @@ struct PatchTable
 PatchTable::TablePoint MakeTablePoint(const PatchPoint& point)
 {
   PatchTable::TablePoint result;
-  result.Index = static_cast<std::uint8_t>(point.IsVertex()
-      ? point.Younger()
-      : PatchPointPlaces::EdgeByAge(point.Younger(), point.Older()));
+  result.Index = static_cast<std::uint8_t>(
+    point.IsVertex() ? point.Younger() : EdgeByAge(point.Younger(), point.Older()));
   result.Bits = static_cast<std::uint8_t>(
     DiamondPoints::Isovertex(point.Surface(), 0) - DiamondPoints::Isovertex(0, 0));
   return result;
@@ -132,7 +131,7 @@ public:
     : Hierarchy(hierarchy)
     , Window(window)
     , Tables(AllPatchTables())
-    , Places(PatchPointsOfTypes())
+    , Places(PointsByAge())
     , Mirrored(mirrored)
     , Next(connectivity)
     , NextLevel(levels)
@@ -152,7 +151,7 @@ public:
         std::array<Id, MaximumPoints> ids;
         for (int i = 0; i < patch.PointCount; ++i)
         {
-          const PatchPointPlace& place = places[half].ByAge[patch.Points[i].Index];
+          const PatchPointPlace& place = places[half][patch.Points[i].Index];
           ids[i] = static_cast<Id>(own[place.Distance].Id(place.Bit + patch.Points[i].Bits));
         }
         const bool flip = parent.Shape().HalfTetrahedra[half].OddByAge != this->Mirrored;
@@ -173,7 +172,7 @@ private:
   const IsodiamondHierarchy& Hierarchy;
   const VertexWindow& Window;
   const PatchTables& Tables;
-  const PatchPointTable& Places;
+  const PatchPointTable<AgePointPlaces>& Places;
   bool Mirrored;
   Id* Next;
   std::int8_t* NextLevel;

@@ -18,47 +18,62 @@ PatchPointPlace PlaceOf(const Point& offset, int bit)
   return place;
 }
 
-PatchPointPlaces PlacesOf(const TypeTable& shape, const HalfTetrahedron& half)
+EdgePointPlaces PlacesOnEdges(const TypeTable& shape, const HalfTetrahedron& half)
 {
-  PatchPointPlaces places;
+  EdgePointPlaces places;
   for (int i = 0; i < 3; ++i)
   {
     const OuterEdge& outer = half.OuterEdges[i];
-    places.OnEdges[i] = PlaceOf({ 0, 0, 0 }, DiamondPoints::Isovertex(0, half.Vertices[i]));
-    places.OnEdges[OwnEdgeCount + i] =
+    places[i] = PlaceOf({ 0, 0, 0 }, DiamondPoints::Isovertex(0, half.Vertices[i]));
+    places[OwnEdgeCount + i] =
       PlaceOf(shape.Offsets[outer.OwnerVertex], DiamondPoints::Isovertex(0, outer.OwnerEdge));
   }
-  places.ByAge[0] = PlaceOf({ 0, 0, 0 }, DiamondPoints::Centre);
+  return places;
+}
+
+AgePointPlaces PlacesByAge(const TypeTable& shape, const HalfTetrahedron& half)
+{
+  const EdgePointPlaces onEdges = PlacesOnEdges(shape, half);
+  AgePointPlaces places;
+  places[0] = PlaceOf({ 0, 0, 0 }, DiamondPoints::Centre);
   for (int older = 1; older < 4; ++older)
   {
-    places.ByAge[older] =
-      PlaceOf(shape.Offsets[half.Vertices[half.ByAge[older - 1]]], DiamondPoints::Centre);
+    const int vertex = half.Vertices[half.ByAge[older - 1]];
+    places[older] = PlaceOf(shape.Offsets[vertex], DiamondPoints::Centre);
     for (int younger = 0; younger < older; ++younger)
     {
-      places.ByAge[PatchPointPlaces::EdgeByAge(younger, older)] =
-        places.OnEdges[EdgeBetween(half, younger, older)];
+      places[EdgeByAge(younger, older)] = onEdges[EdgeBetween(half, younger, older)];
     }
   }
   return places;
 }
 
+template <typename Places>
+PatchPointTable<Places> MakeTable(Places (*placesOf)(const TypeTable&, const HalfTetrahedron&))
+{
+  PatchPointTable<Places> table{};
+  for (std::size_t type = 0; type < table.size(); ++type)
+  {
+    const TypeTable& shape = tables::Types[type];
+    for (int half = 0; half < shape.HalfTetrahedronCount; ++half)
+    {
+      table[type][half] = placesOf(shape, shape.HalfTetrahedra[half]);
+    }
+  }
+  return table;
 }
 
-const PatchPointTable& PatchPointsOfTypes()
+}
+
+const PatchPointTable<EdgePointPlaces>& PointsOnEdges()
 {
-  static const PatchPointTable table = []
-  {
-    PatchPointTable all{};
-    for (std::size_t type = 0; type < all.size(); ++type)
-    {
-      const TypeTable& shape = tables::Types[type];
-      for (int half = 0; half < shape.HalfTetrahedronCount; ++half)
-      {
-        all[type][half] = PlacesOf(shape, shape.HalfTetrahedra[half]);
-      }
-    }
-    return all;
-  }();
+  static const PatchPointTable<EdgePointPlaces> table = MakeTable(PlacesOnEdges);
+  return table;
+}
+
+const PatchPointTable<AgePointPlaces>& PointsByAge()
+{
+  static const PatchPointTable<AgePointPlaces> table = MakeTable(PlacesByAge);
   return table;
 }
 

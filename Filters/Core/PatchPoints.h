@@ -22,26 +22,25 @@ struct PatchPointPlace
   std::int16_t Bit = 0;      ///< in DiamondPoints; on an edge, of the isovertex on surface 0
 };
 
-/** All of a half-tetrahedron. */
-struct PatchPointPlaces
+/** On the edges of a half-tetrahedron, numbered as SurfacePatch.h does. */
+using EdgePointPlaces = std::array<PatchPointPlace, 6>;
+
+/** By age, the centre is 0 (see IntervalPatches.h): at the vertices, then on the edges (0, 1),
+ *  (0, 2), (0, 3), (1, 2), (1, 3), (2, 3). */
+using AgePointPlaces = std::array<PatchPointPlace, 10>;
+
+/** The index in AgePointPlaces of the edge between two vertices. */
+inline constexpr int EdgeByAge(int younger, int older)
 {
-  std::array<PatchPointPlace, 6> OnEdges{}; ///< numbered as SurfacePatch.h does
-
-  /** By age, the centre is 0 (see IntervalPatches.h): the vertices, then the edges (0, 1), (0, 2),
-   *  (0, 3), (1, 2), (1, 3), (2, 3). */
-  std::array<PatchPointPlace, 10> ByAge{};
-
-  /** The index in ByAge of the edge between two vertices. */
-  static constexpr int EdgeByAge(int younger, int older)
-  {
-    return 3 + younger + older + (younger > 0 ? 1 : 0);
-  }
-};
+  return 3 + younger + older + (younger > 0 ? 1 : 0);
+}
 
 /** By type of the parent and index of the half-tetrahedron. */
-using PatchPointTable = std::array<std::array<PatchPointPlaces, MaximumHalfTetrahedra>, 64>;
+template <typename Places>
+using PatchPointTable = std::array<std::array<Places, MaximumHalfTetrahedra>, 64>;
 
-const PatchPointTable& PatchPointsOfTypes();
+const PatchPointTable<EdgePointPlaces>& PointsOnEdges();
+const PatchPointTable<AgePointPlaces>& PointsByAge();
 
 }
 

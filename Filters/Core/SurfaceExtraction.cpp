@@ -36,7 +36,7 @@ public:
     Id* connectivity, std::int8_t* levels)
     : Hierarchy(hierarchy)
     , Window(window)
-    , Places(PatchPointsOfTypes())
+    , Places(PointsOnEdges())
     , Mirrored(mirrored)
     , Next(connectivity)
     , NextLevel(levels)
@@ -59,7 +59,7 @@ public:
         const std::array<std::uint8_t, 3>& corners = patch.Triangles[bit & 1];
         const auto idOf = [&](int edge)
         {
-          const PatchPointPlace& place = places[half].OnEdges[edge];
+          const PatchPointPlace& place = places[half][edge];
           return static_cast<Id>(own[place.Distance].Id(place.Bit));
         };
         this->Next[0] = idOf(corners[0]);
@@ -73,7 +73,7 @@ public:
 private:
   const IsodiamondHierarchy& Hierarchy;
   const VertexWindow& Window;
-  const PatchPointTable& Places;
+  const PatchPointTable<EdgePointPlaces>& Places;
   bool Mirrored;
   Id* Next;
   std::int8_t* NextLevel;
