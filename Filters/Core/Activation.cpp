@@ -1,124 +1,301 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Activation.h"
 
+#include <algorithm>
+#include <atomic>
+#include <queue>
+
 namespace isodiamond
 {
 namespace
 {
 
-/** The walk with a falling tolerance. */
-class FallingWalk
+/** The ranks of the parents that a diamond has below scale N. */
+class ParentRanks
 {
 public:
-  FallingWalk(
-    const Grid& grid, const DiamondSet& members, const std::vector<ErrorCode::Type>& triggers)
-    : Domain(grid)
+  /** @param window of bricks of the parents' scale, around the parents */
+  ParentRanks(const BrickLevel& level, const BrickWindow& window, const Place& place)
+  {
+    const TypeTable& shape = ShapeOf(place.Position);
+    for (int i = 0; i < shape.ParentCount; ++i)
+    {
+      const Point parent = ParentPlace(shape, place, i).Position;
+      const std::int32_t index = window.IndexAt(parent);
+      const int z = parent[2] & 7;
+      const int bit = BitOf(parent);
+      if (index >= 0 && level.Bricks[index].Contains(z, bit)) // else it lies outside of the grid
+      {
+        this->Ranks[this->Count++] = level.Bricks[index].Rank(z, bit);
+      }
+    }
+  }
+
+  const std::uint32_t* begin() const { return this->Ranks.data(); }
+  const std::uint32_t* end() const { return this->Ranks.data() + this->Count; }
+
+private:
+  std::array<std::uint32_t, 4> Ranks;
+  int Count = 0;
+};
+
+/** A diamond that a sweep visits. */
+struct Visit
+{
+  std::int64_t BrickIndex = 0; ///< in the list of the level
+  Place Diamond;
+  std::uint32_t Rank = 0;
+  const BrickLevel& ParentLevel;
+  const BrickWindow& ParentWindow;
+
+  /** Takes most of the time. */
+  ParentRanks Parents() const
+  {
+    return ParentRanks(this->ParentLevel, this->ParentWindow, this->Diamond);
+  }
+};
+
+/** A diamond whose code rises. */
+struct Rise
+{
+  ErrorCode::Type Code = 0;
+  Place Diamond;
+
+  bool operator<(const Rise& other) const { return this->Code < other.Code; }
+};
+
+/**
+ * Codes that rise to the least solution.
+ *
+ * A sweep down gives each diamond what it has by its parents alone, one up raises the ancestors.
+ * Only the few diamonds whose parents a sibling's descendants have raised are left then; from them
+ * the paper's own walk goes on, with a falling tolerance.
+ */
+class RisingCodes
+{
+public:
+  RisingCodes(const Grid& grid, const DiamondSet& members, const std::vector<ErrorCode::Type>& own,
+    const ParallelFor& parallelFor)
+    : Depth(grid.Depth())
     , Members(members)
-    , Triggers(triggers)
-    , Thresholds(members.Size(), 0)
-    , Queued(members.Size(), false)
-    , Buckets(ErrorCode::Always + 1)
+    , Own(own)
+    , Parallel(parallelFor)
+    , Codes(members.Size())
   {
   }
 
-  std::vector<ErrorCode::Type> Run()
+  std::vector<ErrorCode::Type> Thresholds()
   {
-    const int rootScale = this->Domain.Depth() - 1;
-    this->Queue(Place{ rootScale, { 1, 1, 1 } });
-    for (this->Current = ErrorCode::Always; this->Current >= ErrorCode::Least; --this->Current)
+    const std::int64_t root = this->Members.Rank({ this->Depth - 1, { 1, 1, 1 } });
+    if (root != DiamondSet::None)
     {
-      std::vector<Place>& bucket = this->Buckets[this->Current];
-      while (!bucket.empty())
-      {
-        const Place place = bucket.back();
-        bucket.pop_back();
-        this->Subdivide(place);
-      }
-      std::vector<Place>().swap(bucket);
+      this->Raise(root, this->Own[root]);
+      this->SweepDown();
+      this->SweepUp();
+      this->FindRising();
+      this->Walk();
     }
-    return std::move(this->Thresholds);
+    return this->Result();
+  }
+
+  std::vector<ErrorCode::Type> Saturated()
+  {
+    std::copy(this->Own.begin(), this->Own.end(), this->Codes.begin());
+    this->SweepUp();
+    return this->Result();
   }
 
 private:
-  /** Puts a diamond of the front where the tolerance will meet its own error. */
-  void Queue(const Place& place)
+  // Diamonds of one class raise parents that they share, in any order: the maximum is the same.
+  ErrorCode::Type Code(std::int64_t rank) const
   {
-    const std::int64_t rank = this->Members.Rank(place);
-    if (rank == DiamondSet::None || this->Queued[rank] || this->Triggers[rank] == 0)
-    {
-      return;
-    }
-    this->Queued[rank] = true;
-    const ErrorCode::Type code = this->Triggers[rank];
-    this->Buckets[code < this->Current ? code : this->Current].push_back(place);
+    return this->Codes[rank].load(std::memory_order_relaxed);
   }
 
-  /** Subdivides a diamond after its parents, at the current tolerance. */
-  void Subdivide(const Place& first)
+  void Raise(std::int64_t rank, ErrorCode::Type code)
   {
-    this->Stack.assign(1, first);
-    while (!this->Stack.empty())
+    ErrorCode::Type current = this->Code(rank);
+    while (current < code &&
+      !this->Codes[rank].compare_exchange_weak(current, code, std::memory_order_relaxed))
     {
-      const Place place = this->Stack.back();
-      const std::int64_t rank = this->Members.Rank(place);
-      const TypeTable& shape = ShapeOf(place.Position);
-      if (this->Thresholds[rank] != 0 || !this->PushMissingParents(place, shape))
+    }
+  }
+
+  /** The code that a diamond has by its own error, once a parent is subdivided. */
+  ErrorCode::Type CodeBelowParents(const Visit& visit) const
+  {
+    ErrorCode::Type highest = 0;
+    for (const std::uint32_t parent : visit.Parents())
+    {
+      highest = std::max(highest, this->Code(parent));
+    }
+    return std::min(highest, this->Own[visit.Rank]);
+  }
+
+  /** Calls body(visit) for the members of one scale and class. */
+  template <typename Body>
+  void ForEachOfClass(int scale, int diamondClass, const Body& body) const
+  {
+    const int step = diamondClass == 0 ? 1 : 0;
+    if (scale + step == this->Depth)
+    {
+      return; // the root: its parents, the corners of the base cube, are always subdivided
+    }
+    const BrickLevel& level = this->Members.Level(scale);
+    const BrickLevel& parentLevel = this->Members.Level(scale + step);
+    this->Parallel(static_cast<std::int64_t>(level.Bricks.size()), 16,
+      [&](std::int64_t begin, std::int64_t end)
       {
-        this->Stack.pop_back();
-        if (this->Thresholds[rank] == 0)
+        for (std::int64_t index = begin; index < end; ++index)
         {
-          this->Thresholds[rank] = this->Current;
-          this->QueueChildren(place, shape);
+          const Brick& brick = level.Bricks[index];
+          const Point origin = level.Box.Origin(brick.BoxIndex);
+          const BrickWindow window(
+            parentLevel, Point{ origin[0] >> step, origin[1] >> step, origin[2] >> step });
+          for (int z = 0; z < 8; ++z)
+          {
+            ForEachBit(brick.Occupancy[z] & tables::ClassBits[diamondClass][z & 1],
+              [&](int bit)
+              {
+                const Place place{ scale, PositionOf(origin, z, bit) };
+                body(Visit{ index, place, brick.Rank(z, bit), parentLevel, window });
+              });
+          }
+        }
+      });
+  }
+
+  /** From the old to the young: parents are of an older class or of the next coarser scale. */
+  void SweepDown()
+  {
+    for (int scale = this->Depth - 1; scale >= 0; --scale)
+    {
+      for (int diamondClass = 0; diamondClass < 3; ++diamondClass)
+      {
+        this->ForEachOfClass(scale, diamondClass,
+          [&](const Visit& visit)
+          {
+            if (this->Own[visit.Rank] != 0)
+            {
+              this->Raise(visit.Rank, this->CodeBelowParents(visit));
+            }
+          });
+      }
+    }
+  }
+
+  /** From the young to the old. */
+  void SweepUp()
+  {
+    for (int scale = 0; scale < this->Depth; ++scale)
+    {
+      for (int diamondClass = 2; diamondClass >= 0; --diamondClass)
+      {
+        this->ForEachOfClass(scale, diamondClass,
+          [&](const Visit& visit)
+          {
+            const ErrorCode::Type code = this->Code(visit.Rank);
+            if (code != 0)
+            {
+              for (const std::uint32_t parent : visit.Parents())
+              {
+                this->Raise(parent, code);
+              }
+            }
+          });
+      }
+    }
+  }
+
+  /** Queues the diamonds that do not have yet what they have by their parents. */
+  void FindRising()
+  {
+    for (int scale = 0; scale < this->Depth; ++scale)
+    {
+      std::vector<std::vector<Rise>> found(this->Members.Level(scale).Bricks.size());
+      for (int diamondClass = 0; diamondClass < 3; ++diamondClass)
+      {
+        this->ForEachOfClass(scale, diamondClass,
+          [&](const Visit& visit)
+          {
+            const ErrorCode::Type code = this->Code(visit.Rank);
+            if (code < this->Own[visit.Rank] && code < this->CodeBelowParents(visit))
+            {
+              found[visit.BrickIndex].push_back({ this->CodeBelowParents(visit), visit.Diamond });
+            }
+          });
+      }
+      for (const std::vector<Rise>& ofBrick : found)
+      {
+        for (const Rise& rise : ofBrick)
+        {
+          this->Queue.push(rise);
         }
       }
     }
   }
 
-  bool PushMissingParents(const Place& place, const TypeTable& shape)
+  void Walk()
   {
-    bool missing = false;
-    for (int i = 0; i < shape.ParentCount; ++i)
+    while (!this->Queue.empty())
     {
-      const Place parent = ParentPlace(shape, place, i);
-      if (parent.Scale < this->Domain.Depth() &&
-        this->Domain.IsValid(parent.Position, parent.Scale) &&
-        this->Thresholds[this->Members.Rank(parent)] == 0)
+      const Rise rise = this->Queue.top();
+      this->Queue.pop();
+      const std::int64_t rank = this->Members.Rank(rise.Diamond);
+      if (this->Code(rank) >= rise.Code)
       {
-        this->Stack.push_back(parent);
-        missing = true;
+        continue;
       }
-    }
-    return missing;
-  }
-
-  void QueueChildren(const Place& place, const TypeTable& shape)
-  {
-    for (int i = 0; i < shape.ChildCount; ++i)
-    {
-      const Place child = ChildPlace(shape, place, i);
-      if (child.Scale >= 0)
+      this->Raise(rank, rise.Code);
+      const TypeTable& shape = ShapeOf(rise.Diamond.Position);
+      for (int i = 0; i < shape.ParentCount; ++i)
       {
-        this->Queue(child);
+        this->Reach(ParentPlace(shape, rise.Diamond, i), rise.Code, true);
+      }
+      for (int i = 0; i < shape.ChildCount; ++i)
+      {
+        this->Reach(ChildPlace(shape, rise.Diamond, i), rise.Code, false);
       }
     }
   }
 
-  const Grid& Domain;
+  /** Queues a parent, which closure needs, or a child, which has to be refined by its own error. */
+  void Reach(const Place& place, ErrorCode::Type code, bool needed)
+  {
+    const bool isDiamond = place.Scale >= 0 && place.Scale < this->Depth;
+    const std::int64_t rank = isDiamond ? this->Members.Rank(place) : DiamondSet::None;
+    if (rank != DiamondSet::None)
+    {
+      code = needed ? code : std::min(code, this->Own[rank]);
+      if (this->Code(rank) < code)
+      {
+        this->Queue.push({ code, place });
+      }
+    }
+  }
+
+  std::vector<ErrorCode::Type> Result() const { return { this->Codes.begin(), this->Codes.end() }; }
+
+  int Depth;
   const DiamondSet& Members;
-  const std::vector<ErrorCode::Type>& Triggers;
-  std::vector<ErrorCode::Type> Thresholds;
-  std::vector<bool> Queued;
-  std::vector<std::vector<Place>> Buckets;
-  std::vector<Place> Stack;
-  ErrorCode::Type Current = ErrorCode::Always;
+  const std::vector<ErrorCode::Type>& Own;
+  const ParallelFor& Parallel;
+  std::vector<std::atomic<ErrorCode::Type>> Codes;
+  std::priority_queue<Rise> Queue;
 };
 
 }
 
-std::vector<ErrorCode::Type> ActivationThresholds(
-  const Grid& grid, const DiamondSet& members, const std::vector<ErrorCode::Type>& triggers)
+std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
+  const std::vector<ErrorCode::Type>& triggers, const ParallelFor& parallelFor)
 {
-  return FallingWalk(grid, members, triggers).Run();
+  return RisingCodes(grid, members, triggers, parallelFor).Thresholds();
+}
+
+std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
+  const std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor)
+{
+  return RisingCodes(grid, members, codes, parallelFor).Saturated();
 }
 
 }

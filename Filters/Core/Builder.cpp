@@ -107,35 +107,6 @@ DiamondCodes DistanceTriggers(const Source& source, const IsodiamondHierarchy& r
   return triggers;
 }
 
-/** Raises the codes of all ancestors: the interior tolerance subdivides whatever exceeds it. */
-void SaturateUpward(
-  const Grid& grid, const DiamondSet& members, std::vector<ErrorCode::Type>& codes)
-{
-  for (int scale = 0; scale < grid.Depth(); ++scale)
-  {
-    for (int diamondClass = 2; diamondClass >= 0; --diamondClass)
-    {
-      for (const Brick& brick : members.Level(scale).Bricks)
-      {
-        members.ForEachInBrick(scale, brick,
-          [&](const Place& place, std::uint32_t rank)
-          {
-            const TypeTable& shape = ShapeOf(place.Position);
-            for (int i = 0; shape.DiamondClass == diamondClass && i < shape.ParentCount; ++i)
-            {
-              const Place parent = ParentPlace(shape, place, i);
-              if (parent.Scale < grid.Depth() && grid.IsValid(parent.Position, parent.Scale))
-              {
-                ErrorCode::Type& code = codes[members.Rank(parent)];
-                code = std::max(code, codes[rank]);
-              }
-            }
-          });
-      }
-    }
-  }
-}
-
 /** Removes the relevant diamonds from an encoding. They have no isovertices and no values inside,
  *  so these arrays stay as they are. */
 void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classification& kinds)
@@ -218,7 +189,7 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
     ? FieldTriggers(source, region, members, refineInterior, parallelFor)
     : DistanceTriggers(
         source, IsodiamondHierarchy(encoding, parallelFor), options, refineInterior, parallelFor);
-  codes.Surface = ActivationThresholds(grid, members, codes.Surface);
+  codes.Surface = ActivationThresholds(grid, members, codes.Surface, parallelFor);
   std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
   for (std::int64_t rank = 0; rank < members.Size(); ++rank)
   {
@@ -227,7 +198,8 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
   }
   if (refineInterior)
   {
-    SaturateUpward(grid, members, codes.Interior);
+    // The interior tolerance subdivides whatever exceeds it, with the ancestors.
+    codes.Interior = SaturateUpward(grid, members, codes.Interior, parallelFor);
     std::fill_n(codes.Interior.begin(), 8, ErrorCode::Always);
     encoding.Arrays.InteriorCodes = std::move(codes.Interior);
   }

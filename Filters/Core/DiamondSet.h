@@ -82,7 +82,7 @@ inline Point BrickOf(const Point& position)
   return { position[0] >> 3, position[1] >> 3, position[2] >> 3 };
 }
 
-inline int BitOf(const Point& position)
+inline constexpr int BitOf(const Point& position)
 {
   return 8 * (position[1] & 7) + (position[0] & 7);
 }
@@ -91,6 +91,28 @@ inline int BitOf(const Point& position)
 inline Point PositionOf(const Point& origin, int z, int bit)
 {
   return { origin[0] + (bit & 7), origin[1] + (bit >> 3), origin[2] + z };
+}
+
+namespace tables
+{
+
+inline constexpr std::array<std::array<std::uint64_t, 2>, 3> MakeClassBits()
+{
+  std::array<std::array<std::uint64_t, 2>, 3> bits{};
+  for (int code = 0; code < 128; ++code)
+  {
+    const Point position = { code & 7, (code >> 3) & 7, code >> 6 };
+    if (const int parity = Parity(position); parity != 0)
+    {
+      bits[Parities[parity].DiamondClass][position[2]] |= std::uint64_t{ 1 } << BitOf(position);
+    }
+  }
+  return bits;
+}
+
+/** By class, then by parity of z: the bits of a brick's word z that stand for diamonds. */
+inline constexpr std::array<std::array<std::uint64_t, 2>, 3> ClassBits = MakeClassBits();
+
 }
 
 /** A set of diamonds that grows, without ranks. */
@@ -220,13 +242,19 @@ struct BrickLevel
   }
 };
 
-/** A brick and its 26 neighbours: where passes look from diamonds of one brick to others of the
- *  same scale, without a search. */
+/** A brick and its 26 neighbours: where passes look from diamonds of one brick to others near
+ *  them, without a search. */
 class BrickWindow
 {
 public:
   BrickWindow(const BrickLevel& level, const Brick& brick)
-    : Origin(level.Box.Origin(brick.BoxIndex))
+    : BrickWindow(level, level.Box.Origin(brick.BoxIndex))
+  {
+  }
+
+  /** @param position any of the middle brick, which need not be there */
+  BrickWindow(const BrickLevel& level, const Point& position)
+    : Origin(8 * BrickOf(position))
   {
     for (int i = 0; i < 27; ++i)
     {

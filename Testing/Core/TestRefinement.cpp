@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Refined sets against the reference's walk and its smallest closed set, diamond by diamond.
 #include "Activation.h"
+#include "Classification.h"
 #include "CoreTestTools.h"
 
 #include "ReferenceMinimal.h"
@@ -122,7 +123,8 @@ TEST(Refinement, FollowsArbitraryCriteria)
         const int i = oracle.Hierarchy.Find(Centre(place));
         triggers[rank] = oracle.Crossed[i] ? static_cast<ErrorCode::Type>(oracle.Errors[i]) : 0;
       });
-    const std::vector<ErrorCode::Type> thresholds = ActivationThresholds(grid, members, triggers);
+    const std::vector<ErrorCode::Type> thresholds =
+      ActivationThresholds(grid, members, triggers, test::ThreadedFor(3));
     for (const int accepted : { 0, 1, 1000, 4000, 8000, 12000, 16000, ErrorCode::Always - 1 })
     {
       const reference::DiamondSet expected = oracle.Refine(static_cast<ErrorCode::Type>(accepted));
@@ -132,6 +134,54 @@ TEST(Refinement, FollowsArbitraryCriteria)
             thresholds[rank] > accepted, bool(expected[oracle.Hierarchy.Find(Centre(place))]));
         });
     }
+  }
+}
+
+TEST(Refinement, ThresholdsAreTheLeastSolution)
+{
+  // Random triggers over several bricks a scale; plain iteration of the definition.
+  std::mt19937 random(12);
+  for (const test::Field& field :
+    { test::SparseField({ 33, 33, 33 }, 6), test::NoiseField({ 40, 21, 28 }, 7) })
+  {
+    SCOPED_TRACE(field.Name);
+    const Grid grid(field.Dims);
+    const SignLattice signs(grid, field.View(), field.Isovalue, SerialFor);
+    const DiamondSet members(grid, Classify(grid, signs, SerialFor).Members);
+    std::vector<ErrorCode::Type> triggers(members.Size());
+    for (ErrorCode::Type& trigger : triggers)
+    {
+      trigger = random() % 4 == 0 ? 0 : 1 + random() % ErrorCode::Always;
+    }
+    const std::int64_t root = members.Rank({ grid.Depth() - 1, { 1, 1, 1 } });
+    triggers[root] = ErrorCode::Always;
+    std::vector<ErrorCode::Type> expected(members.Size(), 0);
+    expected[root] = triggers[root];
+    for (bool changed = true; changed;)
+    {
+      changed = false;
+      members.ForEach(
+        [&](const Place& place, std::uint32_t rank)
+        {
+          const TypeTable& shape = ShapeOf(place.Position);
+          for (int i = 0; i < shape.ParentCount; ++i)
+          {
+            const Place parent = ParentPlace(shape, place, i);
+            const std::int64_t above =
+              parent.Scale < grid.Depth() ? members.Rank(parent) : DiamondSet::None;
+            if (above == DiamondSet::None)
+            {
+              continue;
+            }
+            const ErrorCode::Type down = std::min(triggers[rank], expected[above]);
+            changed = changed || expected[rank] < down || expected[above] < expected[rank];
+            expected[rank] = std::max(expected[rank], down);
+            expected[above] = std::max(expected[above], expected[rank]);
+          }
+        });
+    }
+    EXPECT_EQ(ActivationThresholds(grid, members, triggers, SerialFor), expected);
+    EXPECT_EQ(ActivationThresholds(grid, members, triggers, test::ThreadedFor(3)), expected);
   }
 }
 
