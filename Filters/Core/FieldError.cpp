@@ -2,6 +2,7 @@
 #include "FieldError.h"
 
 #include "Interpolant.h"
+#include "MidpointOrder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -333,102 +334,48 @@ private:
 namespace
 {
 
-/** A lattice point in the middle of an edge, and the edge's ends, as indices of samples. */
-struct EdgeMiddle
-{
-  std::uint8_t Middle = 0;
-  std::array<std::uint8_t, 2> Ends{};
-};
-
-/**
- * A diamond of scale 0. Its domain has no lattice points but its vertices, where the interpolant is
- * exact, and the middles of its edges, where it is the mean of the ends. 7 of 8 diamonds are of
- * this scale.
- */
-struct FinestShape
-{
-  std::vector<Point> Points; ///< all lattice points of the domain, as offsets from the centre
-  std::vector<EdgeMiddle> Middles;
-
-  FinestShape() = default;
-  explicit FinestShape(const TypeTable& type)
-  {
-    if (!type.Valid)
-    {
-      return;
-    }
-    this->Points.assign(type.Offsets.begin(), type.Offsets.begin() + type.VertexCount);
-    this->AddEdge(type.Spine[0], type.Spine[1]);
-    for (int i = 0; i < type.HalfTetrahedronCount; ++i)
-    {
-      const std::array<std::uint8_t, 3>& v = type.HalfTetrahedra[i].Vertices;
-      this->AddEdge(v[0], v[1]);
-      this->AddEdge(v[1], v[2]);
-      this->AddEdge(v[2], v[0]);
-    }
-  }
-
-private:
-  void AddEdge(std::uint8_t a, std::uint8_t b)
-  {
-    const Point sum = this->Points[a] + this->Points[b];
-    const Point middle = { sum[0] / 2, sum[1] / 2, sum[2] / 2 };
-    const bool isLatticePoint = 2 * middle == sum;
-    if (isLatticePoint &&
-      std::find(this->Points.begin(), this->Points.end(), middle) == this->Points.end())
-    {
-      this->Middles.push_back({ static_cast<std::uint8_t>(this->Points.size()), { a, b } });
-      this->Points.push_back(middle);
-    }
-  }
-};
-
-const FinestShape& FinestShapeOf(const Point& position)
-{
-  static const std::array<FinestShape, 64> shapes = []
-  {
-    std::array<FinestShape, 64> all;
-    for (int type = 0; type < 64; ++type)
-    {
-      all[type] = FinestShape(tables::Types[type]);
-    }
-    return all;
-  }();
-  return shapes[TypeOf(position)];
-}
-
-/** The summary of a diamond of scale 0 that lies inside the grid with all of its vertices. */
+/** The summary of a small diamond that lies inside the grid with all of its vertices. */
 template <typename T>
-DomainSummary SummarizeFinest(const SampleView<T>& samples, const Point& centre)
+DomainSummary SummarizeSmall(const SampleView<T>& samples, const Place& place)
 {
-  const FinestShape& shape = FinestShapeOf(centre);
-  const T* middle = samples.Pointer() + samples.Index(centre);
+  const MidpointOrder& order = MidpointOrder::Of(place);
+  const T* centre = samples.Pointer() + samples.Index(Centre(place));
   const std::int64_t row = samples.Dimensions()[0];
   const std::int64_t slice = row * samples.Dimensions()[1];
-  std::array<double, 27> values;
+  std::array<double, MidpointOrder::MaximumCount> interpolated;
   DomainSummary summary{ 0.0, { Infinity, -Infinity } };
   double invalid = 0.0;
-  for (std::size_t i = 0; i < shape.Points.size(); ++i)
+  const auto add = [&](const MidpointOrder::Entry& entry)
   {
-    const Point& offset = shape.Points[i];
-    const double value =
-      static_cast<double>(middle[offset[0] + offset[1] * row + offset[2] * slice]);
-    values[i] = value;
+    const auto value = static_cast<double>(
+      centre[entry.Offset[0] + entry.Offset[1] * row + entry.Offset[2] * slice]);
     summary.Range.Minimum = value < summary.Range.Minimum ? value : summary.Range.Minimum;
     summary.Range.Maximum = value > summary.Range.Maximum ? value : summary.Range.Maximum;
     invalid += value - value;
-  }
-  for (const EdgeMiddle& edge : shape.Middles)
+    return value;
+  };
+  const std::size_t vertexCount = order.VertexCount();
+  for (std::size_t i = 0; i < vertexCount; ++i)
   {
-    const double mean = 0.5 * (values[edge.Ends[0]] + values[edge.Ends[1]]);
-    const double error = std::fabs(values[edge.Middle] - mean);
+    interpolated[i] = add(order.Entries()[i]);
+  }
+  const std::size_t count = order.Entries().size();
+  for (std::size_t i = vertexCount; i < count; ++i)
+  {
+    const MidpointOrder::Entry& entry = order.Entries()[i];
+    const double mean = 0.5 * (interpolated[entry.Ends[0]] + interpolated[entry.Ends[1]]);
+    interpolated[i] = mean;
+    const double error = std::fabs(add(entry) - mean);
     summary.Error = error > summary.Error ? error : summary.Error;
   }
   if (!(invalid == 0.0)) // infinite samples and NaN leave a NaN here
   {
     summary.Error = Infinity;
     CountNaN(summary.Range,
-      std::any_of(values.begin(), values.begin() + shape.Points.size(), IsNaN<double>));
+      std::any_of(order.Entries().begin(), order.Entries().end(),
+        [&](const MidpointOrder::Entry& entry) {
+          return IsNaN(centre[entry.Offset[0] + entry.Offset[1] * row + entry.Offset[2] * slice]);
+        }));
   }
   return summary;
 }
@@ -457,10 +404,13 @@ bool HasAllVerticesInside(
 
 DomainSummary SummarizeDomain(const Grid& grid, const AnySamples& samples, const Place& place)
 {
-  const bool isFinest = place.Scale == 0 && grid.IsSampled(place.Position + Point{ 1, 1, 1 }) &&
-    grid.IsSampled(place.Position + Point{ -1, -1, -1 });
+  const int half = 1 << place.Scale;
+  const Point centre = Centre(place);
+  const bool isSmall = place.Scale <= MidpointOrder::MaximumScale &&
+    grid.IsSampled(centre + Point{ half, half, half }) &&
+    grid.IsSampled(centre + Point{ -half, -half, -half });
   return std::visit([&](const auto& view)
-    { return isFinest ? SummarizeFinest(view, place.Position) : Summarize(grid, view, place); },
+    { return isSmall ? SummarizeSmall(view, place) : Summarize(grid, view, place); },
     samples);
 }
 
