@@ -2,24 +2,13 @@
 #ifndef isodiamond_FieldError_h
 #define isodiamond_FieldError_h
 
-#include "BlockRanges.h"
+#include "BlockFits.h"
 #include "DiamondTables.h"
+#include "DomainSummary.h"
 #include "Isoregion.h"
 
 namespace isodiamond
 {
-
-/** What the samples in a diamond's closed domain (the union of its tetrahedra) say. */
-struct DomainSummary
-{
-  /** max |F - linear interpolation| over the lattice points of the domain, in field units;
-   *  infinite where the interpolant is undefined: the diamond sticks out of the grid, or a sample
-   *  of the domain is not finite. Paper, section 4.2. */
-  double Error = 0.0;
-  /** Range of the sampled lattice points of the domain; the minimum is NaN if one of them is.
-   *  Without any the minimum is the greater one. */
-  ValueRange Range;
-};
 
 /**
  * Whether a diamond's own error counts: a surface crosses its domain, or it holds volume and
@@ -36,10 +25,10 @@ inline bool IsTriggered(
 bool HasAllVerticesInside(
   const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place);
 
-/** Visits every sampled lattice point of one diamond's domain. */
-DomainSummary SummarizeDomain(const Grid& grid, const AnySamples& samples, const Place& place);
+/** The summary of a diamond of at most MidpointOrder::MaximumScale. */
+DomainSummary SummarizeSmallDomain(const Grid& grid, const AnySamples& samples, const Place& place);
 
-/** The same for many diamonds of one field, without visiting what cannot matter. */
+/** The summaries of a field's diamonds of all scales. */
 class FieldErrors
 {
 public:
@@ -51,7 +40,7 @@ public:
 private:
   const Grid& Domain;
   const AnySamples& Samples;
-  BlockRanges Ranges;
+  BlockFits Fits;
 };
 
 }

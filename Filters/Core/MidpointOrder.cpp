@@ -52,8 +52,7 @@ public:
   void Bisect(const std::array<std::uint16_t, 4>& corners)
   {
     std::array<int, 2> longest = { 0, 1 };
-    for (const std::array<int, 2>& edge : { std::array{ 0, 2 }, std::array{ 0, 3 },
-           std::array{ 1, 2 }, std::array{ 1, 3 }, std::array{ 2, 3 } })
+    for (const std::array<int, 2>& edge : TetrahedronEdges)
     {
       longest = this->Length(corners, edge) > this->Length(corners, longest) ? edge : longest;
     }

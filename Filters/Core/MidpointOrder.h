@@ -9,30 +9,34 @@
 namespace isodiamond
 {
 
+/** The edges of a tetrahedron, as pairs of corners. */
+inline constexpr std::array<std::array<int, 2>, 6> TetrahedronEdges = { { { 0, 1 }, { 0, 2 },
+  { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } } };
+
 /**
- * The lattice points of a small diamond's domain, each after two points whose midpoint it is.
+ * The lattice points of a small diamond's domain, each after two others in whose middle it lies.
  *
- * Bisecting the tetrahedra again and again meets every lattice point as the middle of an edge that
- * lies in one of them. There the diamond's interpolant is the mean of its values at the ends, so
- * that walking along the list gives all its values at the cost of an addition each.
+ * Bisecting the diamond's tetrahedra again and again meets all of them, each as the middle of an
+ * edge inside of one tetrahedron. There the diamond's interpolant is the mean of its values at the
+ * edge's ends: along the list, all its values cost an addition each.
  */
 class MidpointOrder
 {
 public:
-  /** Largest scale with a table. */
   static constexpr int MaximumScale = 3;
-
-  static constexpr int MaximumCount = 4913;
+  /** Points of the largest domain, a cube. */
+  static constexpr int MaximumSize = 17 * 17 * 17;
 
   struct Entry
   {
     std::array<std::int8_t, 3> Offset{}; ///< from the central vertex
-    std::array<std::uint16_t, 2> Ends{}; ///< indices of earlier entries
+    std::array<std::uint16_t, 2> Ends{}; ///< indices of earlier entries; void for vertices
   };
 
-  /** The table of a diamond's shape and scale, the diamond's vertices first. */
+  /** The order of a diamond of at most the maximum scale. */
   static const MidpointOrder& Of(const Place& place);
 
+  /** The diamond's vertices, which come first. */
   int VertexCount() const { return this->Vertices; }
   const std::vector<Entry>& Entries() const { return this->List; }
 

@@ -206,7 +206,7 @@ ValueRange ScalarHierarchy::Range(const Place& place) const
 {
   if (place.Scale == 0)
   {
-    return SummarizeDomain(this->TheGrid, this->Values, place).Range;
+    return SummarizeSmallDomain(this->TheGrid, this->Values, place).Range;
   }
   const std::int64_t offset = this->Offset(place);
   const auto read = [offset](const AnySamples& values)
