@@ -4,7 +4,7 @@
 
 #include "BlockFits.h"
 #include "DomainSummary.h"
-#include "MidpointOrder.h"
+#include "PathTetrahedron.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,13 +37,29 @@ public:
     , TopLevel(place.Scale - LeastScale)
     , Sums(grid.SticksOut(place.Position, place.Scale) ? SummaryBuilder::Infinity : 0.0)
   {
-    this->CutDiamond(place);
+    const TypeTable& shape = ShapeOf(place.Position);
+    std::array<Corner, MaximumVertices> vertices;
+    for (int i = 0; i < shape.VertexCount; ++i)
+    {
+      const Point vertex = (1 << place.Scale) * (place.Position + shape.Offsets[i]);
+      vertices[i] = { vertex, grid.IsSampled(vertex) ? samples(vertex) : 0.0 };
+    }
+    CutIntoPaths(shape, vertices, MiddleCorner,
+      [&](const PathTetrahedron<Corner>& path)
+      {
+        Part root;
+        root.Path = path;
+        if (this->FindBound(root, this->TopLevel))
+        {
+          this->Roots.push_back(root);
+        }
+      });
   }
 
   DomainSummary Run()
   {
     std::sort(this->Roots.begin(), this->Roots.end(), HasGreaterBound);
-    for (const Tetrahedron& root : this->Roots)
+    for (const Part& root : this->Roots)
     {
       this->Search(root, this->TopLevel);
     }
@@ -53,200 +69,106 @@ public:
 private:
   static constexpr int FinestEdge = BlockFits::FinestEdge;
 
-  struct Tetrahedron
+  struct Corner
   {
-    std::array<Point, 4> Corners{}; ///< of class 0: along the path
-    std::array<double, 4> Values{}; ///< the interpolant's
-    const BlockFit* Cube = nullptr; ///< the samples around it
-    double Bound = 0.0;             ///< of the error
+    Point Position{};
+    double Value = 0.0; ///< the interpolant's
   };
 
-  static bool HasGreaterBound(const Tetrahedron& a, const Tetrahedron& b)
+  static Corner MiddleCorner(const Corner& a, const Corner& b)
   {
-    return a.Bound > b.Bound;
+    return { MiddleOf(a.Position, b.Position), 0.5 * (a.Value + b.Value) };
   }
 
-  double ValueAt(const Point& point) const
+  /** A tetrahedron of the domain in a cube with a fit. */
+  struct Part
   {
-    return this->Domain.IsSampled(point) ? this->Samples(point) : 0.0;
-  }
+    PathTetrahedron<Corner> Path{};
+    const BlockFit* Cube = nullptr;
+    double Bound = 0.0; ///< of the error
+  };
 
-  /** Cuts the diamond's tetrahedra into those of class 0. */
-  void CutDiamond(const Place& place)
-  {
-    const TypeTable& shape = ShapeOf(place.Position);
-    const Point centre = Centre(place);
-    const auto vertex = [&](int i) { return centre + (1 << place.Scale) * shape.Offsets[i]; };
-    const double middle =
-      0.5 * (this->ValueAt(vertex(shape.Spine[0])) + this->ValueAt(vertex(shape.Spine[1])));
-    for (int i = 0; i < shape.HalfTetrahedronCount; ++i)
-    {
-      Tetrahedron half;
-      half.Corners[3] = centre;
-      half.Values[3] = middle;
-      for (int j = 0; j < 3; ++j)
-      {
-        half.Corners[j] = vertex(shape.HalfTetrahedra[i].Vertices[j]);
-        half.Values[j] = this->ValueAt(half.Corners[j]);
-      }
-      this->AddRoots(half, 2 - shape.DiamondClass);
-    }
-  }
-
-  /** Bisects the longest edge a number of times, then puts the corners in the path's order. */
-  void AddRoots(Tetrahedron tetrahedron, int bisections)
-  {
-    std::array<int, 2> longest = { 0, 1 };
-    for (const std::array<int, 2>& edge : TetrahedronEdges)
-    {
-      longest =
-        SquaredLength(tetrahedron, edge) > SquaredLength(tetrahedron, longest) ? edge : longest;
-    }
-    Swap(tetrahedron, 0, longest[0]);
-    Swap(tetrahedron, 3, longest[1]);
-    if (bisections > 0)
-    {
-      for (const Tetrahedron& half : Bisect(tetrahedron, 3))
-      {
-        this->AddRoots(half, bisections - 1);
-      }
-      return;
-    }
-    if (SquaredLength(tetrahedron, { 0, 1 }) > SquaredLength(tetrahedron, { 0, 2 }))
-    {
-      Swap(tetrahedron, 1, 2);
-    }
-    if (this->FindBound(tetrahedron, this->TopLevel))
-    {
-      this->Roots.push_back(tetrahedron);
-    }
-  }
-
-  static std::int64_t SquaredLength(const Tetrahedron& tetrahedron, const std::array<int, 2>& edge)
-  {
-    std::int64_t sum = 0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const std::int64_t difference =
-        tetrahedron.Corners[edge[0]][axis] - tetrahedron.Corners[edge[1]][axis];
-      sum += difference * difference;
-    }
-    return sum;
-  }
-
-  static void Swap(Tetrahedron& tetrahedron, int i, int j)
-  {
-    std::swap(tetrahedron.Corners[i], tetrahedron.Corners[j]);
-    std::swap(tetrahedron.Values[i], tetrahedron.Values[j]);
-  }
-
-  /** Bisects the edge between the first and another corner. Of a path, bisecting the edge to the
-   *  last corner, then to the second last and to the second, gives eight paths again (Maubach). */
-  static std::array<Tetrahedron, 2> Bisect(const Tetrahedron& whole, int last)
-  {
-    const Point sum = whole.Corners[0] + whole.Corners[last];
-    const Point middle = { sum[0] / 2, sum[1] / 2, sum[2] / 2 };
-    const double value = 0.5 * (whole.Values[0] + whole.Values[last]);
-    std::array<Tetrahedron, 2> halves = { whole, whole };
-    for (int i = 0; i < last; ++i)
-    {
-      halves[1].Corners[i] = whole.Corners[i + 1];
-      halves[1].Values[i] = whole.Values[i + 1];
-    }
-    for (Tetrahedron& half : halves)
-    {
-      half.Corners[last] = middle;
-      half.Values[last] = value;
-    }
-    return halves;
-  }
+  static bool HasGreaterBound(const Part& a, const Part& b) { return a.Bound > b.Bound; }
 
   /** Finds a tetrahedron's cube and bound. @return whether the cube meets the grid. */
-  bool FindBound(Tetrahedron& tetrahedron, int level) const
+  bool FindBound(Part& part, int level) const
   {
     Point first{};
     Point cube{};
     for (int axis = 0; axis < 3; ++axis)
     {
-      first[axis] = std::min(tetrahedron.Corners[0][axis], tetrahedron.Corners[3][axis]);
+      first[axis] = std::min(part.Path[0].Position[axis], part.Path[3].Position[axis]);
       cube[axis] = first[axis] / (FinestEdge << level);
       if (first[axis] < 0 || first[axis] >= this->Domain.Last(axis))
       {
         return false;
       }
     }
-    tetrahedron.Cube = &this->Fits(level, cube);
+    part.Cube = &this->Fits(level, cube);
     double apart = 0.0;
     for (int i = 0; i < 4; ++i)
     {
-      const double fitted = tetrahedron.Cube->At(tetrahedron.Corners[i] + -1 * first);
-      apart = std::max(apart, std::fabs(fitted - tetrahedron.Values[i]));
+      const double fitted = part.Cube->At(part.Path[i].Position + -1 * first);
+      apart = std::max(apart, std::fabs(fitted - part.Path[i].Value));
     }
-    tetrahedron.Bound = apart + tetrahedron.Cube->Residual;
+    part.Bound = apart + part.Cube->Residual;
     return true;
   }
 
   /** Looks into a tetrahedron if that can matter. */
-  void Search(const Tetrahedron& tetrahedron, int level)
+  void Search(const Part& part, int level)
   {
-    const BlockFit& cube = *tetrahedron.Cube;
-    if (cube.IsFinite() && !this->Sums.CanGrow(cube.Range, tetrahedron.Bound))
+    const BlockFit& cube = *part.Cube;
+    if (cube.IsFinite() && !this->Sums.CanGrow(cube.Range, part.Bound))
     {
       return;
     }
     if (level == 0)
     {
-      this->Visit(tetrahedron);
+      this->Visit(part.Path);
       return;
     }
-    std::array<Tetrahedron, 8> eighths; // greatest bound first
+    std::array<Part, 8> eighths; // greatest bound first
     auto end = eighths.begin();
-    for (const Tetrahedron& half : Bisect(tetrahedron, 3))
-    {
-      for (const Tetrahedron& quarter : Bisect(half, 2))
+    ForEachEighth(part.Path, MiddleCorner,
+      [&](const PathTetrahedron<Corner>& path)
       {
-        for (const Tetrahedron& eighth : Bisect(quarter, 1))
+        end->Path = path;
+        if (this->FindBound(*end, level - 1))
         {
-          *end = eighth;
-          if (this->FindBound(*end, level - 1))
-          {
-            std::rotate(
-              std::upper_bound(eighths.begin(), end, *end, HasGreaterBound), end, end + 1);
-            ++end;
-          }
+          std::rotate(std::upper_bound(eighths.begin(), end, *end, HasGreaterBound), end, end + 1);
+          ++end;
         }
-      }
-    }
+      });
     std::for_each(
-      eighths.begin(), end, [&](const Tetrahedron& eighth) { this->Search(eighth, level - 1); });
+      eighths.begin(), end, [&](const Part& eighth) { this->Search(eighth, level - 1); });
   }
 
   /** Visits the samples of a tetrahedron in one of the smallest cubes: a first steps along the
    *  path's first edge, b along the second and c along the third, a >= b >= c. */
-  void Visit(const Tetrahedron& tetrahedron)
+  void Visit(const PathTetrahedron<Corner>& path)
   {
-    const std::array<Point, 4>& corners = tetrahedron.Corners;
-    const std::array<double, 4>& values = tetrahedron.Values;
     std::array<Point, 3> steps{};
     std::array<std::int64_t, 3> strides{};
     std::array<double, 3> slopes{};
     for (int i = 0; i < 3; ++i)
     {
-      const Point edge = corners[i + 1] + -1 * corners[i];
+      const Point edge = path[i + 1].Position + -1 * path[i].Position;
       steps[i] = { edge[0] / FinestEdge, edge[1] / FinestEdge, edge[2] / FinestEdge };
       strides[i] = this->Samples.Index(steps[i]);
-      slopes[i] = (values[i + 1] - values[i]) / FinestEdge;
+      slopes[i] = (path[i + 1].Value - path[i].Value) / FinestEdge;
     }
-    const bool isCut = !this->Domain.IsSampled(corners[0]) || !this->Domain.IsSampled(corners[3]);
-    const T* first = this->Samples.Pointer() + this->Samples.Index(corners[0]);
+    const bool isCut =
+      !this->Domain.IsSampled(path[0].Position) || !this->Domain.IsSampled(path[3].Position);
+    const T* first = this->Samples.Pointer() + this->Samples.Index(path[0].Position);
     SummaryBuilder sums = this->Sums;
     for (int a = 0; a <= FinestEdge; ++a)
     {
       for (int b = 0; b <= a; ++b)
       {
         const T* row = first + a * strides[0] + b * strides[1];
-        const double start = values[0] + a * slopes[0] + b * slopes[1];
-        const Point point = corners[0] + a * steps[0] + b * steps[1];
+        const double start = path[0].Value + a * slopes[0] + b * slopes[1];
+        const Point point = path[0].Position + a * steps[0] + b * steps[1];
         for (int c = 0; c <= b; ++c)
         {
           if (!isCut || this->Domain.IsSampled(point + c * steps[2]))
@@ -264,7 +186,7 @@ private:
   const BlockFits& Fits;
   int TopLevel;
   SummaryBuilder Sums;
-  std::vector<Tetrahedron> Roots;
+  std::vector<Part> Roots;
 };
 
 }

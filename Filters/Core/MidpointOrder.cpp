@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MidpointOrder.h"
 
+#include "PathTetrahedron.h"
+
 #include <algorithm>
 
 namespace isodiamond
@@ -20,10 +22,16 @@ int TypeWithSpine(int type)
 
 }
 
-/** Bisects tetrahedra down to the lattice and lists the points that it meets. */
+/** Lists the points that bisection meets. */
 class MidpointOrder::Builder
 {
 public:
+  struct Corner
+  {
+    Point Position{};
+    std::uint16_t Index = 0;
+  };
+
   Builder(int scale, std::vector<Entry>& entries)
     : Half(1 << scale)
     , Entries(entries)
@@ -31,7 +39,7 @@ public:
   {
   }
 
-  std::uint16_t Add(const Point& point, const std::array<std::uint16_t, 2>& ends)
+  Corner Add(const Point& point, const std::array<std::uint16_t, 2>& ends)
   {
     const int width = 2 * this->Half + 1;
     std::uint16_t& index =
@@ -45,44 +53,26 @@ public:
             static_cast<std::int8_t>(point[2]) },
           ends });
     }
-    return index;
+    return { point, index };
   }
 
-  /** Adds the middle of the longest edge, and so on in both halves. */
-  void Bisect(const std::array<std::uint16_t, 4>& corners)
+  Corner AddMiddle(const Corner& a, const Corner& b)
   {
-    std::array<int, 2> longest = { 0, 1 };
-    for (const std::array<int, 2>& edge : TetrahedronEdges)
+    return this->Add(MiddleOf(a.Position, b.Position), { a.Index, b.Index });
+  }
+
+  /** Cuts a path down to edges of length 1. */
+  void Cut(const PathTetrahedron<Corner>& path, int edge)
+  {
+    if (edge > 1)
     {
-      longest = this->Length(corners, edge) > this->Length(corners, longest) ? edge : longest;
-    }
-    const std::array<std::uint16_t, 2> ends = { corners[longest[0]], corners[longest[1]] };
-    const Point sum = this->At(ends[0]) + this->At(ends[1]);
-    if (Parity(sum) != 0)
-    {
-      return; // the middle is no lattice point, nor is that of a shorter edge
-    }
-    const std::uint16_t middle = this->Add({ sum[0] / 2, sum[1] / 2, sum[2] / 2 }, ends);
-    for (const int end : longest)
-    {
-      std::array<std::uint16_t, 4> half = corners;
-      half[end] = middle;
-      this->Bisect(half);
+      ForEachEighth(
+        path, [&](const Corner& a, const Corner& b) { return this->AddMiddle(a, b); },
+        [&](const PathTetrahedron<Corner>& eighth) { this->Cut(eighth, edge / 2); });
     }
   }
 
 private:
-  int Length(const std::array<std::uint16_t, 4>& corners, const std::array<int, 2>& edge) const
-  {
-    return tables::SquaredLength(this->At(corners[edge[0]]), this->At(corners[edge[1]]));
-  }
-
-  Point At(std::uint16_t index) const
-  {
-    const std::array<std::int8_t, 3>& offset = this->Entries[index].Offset;
-    return { offset[0], offset[1], offset[2] };
-  }
-
   int Half;
   std::vector<Entry>& Entries;
   std::vector<std::uint16_t> Found;
@@ -91,17 +81,16 @@ private:
 MidpointOrder::MidpointOrder(const TypeTable& type, int scale)
   : Vertices(type.VertexCount)
 {
+  using Corner = Builder::Corner;
   Builder builder(scale, this->List);
+  std::array<Corner, MaximumVertices> vertices;
   for (int i = 0; i < type.VertexCount; ++i)
   {
-    builder.Add((1 << scale) * type.Offsets[i], {});
+    vertices[i] = builder.Add((1 << scale) * type.Offsets[i], {});
   }
-  const std::uint16_t centre = builder.Add({ 0, 0, 0 }, { type.Spine[0], type.Spine[1] });
-  for (int i = 0; i < type.HalfTetrahedronCount; ++i)
-  {
-    const std::array<std::uint8_t, 3>& v = type.HalfTetrahedra[i].Vertices;
-    builder.Bisect({ centre, v[0], v[1], v[2] });
-  }
+  CutIntoPaths(
+    type, vertices, [&](const Corner& a, const Corner& b) { return builder.AddMiddle(a, b); },
+    [&](const PathTetrahedron<Corner>& path) { builder.Cut(path, 1 << scale); });
 }
 
 const MidpointOrder& MidpointOrder::Of(const Place& place)

@@ -9,10 +9,6 @@
 namespace isodiamond
 {
 
-/** The edges of a tetrahedron, as pairs of corners. */
-inline constexpr std::array<std::array<int, 2>, 6> TetrahedronEdges = { { { 0, 1 }, { 0, 2 },
-  { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } } };
-
 /**
  * The lattice points of a small diamond's domain, each after two others in whose middle it lies.
  *
