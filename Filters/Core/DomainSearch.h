@@ -35,7 +35,8 @@ public:
     , Samples(samples)
     , Fits(fits)
     , TopLevel(place.Scale - LeastScale)
-    , Sums(grid.SticksOut(place.Position, place.Scale) ? SummaryBuilder::Infinity : 0.0)
+    , SticksOut(grid.SticksOut(place.Position, place.Scale))
+    , Sums(this->SticksOut ? SummaryBuilder::Infinity : 0.0)
   {
     const TypeTable& shape = ShapeOf(place.Position);
     std::array<Corner, MaximumVertices> vertices;
@@ -90,7 +91,8 @@ private:
 
   static bool HasGreaterBound(const Part& a, const Part& b) { return a.Bound > b.Bound; }
 
-  /** Finds a tetrahedron's cube and bound. @return whether the cube meets the grid. */
+  /** Finds a tetrahedron's cube and bound. @return whether it can hold samples of its own: cubes
+   *  that begin where the grid ends share theirs, unless the domain has no other part there. */
   bool FindBound(Part& part, int level) const
   {
     Point first{};
@@ -98,11 +100,12 @@ private:
     for (int axis = 0; axis < 3; ++axis)
     {
       first[axis] = std::min(part.Path[0].Position[axis], part.Path[3].Position[axis]);
-      cube[axis] = first[axis] / (FinestEdge << level);
-      if (first[axis] < 0 || first[axis] >= this->Domain.Last(axis))
+      const int last = this->Domain.Last(axis) - (this->SticksOut ? 0 : 1);
+      if (first[axis] < 0 || first[axis] > last)
       {
         return false;
       }
+      cube[axis] = std::min(first[axis], this->Domain.Last(axis) - 1) / (FinestEdge << level);
     }
     part.Cube = &this->Fits(level, cube);
     double apart = 0.0;
@@ -185,6 +188,7 @@ private:
   const SampleView<T>& Samples;
   const BlockFits& Fits;
   int TopLevel;
+  bool SticksOut; ///< then the error is infinite, and only the range is left to find
   SummaryBuilder Sums;
   std::vector<Part> Roots;
 };

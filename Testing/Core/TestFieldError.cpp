@@ -196,10 +196,11 @@ TEST(FieldError, IsZeroForALinearField)
 TEST(FieldError, OfLargeDomainsEqualsAVisitToEverySample)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const test::Field& field : { test::NoiseField({ 65, 33, 33 }, 3),
-         test::WaveField({ 40, 70, 33 }), test::SphereField({ 64, 49, 65 }),
-         test::SparseField({ 65, 65, 33 }, 4), test::BrokenField({ 33, 40, 33 }, 5),
-         test::SpikeField({ 65, 65, 65 }, 1e30), test::SpikeField({ 65, 33, 65 }, nan) })
+  for (const test::Field& field :
+    { test::NoiseField({ 65, 33, 33 }, 3), test::WaveField({ 40, 70, 33 }),
+      test::SphereField({ 64, 49, 65 }), test::SparseField({ 65, 65, 33 }, 4),
+      test::NoiseField({ 41, 73, 57 }, 6), test::BrokenField({ 33, 40, 33 }, 5),
+      test::SpikeField({ 65, 65, 65 }, 1e30), test::SpikeField({ 65, 33, 65 }, nan) })
   {
     SCOPED_TRACE(field.Name);
     const Grid grid(field.Dims);
