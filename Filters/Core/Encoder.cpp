@@ -25,7 +25,16 @@ public:
     , Samples(samples)
   {
     const std::int64_t row = samples.Dimensions()[0];
-    this->Strides = { 1, row, row * samples.Dimensions()[1] };
+    const std::int64_t slice = row * samples.Dimensions()[1];
+    for (int parity = 1; parity < 8; ++parity)
+    {
+      const ParityTable& shape = tables::Parities[parity];
+      for (int i = 0; i < shape.VertexCount; ++i)
+      {
+        const Point& offset = shape.Offsets[i];
+        this->Strides[parity][i] = offset[0] + offset[1] * row + offset[2] * slice;
+      }
+    }
   }
 
   int Sign(const Place& place) const
@@ -49,7 +58,7 @@ public:
   {
     int count = 0;
     this->ForEachCrossedEdge(place,
-      [&](const Point& /*offset*/, int sign, int otherSign)
+      [&](std::int64_t /*stride*/, int sign, int otherSign)
       { count += std::abs(sign - otherSign); });
     return count;
   }
@@ -60,9 +69,9 @@ public:
     std::array<std::uint8_t, MaximumVertices> upper{};
     int upperCount = 0;
     this->ForEachCrossedEdge(place,
-      [&](const Point& offset, int sign, int otherSign)
+      [&](std::int64_t stride, int sign, int otherSign)
       {
-        const EdgeSamples<T> edge = this->Edge(place, offset);
+        const EdgeSamples<T> edge = this->Edge(place, stride);
         if (std::abs(sign - otherSign) == 2)
         {
           const std::array<std::uint8_t, 2> both = IsovertexCoefficients(edge, this->Region);
@@ -82,7 +91,8 @@ public:
   }
 
 private:
-  /** Calls body(offset, sign of the centre, sign of the vertex) for edges with an isovertex. */
+  /** Calls body(stride in samples, sign of the centre, sign of the vertex) for edges with an
+   *  isovertex. */
   template <typename Body>
   void ForEachCrossedEdge(const Place& place, Body&& body) const
   {
@@ -91,36 +101,42 @@ private:
     {
       return;
     }
-    const int sign = this->Region.SignOf(this->Samples(centre));
-    const ParityTable& shape = tables::Parities[Parity(place.Position)];
+    const int half = 1 << place.Scale;
+    const bool isWhole = this->Domain.IsSampled(centre + Point{ half, half, half }) &&
+      this->Domain.IsSampled(centre + Point{ -half, -half, -half });
+    const T* middle = this->Samples.Pointer() + this->Samples.Index(centre);
+    const int sign = this->Region.SignOf(static_cast<double>(*middle));
+    const int parity = Parity(place.Position);
+    const ParityTable& shape = tables::Parities[parity];
     for (int i = 0; i < shape.VertexCount; ++i)
     {
-      const Point vertex = centre + (1 << place.Scale) * shape.Offsets[i];
-      const int otherSign =
-        this->Domain.IsSampled(vertex) ? this->Region.SignOf(this->Samples(vertex)) : sign;
-      if (sign != otherSign)
+      if (isWhole || this->Domain.IsSampled(centre + half * shape.Offsets[i]))
       {
-        body(shape.Offsets[i], sign, otherSign);
+        const std::int64_t stride = this->Strides[parity][i];
+        const int otherSign = this->Region.SignOf(static_cast<double>(middle[half * stride]));
+        if (sign != otherSign)
+        {
+          body(stride, sign, otherSign);
+        }
       }
     }
   }
 
   /** An edge in unit steps, or for linear isovertices in one. */
-  EdgeSamples<T> Edge(const Place& place, const Point& offset) const
+  EdgeSamples<T> Edge(const Place& place, std::int64_t stride) const
   {
-    const std::int64_t unit =
-      offset[0] * this->Strides[0] + offset[1] * this->Strides[1] + offset[2] * this->Strides[2];
     const T* centre = this->Samples.Pointer() + this->Samples.Index(Centre(place));
     const int length = 1 << place.Scale;
-    return this->Exact ? EdgeSamples<T>(centre, unit, length)
-                       : EdgeSamples<T>(centre, length * unit, 1);
+    return this->Exact ? EdgeSamples<T>(centre, stride, length)
+                       : EdgeSamples<T>(centre, length * stride, 1);
   }
 
   const Isoregion& Region;
   bool Exact;
   const Grid& Domain;
   const SampleView<T>& Samples;
-  std::array<std::int64_t, 3> Strides{};
+  /** By parity and vertex, in samples. */
+  std::array<std::array<std::int64_t, MaximumVertices>, 8> Strides{};
 };
 
 /** What the bricks before a brick hold. */
