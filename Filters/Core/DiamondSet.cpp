@@ -35,11 +35,11 @@ void DiamondMask::CloseOverParents(const Grid& grid)
   {
     for (int diamondClass = 2; diamondClass >= 0; --diamondClass)
     {
-      this->ForEachOfScale(scale,
+      this->ForEachOfClass(scale, diamondClass,
         [&](const Place& place)
         {
           const TypeTable& shape = ShapeOf(place.Position);
-          for (int i = 0; shape.DiamondClass == diamondClass && i < shape.ParentCount; ++i)
+          for (int i = 0; i < shape.ParentCount; ++i)
           {
             const Place parent = ParentPlace(shape, place, i);
             if (parent.Scale < grid.Depth() && grid.IsValid(parent.Position, parent.Scale))

@@ -170,6 +170,29 @@ public:
   template <typename Body>
   void ForEachOfScale(int scale, Body&& body) const
   {
+    constexpr std::uint64_t all = ~std::uint64_t{ 0 };
+    this->ForEachWithBits(scale, { all, all }, body);
+  }
+
+  /** Calls body(place) for every diamond of one scale and class. The set may grow at others. */
+  template <typename Body>
+  void ForEachOfClass(int scale, int diamondClass, Body&& body) const
+  {
+    this->ForEachWithBits(scale, tables::ClassBits[diamondClass], body);
+  }
+
+private:
+  struct Level
+  {
+    BrickBox Box;
+    std::vector<std::int32_t> Lookup;
+    std::vector<BrickMask> Masks;
+  };
+
+  /** @param bits those of a word that count, by parity of z */
+  template <typename Body>
+  void ForEachWithBits(int scale, const std::array<std::uint64_t, 2>& bits, const Body& body) const
+  {
     const Level& level = this->Levels[scale];
     for (std::int64_t index = 0; index < level.Box.Size(); ++index)
     {
@@ -181,18 +204,13 @@ public:
       const BrickMask mask = level.Masks[level.Lookup[index]];
       for (int z = 0; z < 8; ++z)
       {
-        ForEachBit(mask[z], [&](int bit) { body(Place{ scale, PositionOf(origin, z, bit) }); });
+        ForEachBit(mask[z] & bits[z & 1],
+          [&](int bit) {
+            body(Place{ scale, PositionOf(origin, z, bit) });
+          });
       }
     }
   }
-
-private:
-  struct Level
-  {
-    BrickBox Box;
-    std::vector<std::int32_t> Lookup;
-    std::vector<BrickMask> Masks;
-  };
 
   BrickMask& BrickAt(Level& level, std::int64_t brickIndex);
 

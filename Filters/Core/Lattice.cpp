@@ -21,17 +21,6 @@ Grid::Grid(const std::array<int, 3>& dimensions)
   }
 }
 
-std::array<int, 3> Grid::Positions(int scale) const
-{
-  const int h = 1 << scale;
-  std::array<int, 3> count{};
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    count[axis] = (this->Last(axis) + h - 1) / h + 1;
-  }
-  return count;
-}
-
 std::array<int, 3> Grid::SampledPositions(int scale) const
 {
   return { (this->Last(0) >> scale) + 1, (this->Last(1) >> scale) + 1,

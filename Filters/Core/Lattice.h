@@ -68,7 +68,12 @@ public:
   int Last(int axis) const { return this->Dims[axis] - 1; }
 
   /** Number of positions of one scale per axis, those past the samples included. */
-  std::array<int, 3> Positions(int scale) const;
+  std::array<int, 3> Positions(int scale) const
+  {
+    const int below = (1 << scale) - 1; // rounds up
+    return { ((this->Last(0) + below) >> scale) + 1, ((this->Last(1) + below) >> scale) + 1,
+      ((this->Last(2) + below) >> scale) + 1 };
+  }
 
   /** Number of positions of one scale that hold a sample, per axis. */
   std::array<int, 3> SampledPositions(int scale) const;
