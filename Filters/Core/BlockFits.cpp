@@ -75,6 +75,7 @@ public:
 
 private:
   static constexpr int Width = Edge + 1;
+  static constexpr int Middle = Edge / 2;
 
   double* Row(int y, int z) { return &this->Values[(z * Width + y) * Width]; }
 
@@ -102,12 +103,12 @@ private:
         for (int x = 0; x < Width; ++x)
         {
           sum += row[x];
-          moments[0] += (x - Edge / 2) * row[x];
+          moments[0] += (x - Middle) * row[x];
         }
-        moments[1] += (y - Edge / 2) * sum;
-        moments[2] += (z - Edge / 2) * sum;
+        moments[1] += (y - Middle) * sum;
+        moments[2] += (z - Middle) * sum;
       });
-    constexpr double squares = Edge * (Edge / 2 + 1) * Width / 6.0 * Width * Width;
+    constexpr int squares = Middle * (Middle + 1) * Width / 3 * Width * Width;
     for (int axis = 0; axis < 3; ++axis)
     {
       fit.Slopes[axis] = static_cast<float>(moments[axis] / squares);
