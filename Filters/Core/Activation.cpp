@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <queue>
+#include <utility>
 
 namespace isodiamond
 {
@@ -74,11 +75,11 @@ struct Rise
 class RisingCodes
 {
 public:
-  RisingCodes(const Grid& grid, const DiamondSet& members, const std::vector<ErrorCode::Type>& own,
+  RisingCodes(const Grid& grid, const DiamondSet& members, std::vector<ErrorCode::Type> own,
     const ParallelFor& parallelFor)
     : Depth(grid.Depth())
     , Members(members)
-    , Own(own)
+    , Own(std::move(own))
     , Parallel(parallelFor)
     , Codes(members.Size())
   {
@@ -274,11 +275,15 @@ private:
     }
   }
 
-  std::vector<ErrorCode::Type> Result() const { return { this->Codes.begin(), this->Codes.end() }; }
+  std::vector<ErrorCode::Type> Result()
+  {
+    std::copy(this->Codes.begin(), this->Codes.end(), this->Own.begin());
+    return std::move(this->Own);
+  }
 
   int Depth;
   const DiamondSet& Members;
-  const std::vector<ErrorCode::Type>& Own;
+  std::vector<ErrorCode::Type> Own; ///< in the end the result, to spare memory
   const ParallelFor& Parallel;
   std::vector<std::atomic<ErrorCode::Type>> Codes;
   std::priority_queue<Rise> Queue;
@@ -287,15 +292,15 @@ private:
 }
 
 std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
-  const std::vector<ErrorCode::Type>& triggers, const ParallelFor& parallelFor)
+  std::vector<ErrorCode::Type> triggers, const ParallelFor& parallelFor)
 {
-  return RisingCodes(grid, members, triggers, parallelFor).Thresholds();
+  return RisingCodes(grid, members, std::move(triggers), parallelFor).Thresholds();
 }
 
 std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
-  const std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor)
+  std::vector<ErrorCode::Type> codes, const ParallelFor& parallelFor)
 {
-  return RisingCodes(grid, members, codes, parallelFor).Saturated();
+  return RisingCodes(grid, members, std::move(codes), parallelFor).Saturated();
 }
 
 }

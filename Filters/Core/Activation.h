@@ -31,12 +31,12 @@ namespace isodiamond
  *         the ancestors of diamonds with a trigger)
  */
 std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
-  const std::vector<ErrorCode::Type>& triggers, const ParallelFor& parallelFor);
+  std::vector<ErrorCode::Type> triggers, const ParallelFor& parallelFor);
 
 /** Raises codes to the greatest of their descendants': what is subdivided where any of these is.
  *  @param members, codes as above */
 std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
-  const std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor);
+  std::vector<ErrorCode::Type> codes, const ParallelFor& parallelFor);
 
 }
 

@@ -107,6 +107,30 @@ DiamondCodes DistanceTriggers(const Source& source, const IsodiamondHierarchy& r
   return triggers;
 }
 
+/** Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
+ *  ancestors. */
+void RaiseToThresholds(
+  const Grid& grid, const DiamondSet& members, const ParallelFor& parallelFor, DiamondCodes& codes)
+{
+  codes.Surface = ActivationThresholds(grid, members, std::move(codes.Surface), parallelFor);
+  std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
+  if (!codes.Interior.empty())
+  {
+    codes.Interior = SaturateUpward(grid, members, std::move(codes.Interior), parallelFor);
+    std::fill_n(codes.Interior.begin(), 8, ErrorCode::Always);
+  }
+}
+
+void SetCodes(Encoding& encoding, DiamondCodes codes)
+{
+  std::vector<std::uint16_t>& records = encoding.Arrays.Records;
+  for (std::size_t rank = 0; rank < records.size(); ++rank)
+  {
+    records[rank] = Record::Pack(codes.Surface[rank], Record::Sign(records[rank]));
+  }
+  encoding.Arrays.InteriorCodes = std::move(codes.Interior);
+}
+
 /** Removes the relevant diamonds from an encoding. They have no isovertices and no values inside,
  *  so these arrays stay as they are. */
 void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classification& kinds)
@@ -183,26 +207,22 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
   header.ExactIsovertices = options.ExactIsovertices;
   header.RelevantCount = members.Size() - 8 - kinds.Active.Size();
   header.Kind = Model::Relevant;
-  Encoding encoding = Encode(header, grid, source.Samples, members, ErrorCode::Always, parallelFor);
+  const auto encode = [&]
+  { return Encode(header, grid, source.Samples, members, ErrorCode::Always, parallelFor); };
 
-  DiamondCodes codes = options.Metric == ErrorMetric::Field
-    ? FieldTriggers(source, region, members, refineInterior, parallelFor)
-    : DistanceTriggers(
-        source, IsodiamondHierarchy(encoding, parallelFor), options, refineInterior, parallelFor);
-  codes.Surface = ActivationThresholds(grid, members, codes.Surface, parallelFor);
-  std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
-  for (std::int64_t rank = 0; rank < members.Size(); ++rank)
+  // Distances are measured on the encoding; otherwise it waits: less memory at once.
+  const bool isFirst = options.Metric == ErrorMetric::Distance;
+  Encoding encoding = isFirst ? encode() : Encoding();
+  DiamondCodes codes = isFirst
+    ? DistanceTriggers(
+        source, IsodiamondHierarchy(encoding, parallelFor), options, refineInterior, parallelFor)
+    : FieldTriggers(source, region, members, refineInterior, parallelFor);
+  RaiseToThresholds(grid, members, parallelFor, codes);
+  if (!isFirst)
   {
-    std::uint16_t& record = encoding.Arrays.Records[rank];
-    record = Record::Pack(codes.Surface[rank], Record::Sign(record));
+    encoding = encode();
   }
-  if (refineInterior)
-  {
-    // The interior tolerance subdivides whatever exceeds it, with the ancestors.
-    codes.Interior = SaturateUpward(grid, members, codes.Interior, parallelFor);
-    std::fill_n(codes.Interior.begin(), 8, ErrorCode::Always);
-    encoding.Arrays.InteriorCodes = std::move(codes.Interior);
-  }
+  SetCodes(encoding, std::move(codes));
   encoding.Header.Kind = model;
   if (model == Model::Minimal)
   {

@@ -81,6 +81,10 @@ bool DiamondMask::Insert(const Place& place)
 
 void DiamondMask::Insert(int scale, std::int64_t brickIndex, const BrickMask& mask)
 {
+  if (mask == BrickMask{})
+  {
+    return; // only bricks with a bit set are kept
+  }
   BrickMask& words = this->BrickAt(this->Levels[scale], brickIndex);
   for (int z = 0; z < 8; ++z)
   {

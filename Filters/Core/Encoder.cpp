@@ -212,6 +212,13 @@ Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples
 {
   Encoding encoding;
   encoding.Header = header;
+  std::size_t bricks = 0;
+  for (int scale = 0; scale < set.ScaleCount(); ++scale)
+  {
+    bricks += set.Level(scale).Bricks.size();
+  }
+  encoding.Arrays.BrickIndices.reserve(bricks);
+  encoding.Arrays.BrickMasks.reserve(8 * bricks);
   for (int scale = set.ScaleCount() - 1; scale >= 0; --scale)
   {
     const std::vector<Brick>& bricks = set.Level(scale).Bricks;
