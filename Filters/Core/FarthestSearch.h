@@ -84,7 +84,8 @@ public:
     {
       const int size = box.High[axis] - box.Low[axis];
       centre[axis] = box.Low[axis] + size / 2;
-      half[axis] = (size - size / 2) / static_cast<double>(FineUnits);
+      const int longer = size - size / 2;
+      half[axis] = 1.0 / FineUnits * longer;
     }
     double squaredRadius = 0.0;
     for (int corner = 0; corner < 4; ++corner)
