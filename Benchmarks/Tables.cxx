@@ -190,14 +190,42 @@ void PrintBars(const std::vector<Bar>& bars, std::ostream& out)
   const auto met =
     std::count_if(bars.begin(), bars.end(), [](const Bar& bar) { return bar.IsMet(); });
   out << "## What must hold: " << met << " of " << bars.size()
-      << "\n\nDemanded of volumes of 256^3 samples or more.\n\n";
-  PrintHead({ "bar", "what", "volume", "measured", "limit", "met" }, 3, out);
+      << "\n\nDemanded of volumes of 256^3 samples or more; bold is what does not hold.\n\n";
+
+  // A line for each demand, a column for each volume.
+  std::vector<std::string> titles = { "bar", "what", "limit" };
+  std::vector<std::vector<std::string>> lines;
+  const auto add = [](std::vector<std::string>& list, const std::string& item)
+  {
+    const auto at = std::find(list.begin(), list.end(), item) - list.begin();
+    if (at == static_cast<std::ptrdiff_t>(list.size()))
+    {
+      list.push_back(item);
+    }
+    return static_cast<std::size_t>(at);
+  };
   for (const Bar& bar : bars)
   {
-    const std::string limit = (bar.IsUpperLimit ? "<= " : ">= ") + Short(bar.Limit);
-    PrintRow({ std::to_string(bar.Number), bar.What, bar.Where, Short(bar.Measured), limit,
-               bar.IsMet() ? "yes" : "no" },
-      out);
+    add(titles, bar.Where);
+  }
+  std::vector<std::string> demands;
+  for (const Bar& bar : bars)
+  {
+    const std::size_t line = add(demands, std::to_string(bar.Number) + bar.What);
+    if (line == lines.size())
+    {
+      lines.emplace_back(titles.size(), "-");
+      lines[line][0] = std::to_string(bar.Number);
+      lines[line][1] = bar.What;
+      lines[line][2] = (bar.IsUpperLimit ? "<= " : ">= ") + Short(bar.Limit);
+    }
+    const std::string measured = Short(bar.Measured);
+    lines[line][add(titles, bar.Where)] = bar.IsMet() ? measured : "**" + measured + "**";
+  }
+  PrintHead(titles, 2, out);
+  for (const std::vector<std::string>& line : lines)
+  {
+    PrintRow(line, out);
   }
   out << "\n";
 }
