@@ -16,18 +16,15 @@ class ParentRanks
 {
 public:
   /** @param window of bricks of the parents' scale, around the parents */
-  ParentRanks(const BrickLevel& level, const BrickWindow& window, const Place& place)
+  ParentRanks(const BrickWindow& window, const Place& place)
   {
     const TypeTable& shape = ShapeOf(place.Position);
     for (int i = 0; i < shape.ParentCount; ++i)
     {
-      const Point parent = ParentPlace(shape, place, i).Position;
-      const std::int32_t index = window.IndexAt(parent);
-      const int z = parent[2] & 7;
-      const int bit = BitOf(parent);
-      if (index >= 0 && level.Bricks[index].Contains(z, bit)) // else it lies outside of the grid
+      const std::int64_t rank = window.Rank(ParentPlace(shape, place, i).Position);
+      if (rank != DiamondSet::None) // else it lies outside of the grid
       {
-        this->Ranks[this->Count++] = level.Bricks[index].Rank(z, bit);
+        this->Ranks[this->Count++] = static_cast<std::uint32_t>(rank);
       }
     }
   }
@@ -46,14 +43,10 @@ struct Visit
   std::int64_t BrickIndex = 0; ///< in the list of the level
   Place Diamond;
   std::uint32_t Rank = 0;
-  const BrickLevel& ParentLevel;
   const BrickWindow& ParentWindow;
 
   /** Takes most of the time. */
-  ParentRanks Parents() const
-  {
-    return ParentRanks(this->ParentLevel, this->ParentWindow, this->Diamond);
-  }
+  ParentRanks Parents() const { return ParentRanks(this->ParentWindow, this->Diamond); }
 };
 
 /** A diamond whose code rises. */
@@ -159,7 +152,7 @@ private:
               [&](int bit)
               {
                 const Place place{ scale, PositionOf(origin, z, bit) };
-                body(Visit{ index, place, brick.Rank(z, bit), parentLevel, window });
+                body(Visit{ index, place, brick.Rank(z, bit), window });
               });
           }
         }

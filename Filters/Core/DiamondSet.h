@@ -260,46 +260,6 @@ struct BrickLevel
   }
 };
 
-/** A brick and its 26 neighbours: where passes look from diamonds of one brick to others near
- *  them, without a search. */
-class BrickWindow
-{
-public:
-  BrickWindow(const BrickLevel& level, const Brick& brick)
-    : BrickWindow(level, level.Box.Origin(brick.BoxIndex))
-  {
-  }
-
-  /** @param position any of the middle brick, which need not be there */
-  BrickWindow(const BrickLevel& level, const Point& position)
-    : Origin(8 * BrickOf(position))
-  {
-    for (int i = 0; i < 27; ++i)
-    {
-      const Point offset = { 8 * (i % 3 - 1), 8 * (i / 3 % 3 - 1), 8 * (i / 9 - 1) };
-      const std::int64_t index = level.Box.Index(BrickOf(this->Origin + offset));
-      this->Indices[i] = index < 0 ? -1 : level.Lookup[index];
-    }
-  }
-
-  /** Position of the middle brick's first corner. */
-  const Point& First() const { return this->Origin; }
-
-  /** Index, in the level's list, of the brick at a position of this brick or next to it; -1 if
-   *  there is none. */
-  std::int32_t IndexAt(const Point& position) const
-  {
-    const int x = (position[0] - this->Origin[0] + 8) >> 3;
-    const int y = (position[1] - this->Origin[1] + 8) >> 3;
-    const int z = (position[2] - this->Origin[2] + 8) >> 3;
-    return this->Indices[x + 3 * y + 9 * z];
-  }
-
-private:
-  Point Origin;
-  std::array<std::int32_t, 27> Indices{};
-};
-
 /**
  * A set of diamonds with ranks: coarse scales first (from N, the base cube's corners, to 0), then
  * by brick, word and bit.
@@ -324,9 +284,14 @@ public:
   /** Rank of the diamond at a place, None if it is not in the set. */
   std::int64_t Rank(const Place& place) const
   {
-    const Brick* brick = this->Levels[place.Scale].Find(place.Position);
-    const int z = place.Position[2] & 7;
-    const int bit = BitOf(place.Position);
+    return RankIn(this->Levels[place.Scale].Find(place.Position), place.Position);
+  }
+
+  /** The same for a position in a brick, which may be null. */
+  static std::int64_t RankIn(const Brick* brick, const Point& position)
+  {
+    const int z = position[2] & 7;
+    const int bit = BitOf(position);
     return brick != nullptr && brick->Contains(z, bit) ? std::int64_t{ brick->Rank(z, bit) } : None;
   }
 
@@ -364,6 +329,37 @@ private:
   std::vector<BrickLevel> Levels;
   std::int64_t Count = 0;
   std::int64_t BrickCount = 0;
+};
+
+/** A brick and its 26 neighbours: where passes look from diamonds of one brick to others near
+ *  them, without a search. */
+class BrickWindow
+{
+public:
+  /** @param position any of the middle brick, which need not be there */
+  BrickWindow(const BrickLevel& level, const Point& position)
+    : Origin(8 * BrickOf(position))
+  {
+    for (int i = 0; i < 27; ++i)
+    {
+      const Point offset = { 8 * (i % 3 - 1), 8 * (i / 3 % 3 - 1), 8 * (i / 9 - 1) };
+      this->Bricks[i] = level.Find(this->Origin + offset);
+    }
+  }
+
+  /** Rank of the diamond at a position of this brick or next to it; DiamondSet::None if there is
+   *  none. */
+  std::int64_t Rank(const Point& position) const
+  {
+    const int x = (position[0] - this->Origin[0] + 8) >> 3;
+    const int y = (position[1] - this->Origin[1] + 8) >> 3;
+    const int z = (position[2] - this->Origin[2] + 8) >> 3;
+    return DiamondSet::RankIn(this->Bricks[x + 3 * y + 9 * z], position);
+  }
+
+private:
+  Point Origin; ///< position of the middle brick's first corner
+  std::array<const Brick*, 27> Bricks{};
 };
 
 /** A brick of a set: the unit of work of encoding and extraction. */

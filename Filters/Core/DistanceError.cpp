@@ -31,6 +31,10 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   {
     for (const auto ends : { IsovertexClusters::Ends::Finite, IsovertexClusters::Ends::NotFinite })
     {
+      if (ends == IsovertexClusters::Ends::NotFinite && errors.IsFinite().All())
+      {
+        continue; // there are none
+      }
       const IsovertexClusters clusters(relevant, errors.IsFinite(), surface, ends);
       MeasureCoarse(clusters, errors, parallelFor);
       MeasureFinest(clusters, errors, parallelFor);

@@ -28,7 +28,8 @@ public:
   void Run(const Brick& brick)
   {
     const DiamondSet& set = this->Hierarchy.Diamonds();
-    const BrickWindow window(set.Level(0), brick);
+    const BrickLevel& level = set.Level(0);
+    const BrickWindow window(level, level.Box.Origin(brick.BoxIndex));
     set.ForEachInBrick(0, brick,
       [&](const Place& diamond, std::uint32_t rank)
       {
@@ -60,19 +61,12 @@ private:
   void Locate(const BrickWindow& window, const Place& diamond, const FinestDomain::Owner& owner)
   {
     const Place place{ 0, diamond.Position + owner.Offset };
-    const std::int32_t index = window.IndexAt(place.Position);
-    if (index < 0)
+    const std::int64_t found = window.Rank(place.Position);
+    if (found == DiamondSet::None)
     {
       return;
     }
-    const Brick& brick = this->Hierarchy.Diamonds().Level(0).Bricks[index];
-    const int z = place.Position[2] & 7;
-    const int bit = BitOf(place.Position);
-    if (!brick.Contains(z, bit))
-    {
-      return;
-    }
-    const std::uint32_t rank = brick.Rank(z, bit);
+    const auto rank = static_cast<std::uint32_t>(found);
     const std::uint32_t crossed = owner.EdgeMask &
       (this->Clusters.Surface() == 0 ? this->Hierarchy.Edges(rank)
                                      : this->Hierarchy.UpperEdges(rank));
