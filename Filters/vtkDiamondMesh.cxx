@@ -3,6 +3,7 @@
 
 #include "DiamondMesh.h"
 #include "vtkIsodiamondState.h"
+#include "vtkIsodiamondTask.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -43,8 +44,9 @@ void vtkDiamondMesh::PrintSelf(ostream& os, vtkIndent indent)
 
 //------------------------------------------------------------------------------
 void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
-  const isodiamond::RefinedSet& refined, vtkUnstructuredGrid* output)
+  const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkUnstructuredGrid* output)
 {
+  task.Begin("Collecting tetrahedra", 0.0, 1.0);
   const isodiamond::DiamondMesh mesh = isodiamond::ExtractDiamondMesh(refined);
   const isodiamond::AffineMap& world = state.World;
   vtkNew<vtkPoints> points;

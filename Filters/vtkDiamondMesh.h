@@ -29,7 +29,7 @@ protected:
   ~vtkDiamondMesh() override = default;
 
   void WriteMesh(const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined,
-    vtkUnstructuredGrid* output) override;
+    vtkIsodiamond::Task& task, vtkUnstructuredGrid* output) override;
 
 private:
   vtkDiamondMesh(const vtkDiamondMesh&) = delete;

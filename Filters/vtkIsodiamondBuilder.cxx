@@ -3,7 +3,9 @@
 
 #include "Builder.h"
 #include "vtkIsodiamondInput.h"
+#include "vtkIsodiamondPointData.h"
 #include "vtkIsodiamondState.h"
+#include "vtkIsodiamondTask.h"
 #include "vtkIsodiamondThreads.h"
 
 #include "vtkDataSetAttributes.h"
@@ -38,7 +40,55 @@ void vtkIsodiamondBuilder::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
   os << indent << "RefineInterior: " << (this->RefineInterior ? "On" : "Off") << "\n";
   os << indent << "CloseBoundary: " << (this->CloseBoundary ? "On" : "Off") << "\n";
+  os << indent << "PointArrays:";
+  for (const std::string& name : this->PointArrays)
+  {
+    os << " \"" << name << "\"";
+  }
+  os << "\n" << indent << "ComputeNormals: " << (this->ComputeNormals ? "On" : "Off") << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondBuilder::AddPointArray(const char* name)
+{
+  if (name && *name)
+  {
+    this->PointArrays.emplace_back(name);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondBuilder::ClearPointArrays()
+{
+  if (!this->PointArrays.empty())
+  {
+    this->PointArrays.clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondBuilder::GetNumberOfPointArrays()
+{
+  return static_cast<int>(this->PointArrays.size());
+}
+
+//------------------------------------------------------------------------------
+const char* vtkIsodiamondBuilder::GetPointArray(int i)
+{
+  return i >= 0 && i < this->GetNumberOfPointArrays() ? this->PointArrays[i].c_str() : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondBuilder::WarnWithoutPointArrays()
+{
+  if (!this->PointArrays.empty() || this->ComputeNormals)
+  {
+    vtkWarningMacro("Other arrays and normals come from an image to a relevant or minimal "
+                    "hierarchy only: here they have no effect.");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -89,24 +139,19 @@ int vtkIsodiamondBuilder::RequestData(
   {
     return 1;
   }
-  try
-  {
-    this->CheckModel();
-    if (vtkPolyData* hierarchy = vtkPolyData::GetData(inputVector[0]))
+  return vtkIsodiamond::Execute(this, output,
+    [&](vtkIsodiamond::Task& task)
     {
-      this->BuildFromHierarchy(hierarchy, output);
-    }
-    else
-    {
-      this->BuildFromImage(inputVector, output);
-    }
-  }
-  catch (const std::exception& problem)
-  {
-    output->Initialize();
-    vtkErrorMacro(<< problem.what());
-  }
-  return 1;
+      this->CheckModel();
+      if (vtkPolyData* hierarchy = vtkPolyData::GetData(inputVector[0]))
+      {
+        this->BuildFromHierarchy(hierarchy, task, output);
+      }
+      else
+      {
+        this->BuildFromImage(vtkImageData::GetData(inputVector[0]), task, output);
+      }
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -130,8 +175,13 @@ vtkIsodiamond::Choice vtkIsodiamondBuilder::GetChoice() const
 //------------------------------------------------------------------------------
 isodiamond::BuildOptions vtkIsodiamondBuilder::GetOptions(const isodiamond::AffineMap& world) const
 {
-  return { static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), this->ExactIsovertices,
-    this->PreserveFeatures, this->RefineInterior, world };
+  isodiamond::BuildOptions options;
+  options.Metric = static_cast<isodiamond::ErrorMetric>(this->ErrorMetric);
+  options.ExactIsovertices = this->ExactIsovertices;
+  options.PreserveFeatures = this->PreserveFeatures;
+  options.RefineInterior = this->RefineInterior;
+  options.World = world;
+  return options;
 }
 
 //------------------------------------------------------------------------------
@@ -146,35 +196,47 @@ void vtkIsodiamondBuilder::CheckModel() const
 }
 
 //------------------------------------------------------------------------------
-void vtkIsodiamondBuilder::BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output)
+void vtkIsodiamondBuilder::BuildFromImage(
+  vtkImageData* image, vtkIsodiamond::Task& task, vtkPolyData* output)
 {
-  vtkImageData* image = vtkImageData::GetData(inputVector[0]);
   const vtkIsodiamond::Choice choice = this->GetChoice();
   const isodiamond::Isoregion region = choice.Region();
   const vtkIsodiamond::Volume volume = vtkIsodiamond::ReadVolume(
     image, this->FindInputArray(image), this->CloseBoundary && !region.IsVolume());
+  const isodiamond::AffineMap& world = volume.AffineWorld("A hierarchy");
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {
+    this->WarnWithoutPointArrays();
     isodiamond::ScalarEncoding encoding;
+    task.Begin("Measuring errors", 0.0, 1.0);
     vtkIsodiamond::RunThreaded(this->NumberOfThreads,
-      [&]
-      { encoding = isodiamond::BuildScalarHierarchy(volume.Samples, vtkIsodiamond::SMPFor()); });
+      [&] { encoding = isodiamond::BuildScalarHierarchy(volume.Samples, task.For()); });
     vtkIsodiamond::WriteScalars(encoding, choice, this->ExactIsovertices, volume, output);
     return;
   }
-  const isodiamond::BuildOptions options = this->GetOptions(volume.World);
+  isodiamond::BuildOptions options = this->GetOptions(world);
+  options.Report = task.Report();
   isodiamond::Encoding encoding;
+  std::vector<vtkSmartPointer<vtkDataArray>> pointArrays;
   vtkIsodiamond::RunThreaded(this->NumberOfThreads,
     [&]
     {
       encoding = isodiamond::BuildIsodiamonds(static_cast<isodiamond::Model>(this->Model),
-        volume.Samples, region, vtkIsodiamond::SMPFor(), options);
+        volume.Samples, region, task.For(), options);
+      if (!this->PointArrays.empty() || this->ComputeNormals)
+      {
+        const isodiamond::IsodiamondHierarchy hierarchy(encoding, task.For());
+        pointArrays = vtkIsodiamond::MakeStoredPointData(volume,
+          { this->ComputeNormals, false, !this->PointArrays.empty(), this->PointArrays }, hierarchy,
+          task.For());
+      }
     });
-  vtkIsodiamond::WriteIsodiamonds(encoding, choice, volume.World, volume.ArrayName, output);
+  vtkIsodiamond::WriteIsodiamonds(encoding, choice, world, volume.ArrayName, pointArrays, output);
 }
 
 //------------------------------------------------------------------------------
-void vtkIsodiamondBuilder::BuildFromHierarchy(vtkPolyData* input, vtkPolyData* output)
+void vtkIsodiamondBuilder::BuildFromHierarchy(
+  vtkPolyData* input, vtkIsodiamond::Task& task, vtkPolyData* output)
 {
   const std::shared_ptr<const vtkIsodiamond::State> state =
     vtkIsodiamondHierarchy::ReadState(input);
@@ -189,14 +251,16 @@ void vtkIsodiamondBuilder::BuildFromHierarchy(vtkPolyData* input, vtkPolyData* o
     output->ShallowCopy(input);
     return;
   }
+  this->WarnWithoutPointArrays();
   const vtkIsodiamond::Choice choice = this->GetChoice();
-  const isodiamond::BuildOptions options = this->GetOptions(state->World);
+  isodiamond::BuildOptions options = this->GetOptions(state->World);
+  options.Report = task.Report();
   isodiamond::Encoding encoding;
   vtkIsodiamond::RunThreaded(this->NumberOfThreads,
     [&]
     {
       encoding = isodiamond::BuildIsodiamonds(static_cast<isodiamond::Model>(this->Model),
-        *state->Scalars, choice.Region(), vtkIsodiamond::SMPFor(), options);
+        *state->Scalars, choice.Region(), task.For(), options);
     });
-  vtkIsodiamond::WriteIsodiamonds(encoding, choice, state->World, state->ArrayName, output);
+  vtkIsodiamond::WriteIsodiamonds(encoding, choice, state->World, state->ArrayName, {}, output);
 }

@@ -29,6 +29,10 @@
 #include "vtkIsodiamondHierarchy.h"     // for the models
 #include "vtkPolyDataAlgorithm.h"
 
+#include <string> // for the names of arrays
+#include <vector> // for the names of arrays
+
+class vtkImageData;
 namespace isodiamond
 {
 struct AffineMap;
@@ -38,6 +42,7 @@ namespace vtkIsodiamond
 {
 struct Choice;
 struct InputArray;
+class Task;
 }
 
 class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondBuilder : public vtkPolyDataAlgorithm
@@ -156,6 +161,29 @@ public:
 
   ///@{
   /**
+   * Other point arrays of the image that the hierarchy is to carry, so that its meshes can be
+   * coloured by them: one value for every stored isovertex, and for every lattice point inside an
+   * interval volume, interpolated trilinearly. An array that the image lacks is an error. Not for
+   * an HD, nor from one: with them it warns and has no effect. Default: none.
+   */
+  void AddPointArray(const char* name);
+  void ClearPointArrays();
+  int GetNumberOfPointArrays();
+  const char* GetPointArray(int i);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the hierarchy is to carry the surface's normals of the full-resolution gradient: 12
+   * bytes a point. As above not for an HD. Default: off.
+   */
+  vtkSetMacro(ComputeNormals, bool);
+  vtkGetMacro(ComputeNormals, bool);
+  vtkBooleanMacro(ComputeNormals, bool);
+  ///@}
+
+  ///@{
+  /**
    * Threads to use; 0 for all cores. The result does not depend on it. Default: 0.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
@@ -187,6 +215,8 @@ protected:
   bool PreserveFeatures = true;
   bool RefineInterior = false;
   bool CloseBoundary = false;
+  std::vector<std::string> PointArrays;
+  bool ComputeNormals = false;
   int NumberOfThreads = 0;
 
 private:
@@ -197,8 +227,9 @@ private:
   vtkIsodiamond::Choice GetChoice() const;
   isodiamond::BuildOptions GetOptions(const isodiamond::AffineMap& world) const;
   void CheckModel() const;
-  void BuildFromImage(vtkInformationVector** inputVector, vtkPolyData* output);
-  void BuildFromHierarchy(vtkPolyData* input, vtkPolyData* output);
+  void WarnWithoutPointArrays();
+  void BuildFromImage(vtkImageData* image, vtkIsodiamond::Task& task, vtkPolyData* output);
+  void BuildFromHierarchy(vtkPolyData* input, vtkIsodiamond::Task& task, vtkPolyData* output);
 };
 
 #endif

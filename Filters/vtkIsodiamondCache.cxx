@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondCache.h"
 
-#include "vtkIsodiamondThreads.h"
+#include "vtkIsodiamondQuery.h"
+
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
 
 namespace vtkIsodiamond
 {
-
 namespace
 {
 
@@ -27,43 +30,81 @@ bool AreAlike(const isodiamond::BuildOptions& a, const isodiamond::BuildOptions&
 
 }
 
-void Cache::Prepare(
-  vtkDataArray* array, const Volume& volume, bool closed, const isodiamond::BuildOptions& options)
+bool Cache::Source::operator==(const Source& other) const
 {
-  if (array != this->Array || array->GetMTime() != this->ArrayTime ||
-    volume.Dimensions != this->Dimensions || closed != this->Closed ||
-    !AreAlike(options, this->Options))
-  {
-    this->Entries.clear();
-    this->Array = array;
-    this->ArrayTime = array->GetMTime();
-    this->Dimensions = volume.Dimensions;
-    this->Closed = closed;
-  }
-  this->Options = options;
+  return this->Samples == other.Samples && this->HiddenPoints == other.HiddenPoints &&
+    this->HiddenCells == other.HiddenCells && this->Dimensions == other.Dimensions &&
+    this->Padding == other.Padding && AreAlike(this->Options, other.Options);
 }
 
-const isodiamond::IsodiamondHierarchy& Cache::Get(
-  const Volume& volume, const isodiamond::Isoregion& region, bool refineInterior)
+void Cache::Prepare(
+  vtkDataArray* array, const Volume& volume, const isodiamond::BuildOptions& options)
 {
-  for (const std::unique_ptr<Entry>& entry : this->Entries)
-  {
-    // What can be refined inside need not be.
-    if (entry->Region == region && (entry->RefineInterior || !refineInterior))
+  this->Current.Samples = this->Hashes.Of(array);
+  this->Current.HiddenPoints = this->Hashes.Of(volume.Grid->GetPointGhostArray());
+  this->Current.HiddenCells = this->Hashes.Of(volume.Grid->GetCellGhostArray());
+  this->Current.Dimensions = volume.Dimensions;
+  this->Current.Padding = volume.Padding;
+  this->Current.Options = options;
+}
+
+const isodiamond::IsodiamondHierarchy& Cache::Get(const Volume& volume,
+  const isodiamond::Isoregion& region, bool refineInterior, Task& task)
+{
+  // What can be refined inside need not be.
+  const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
+    [&](const Entry& entry)
     {
-      return *entry->Hierarchy;
-    }
+      return entry.Region == region && (entry.RefineInterior || !refineInterior) &&
+        entry.From == this->Current;
+    });
+  if (found != this->Entries.end())
+  {
+    found->IsUsed = true;
+    this->Entries.splice(this->Entries.begin(), this->Entries, found);
+    return *this->Entries.front().Hierarchy;
   }
-  auto entry = std::make_unique<Entry>();
-  entry->Region = region;
-  entry->RefineInterior = refineInterior;
-  this->Options.RefineInterior = refineInterior;
-  entry->Encoding = isodiamond::BuildIsodiamonds(
-    isodiamond::Model::Minimal, volume.Samples, region, SMPFor(), this->Options);
-  entry->Hierarchy = std::make_unique<isodiamond::IsodiamondHierarchy>(entry->Encoding, SMPFor());
+  isodiamond::BuildOptions options = this->Current.Options;
+  options.RefineInterior = refineInterior;
+  options.Hidden = &volume.Hidden;
+  options.Report = task.Report();
+  std::list<Entry> added(1);
+  Entry& entry = added.front();
+  entry.From = this->Current;
+  entry.Region = region;
+  entry.RefineInterior = refineInterior;
+  entry.Encoding = isodiamond::BuildIsodiamonds(
+    isodiamond::Model::Minimal, volume.Samples, region, task.For(), options);
+  entry.Hierarchy = std::make_unique<isodiamond::IsodiamondHierarchy>(entry.Encoding, task.For());
   ++this->NumberOfBuilds;
-  this->Entries.push_back(std::move(entry));
-  return *this->Entries.back()->Hierarchy;
+  this->Entries.splice(this->Entries.begin(), added);
+  return *entry.Hierarchy;
+}
+
+void Cache::Trim(std::int64_t bytes)
+{
+  std::int64_t kept = 0;
+  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
+  {
+    kept += entry->Bytes();
+    const bool isUsed = entry->IsUsed;
+    entry->IsUsed = false;
+    entry = isUsed || kept <= bytes ? std::next(entry) : this->Entries.erase(entry);
+  }
+}
+
+Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
+  bool refineInterior, const Query& query, const MeshWishes& wishes, Task& task)
+{
+  constexpr double buildShare = 0.8;
+  Task building = task.Part(0.0, buildShare);
+  const isodiamond::IsodiamondHierarchy& hierarchy =
+    hierarchies.Get(volume, region, refineInterior, building);
+  Task extracting = task.Part(buildShare, 1.0);
+  extracting.Begin("Refining", 0.0, 0.3);
+  const isodiamond::RefinedSet refined(
+    hierarchy, CoreQuery(query, hierarchy.Domain(), volume.Place.World), extracting.For());
+  return ExtractMesh(refined, wishes, extracting);
 }
 
 }

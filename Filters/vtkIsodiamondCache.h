@@ -2,69 +2,89 @@
 #ifndef vtkIsodiamondCache_h
 #define vtkIsodiamondCache_h
 
+#include "vtkIsodiamondContentHash.h"
 #include "vtkIsodiamondInput.h"
+#include "vtkIsodiamondMesh.h"
+#include "vtkIsodiamondTask.h"
 
 #include "Builder.h"
 
-#include "vtkDataArray.h"
-#include "vtkSmartPointer.h"
 #include "vtkType.h"
 
-#include <algorithm>
+#include <cstdint>
+#include <list>
 #include <memory>
-#include <vector>
 
 namespace vtkIsodiamond
 {
 
 /**
- * The minimal hierarchies that a one-step filter has built of its current volume, in the way that
- * it is told to. Volumes count as the same when array (object and time), dimensions and padding
- * are; with the distance metric lengths in the world have to be, too. All other geometry is applied
- * on extraction.
+ * The minimal hierarchies that a one-step filter has built: of the blocks of its input, of time
+ * steps that were shown before, of isovalues.
+ *
+ * Volumes count as the same when the values of their arrays, their dimensions, padding and hidden
+ * cells are; with the distance metric their lengths in the world have to be, too. All other
+ * geometry is applied on extraction. What was used longest ago is forgotten first.
  */
 class Cache
 {
 public:
-  struct Entry
-  {
-    isodiamond::Isoregion Region = 0.0;
-    bool RefineInterior = false;
-    isodiamond::Encoding Encoding;
-    std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy;
-  };
-
-  /** Forgets what does not belong to the volume and the options. @param array the image's own,
+  /** The volume and the way to build that what follows is about. @param array the grid's own,
    *  before padding @param options RefineInterior is Get()'s */
-  void Prepare(vtkDataArray* array, const Volume& volume, bool closed,
-    const isodiamond::BuildOptions& options);
-
-  /** Forgets the hierarchies that keep(region) is false for. */
-  template <typename Keep>
-  void Retain(Keep&& keep)
-  {
-    this->Entries.erase(
-      std::remove_if(this->Entries.begin(), this->Entries.end(),
-        [&](const std::unique_ptr<Entry>& entry) { return !keep(entry->Region); }),
-      this->Entries.end());
-  }
+  void Prepare(
+    vtkDataArray* array, const Volume& volume, const isodiamond::BuildOptions& options);
 
   /** The hierarchy of a region; built if there is none yet. */
-  const isodiamond::IsodiamondHierarchy& Get(
-    const Volume& volume, const isodiamond::Isoregion& region, bool refineInterior = false);
+  const isodiamond::IsodiamondHierarchy& Get(const Volume& volume,
+    const isodiamond::Isoregion& region, bool refineInterior, Task& task);
 
-  /** How many hierarchies were built so far. */
+  /** Forgets all but what was used since the last time, and as much more as fits. */
+  void Trim(std::int64_t bytes);
+
+  /** How many hierarchies were built so far, and are kept. */
   vtkIdType GetNumberOfBuilds() const { return this->NumberOfBuilds; }
+  vtkIdType GetSize() const { return static_cast<vtkIdType>(this->Entries.size()); }
 
 private:
-  std::vector<std::unique_ptr<Entry>> Entries;
-  vtkSmartPointer<vtkDataArray> Array; ///< held, so that no other array can get its address
-  vtkMTimeType ArrayTime = 0;
-  std::array<int, 3> Dimensions{};
-  bool Closed = false;
-  isodiamond::BuildOptions Options;
+  /** What has to be the same of a volume. */
+  struct Source
+  {
+    ContentHash Samples{};
+    ContentHash HiddenPoints{};
+    ContentHash HiddenCells{};
+    std::array<int, 3> Dimensions{};
+    int Padding = 0;
+    isodiamond::BuildOptions Options;
+
+    bool operator==(const Source& other) const;
+  };
+
+  struct Entry
+  {
+    Source From;
+    isodiamond::Isoregion Region = 0.0;
+    bool RefineInterior = false;
+    bool IsUsed = true; ///< since the last time of trimming
+    isodiamond::Encoding Encoding;
+    std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy;
+
+    std::int64_t Bytes() const
+    {
+      return this->Hierarchy->StorageSize() + this->Hierarchy->DerivedSize();
+    }
+  };
+
+  ContentHashes Hashes;
+  Source Current;
+  std::list<Entry> Entries; ///< what was used last comes first
   vtkIdType NumberOfBuilds = 0;
 };
+
+struct Query;
+
+/** What both one-step filters do: the hierarchy of a region, the refined set of a query, the mesh. */
+Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
+  bool refineInterior, const Query& query, const MeshWishes& wishes, Task& task);
 
 }
 

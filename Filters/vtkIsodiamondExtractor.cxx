@@ -4,7 +4,6 @@
 #include "vtkIsodiamondInput.h"
 #include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
-#include "vtkIsodiamondRegion.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -28,7 +27,7 @@ struct vtkIsodiamondExtractor::Execution
   vtkIdType Count(std::int64_t (isodiamond::RefinedSet::*count)() const, int numberOfThreads) const
   {
     vtkIdType result = 0;
-    vtkIsodiamond::RefineState(*this->State, this->Query, numberOfThreads,
+    vtkIsodiamond::RefineState(*this->State, this->Query, numberOfThreads, vtkIsodiamond::SMPFor(),
       [&](const isodiamond::RefinedSet& refined) { result = (refined.*count)(); });
     return result;
   }
@@ -44,16 +43,12 @@ vtkIsodiamondExtractor::~vtkIsodiamondExtractor() = default;
 void vtkIsodiamondExtractor::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
-  vtkIsodiamond::PrintRegion(
-    os, indent, this->UseRegionOfInterest, this->RegionOfInterest, this->OutsideErrorTolerance);
   os << indent << "InteriorTolerance: " << this->InteriorTolerance << "\n";
   os << indent << "Shape: " << this->Shape << "\n";
   os << indent << "Isorange: " << this->Isorange[0] << " " << this->Isorange[1] << "\n";
   os << indent << "UseIsorange: " << (this->UseIsorange ? "On" : "Off") << "\n";
   os << indent << "Isovalue: " << this->Isovalue << "\n";
   os << indent << "UseIsovalue: " << (this->UseIsovalue ? "On" : "Off") << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
 
 //------------------------------------------------------------------------------
@@ -92,24 +87,6 @@ void vtkIsodiamondExtractor::StoreIsorange(double lower, double upper)
 }
 
 //------------------------------------------------------------------------------
-void vtkIsodiamondExtractor::SetRegionOfInterestPosition(double x, double y, double z)
-{
-  if (vtkIsodiamond::MoveRegion(this->RegionOfInterest, { x, y, z }))
-  {
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkIsodiamondExtractor::SetRegionOfInterestSize(double x, double y, double z)
-{
-  if (vtkIsodiamond::ResizeRegion(this->RegionOfInterest, { x, y, z }))
-  {
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
 vtkIdType vtkIsodiamondExtractor::GetNumberOfSubdividedDiamonds()
 {
   if (this->Last && !this->Last->Subdivided)
@@ -134,14 +111,8 @@ vtkIdType vtkIsodiamondExtractor::GetNumberOfFrontDiamonds()
 //------------------------------------------------------------------------------
 vtkIsodiamond::Query vtkIsodiamondExtractor::GetQuery() const
 {
-  vtkIsodiamond::Query query;
-  query.ErrorTolerance = this->ErrorTolerance;
+  vtkIsodiamond::Query query = this->Superclass::GetQuery();
   query.InteriorTolerance = this->InteriorTolerance;
-  query.OutsideErrorTolerance = this->OutsideErrorTolerance;
-  if (this->UseRegionOfInterest)
-  {
-    query.Region = vtkIsodiamond::RegionBox(this->RegionOfInterest);
-  }
   if (this->Shape >= 0)
   {
     query.Shape = static_cast<isodiamond::Shape>(this->Shape);
@@ -158,11 +129,15 @@ vtkIsodiamond::Query vtkIsodiamondExtractor::GetQuery() const
 }
 
 //------------------------------------------------------------------------------
+vtkUnstructuredGrid* vtkIsodiamondExtractor::GetOutput()
+{
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
 vtkFieldData* vtkIsodiamondExtractor::FindHierarchy()
 {
-  vtkPolyData* input = this->GetNumberOfInputConnections(0) > 0
-    ? vtkPolyData::SafeDownCast(this->GetInputDataObject(0, 0))
-    : nullptr;
+  vtkPolyData* input = vtkPolyData::SafeDownCast(this->GetInput());
   return input && vtkIsodiamond::HasHierarchy(input->GetFieldData()) ? input->GetFieldData()
                                                                      : nullptr;
 }
@@ -192,6 +167,13 @@ int vtkIsodiamondExtractor::FillInputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
+int vtkIsodiamondExtractor::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkIsodiamondExtractor::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -201,28 +183,34 @@ int vtkIsodiamondExtractor::RequestData(
   {
     return 1; // the first piece has all of it
   }
-  try
-  {
-    auto execution = std::make_unique<Execution>();
-    execution->Query = this->GetQuery();
-    execution->State =
-      vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), execution->Query);
-    vtkIsodiamond::RefineState(*execution->State, execution->Query, this->NumberOfThreads,
-      [&](const isodiamond::RefinedSet& refined)
-      { this->WriteMesh(*execution->State, refined, output); });
-    this->Last = std::move(execution);
-  }
-  catch (const std::exception& problem)
-  {
-    output->Initialize();
-    vtkErrorMacro(<< problem.what());
-  }
-  return 1;
+  return vtkIsodiamond::Execute(this, output,
+    [&](vtkIsodiamond::Task& task)
+    {
+      auto execution = std::make_unique<Execution>();
+      execution->Query = this->GetQuery();
+      task.Begin("Reading the hierarchy", 0.0, 0.2);
+      execution->State =
+        vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), execution->Query);
+      task.Begin("Refining", 0.2, 0.5);
+      vtkIsodiamond::Task writing = task.Part(0.5, 1.0);
+      vtkIsodiamond::RefineState(*execution->State, execution->Query, this->NumberOfThreads,
+        task.For(), [&](const isodiamond::RefinedSet& refined)
+        { this->WriteMesh(*execution->State, refined, writing, output); });
+      this->Last = std::move(execution);
+    });
 }
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
-  const isodiamond::RefinedSet& refined, vtkUnstructuredGrid* output)
+  const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkUnstructuredGrid* output)
 {
-  vtkIsodiamond::ExtractMesh(refined, state.World, state.ArrayName, output);
+  const isodiamond::GridGeometry world = state.World;
+  vtkIsodiamond::MeshWishes wishes{ world, state.ArrayName };
+  wishes.PointsPrecision = this->OutputPointsPrecision;
+  if (state.Isodiamonds && !state.PointArrays.empty())
+  {
+    wishes.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
+  }
+  vtkIsodiamond::ExtractMesh(refined, wishes, task)
+    .Give(output, refined.Hierarchy().Region().IsVolume());
 }

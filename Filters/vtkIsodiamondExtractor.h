@@ -7,7 +7,8 @@
  * Output: of an isosurface triangles, with normals to lower values; of an interval volume
  * tetrahedra. Point data: under the name of the array that the hierarchy was built from the field's
  * value, which is the isovalue on a surface and the sample inside; of an interval volume also
- * `Surface`: -1 on the lower surface, 1 on the upper one, 0 inside. Cell data: `Level` of the
+ * `Surface`: -1 on the lower surface, 1 on the upper one, 0 inside; and the other arrays that the
+ * hierarchy carries. Cell data: `Level` of the
  * diamond that a cell lies in, 0 for the coarsest.
  *
  * The mesh has no cracks at any tolerance, and the three models give the same one. A coarser
@@ -22,9 +23,9 @@
 #ifndef vtkIsodiamondExtractor_h
 #define vtkIsodiamondExtractor_h
 
+#include "vtkIsodiamondAlgorithm.h"
 #include "vtkIsodiamondFiltersModule.h" // for export macro
 #include "vtkIsodiamondHierarchy.h"     // for the shapes
-#include "vtkUnstructuredGridAlgorithm.h"
 
 #include <memory> // for the last execution
 
@@ -32,73 +33,21 @@ namespace isodiamond
 {
 class RefinedSet;
 }
+class vtkFieldData;
+class vtkUnstructuredGrid;
 namespace vtkIsodiamond
 {
 struct Query;
 struct State;
+class Task;
 }
 
-class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondExtractor : public vtkUnstructuredGridAlgorithm
+class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondExtractor : public vtkIsodiamondAlgorithm
 {
 public:
   static vtkIsodiamondExtractor* New();
-  vtkTypeMacro(vtkIsodiamondExtractor, vtkUnstructuredGridAlgorithm);
+  vtkTypeMacro(vtkIsodiamondExtractor, vtkIsodiamondAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /**
-   * The error that is tolerated, in the units of the hierarchy's metric. *Distance*: world units;
-   * no vertex of the full-resolution surface is farther from the mesh. *Field* (the paper's): field
-   * units; at every sample in a tetrahedron that carries the surface, field and interpolant differ
-   * by no more. 0 is full resolution; infinity the coarsest. Negative values and NaN are errors.
-   * Default: 0.
-   */
-  vtkSetMacro(ErrorTolerance, double);
-  vtkGetMacro(ErrorTolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether ErrorTolerance and InteriorTolerance hold in the region of interest only, and
-   * OutsideErrorTolerance elsewhere. Default: off.
-   */
-  vtkSetMacro(UseRegionOfInterest, bool);
-  vtkGetMacro(UseRegionOfInterest, bool);
-  vtkBooleanMacro(UseRegionOfInterest, bool);
-  ///@}
-
-  ///@{
-  /**
-   * The region of interest, a closed box along the world's axes (xmin, xmax, ymin, ymax, zmin,
-   * zmax), whatever the image's direction. In it the mesh is the uniform one of ErrorTolerance (or
-   * of OutsideErrorTolerance, should that be smaller), outside as coarse as OutsideErrorTolerance
-   * and conformity let it be. Bounds may be infinite; a box with a minimum greater than its maximum
-   * is empty. Position is its lowest corner; setting it keeps the size, setting the size keeps the
-   * position. Default: the unit cube [0, 1]^3.
-   */
-  vtkSetVector6Macro(RegionOfInterest, double);
-  vtkGetVector6Macro(RegionOfInterest, double);
-  void SetRegionOfInterestPosition(double x, double y, double z);
-  void SetRegionOfInterestPosition(double position[3])
-  {
-    this->SetRegionOfInterestPosition(position[0], position[1], position[2]);
-  }
-  void SetRegionOfInterestSize(double x, double y, double z);
-  void SetRegionOfInterestSize(double size[3])
-  {
-    this->SetRegionOfInterestSize(size[0], size[1], size[2]);
-  }
-  ///@}
-
-  ///@{
-  /**
-   * The error that is tolerated outside of the region of interest, in the units of ErrorTolerance.
-   * Negative values and NaN are errors while the region is used. Default: VTK_DOUBLE_MAX, as good
-   * as infinity.
-   */
-  vtkSetMacro(OutsideErrorTolerance, double);
-  vtkGetMacro(OutsideErrorTolerance, double);
-  ///@}
 
   ///@{
   /**
@@ -112,12 +61,9 @@ public:
   vtkIdType GetNumberOfFrontDiamonds();
   ///@}
 
-  /** Tolerances that are worth trying: field metric, from 0 to the extent of the field's values,
-   *  beyond which a tolerance changes nothing; distance metric, up to 2 % of the grid's diagonal.
-   *  {0, 1} while there is no hierarchy. */
-  double* GetErrorToleranceRange() VTK_SIZEHINT(2);
+  double* GetErrorToleranceRange() VTK_SIZEHINT(2) override;
 
-  /** The same for the interior tolerance, in field units; its maximum, which is as good as
+  /** Interior tolerances that are worth trying, in field units; the maximum, which is as good as
    *  infinity, stays at VTK_DOUBLE_MAX while there is no hierarchy. */
   double* GetInteriorToleranceRange() VTK_SIZEHINT(2);
 
@@ -173,41 +119,31 @@ public:
   vtkBooleanMacro(UseIsovalue, bool);
   ///@}
 
-  ///@{
-  /**
-   * Threads to use; 0 for all cores. The result does not depend on it. Default: 0.
-   */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  /** The mesh. */
+  vtkUnstructuredGrid* GetOutput();
 
 protected:
   vtkIsodiamondExtractor();
   ~vtkIsodiamondExtractor() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
   /** Makes the output of a query. */
   virtual void WriteMesh(const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined,
-    vtkUnstructuredGrid* output);
+    vtkIsodiamond::Task& task, vtkUnstructuredGrid* output);
 
   /** What the properties ask of a hierarchy. */
   vtkIsodiamond::Query GetQuery() const;
 
-  double ErrorTolerance = 0.0;
-  bool UseRegionOfInterest = false;
-  double RegionOfInterest[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
-  double OutsideErrorTolerance = VTK_DOUBLE_MAX;
   double InteriorTolerance = VTK_DOUBLE_MAX;
   int Shape = -1;
   double Isorange[2] = { 0.0, 1.0 };
   bool UseIsorange = false;
   double Isovalue = 0.0;
   bool UseIsovalue = false;
-  int NumberOfThreads = 0;
-  double ErrorToleranceRange[2] = { 0.0, 1.0 };
   double InteriorToleranceRange[2] = { 0.0, VTK_DOUBLE_MAX };
 
 private:

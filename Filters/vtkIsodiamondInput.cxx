@@ -3,9 +3,7 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
-#include "vtkMatrix3x3.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -50,27 +48,6 @@ isodiamond::AnySamples ViewInteger(vtkDataArray* array, const std::array<int, 3>
   }
 }
 
-isodiamond::AffineMap IndexToWorld(vtkImageData* image, int shift)
-{
-  isodiamond::AffineMap map;
-  int extent[6];
-  double spacing[3];
-  double origin[3];
-  image->GetExtent(extent);
-  image->GetSpacing(spacing);
-  image->GetOrigin(origin);
-  for (int i = 0; i < 3; ++i)
-  {
-    map.Rows[i][3] = origin[i];
-    for (int j = 0; j < 3; ++j)
-    {
-      map.Rows[i][j] = image->GetDirectionMatrix()->GetElement(i, j) * spacing[j];
-      map.Rows[i][3] += map.Rows[i][j] * (extent[2 * j] - shift);
-    }
-  }
-  return map;
-}
-
 /** A copy with one layer of the finite minimum on all six sides. */
 vtkSmartPointer<vtkDataArray> PaddedCopy(
   vtkDataArray* array, const std::array<int, 3>& dimensions, double minimum)
@@ -92,7 +69,7 @@ vtkSmartPointer<vtkDataArray> PaddedCopy(
   return copy;
 }
 
-void CheckArray(const InputArray& inputArray, vtkImageData* image)
+void CheckArray(const InputArray& inputArray, vtkDataSet* grid)
 {
   vtkDataArray* array = inputArray.Array;
   if (!array)
@@ -111,7 +88,7 @@ void CheckArray(const InputArray& inputArray, vtkImageData* image)
     throw std::invalid_argument(name + "has " + std::to_string(array->GetNumberOfComponents()) +
       " components; one is needed.");
   }
-  if (array->GetNumberOfTuples() != image->GetNumberOfPoints())
+  if (array->GetNumberOfTuples() != grid->GetNumberOfPoints())
   {
     throw std::invalid_argument(name + "does not have one value for each point.");
   }
@@ -124,7 +101,7 @@ void CheckDimensions(const std::array<int, 3>& dimensions)
   {
     if (samples < 2 || samples > most)
     {
-      throw std::invalid_argument("The image needs 2 to " + std::to_string(most) +
+      throw std::invalid_argument("The grid needs 2 to " + std::to_string(most) +
         " samples on every axis; its dimensions are " + std::to_string(dimensions[0]) + " x " +
         std::to_string(dimensions[1]) + " x " + std::to_string(dimensions[2]) + ".");
     }
@@ -212,39 +189,37 @@ double LargestTolerance(
   {
     return ExtentOfValues(array.Array).value_or(1.0);
   }
-  vtkImageData* image = vtkImageData::SafeDownCast(input);
-  if (!image || image->GetNumberOfPoints() == 0)
-  {
-    return 1.0;
-  }
-  std::array<int, 3> dimensions{};
-  image->GetDimensions(dimensions.data());
-  const isodiamond::AffineMap world = IndexToWorld(image, 0);
-  std::array<double, 3> diagonal{};
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      diagonal[i] += world.Rows[i][j] * (dimensions[j] - 1);
-    }
-  }
-  const double length = std::hypot(diagonal[0], diagonal[1], diagonal[2]);
+  vtkDataSet* grid = vtkDataSet::SafeDownCast(input);
+  const double length =
+    grid && grid->GetNumberOfPoints() > 0 ? DiagonalOf(grid) : 0.0;
   return std::isfinite(length) && length > 0.0 ? DistanceOfInterest * length : 1.0;
 }
 
-Volume ReadVolume(vtkImageData* image, const InputArray& inputArray, bool closeBoundary)
+const isodiamond::AffineMap& Volume::AffineWorld(const char* whatNeedsIt) const
 {
-  if (!image || image->GetNumberOfPoints() == 0)
+  const isodiamond::AffineMap* map = this->Place.World.Affine();
+  if (!map)
   {
-    throw std::invalid_argument("The input is not an image or is empty.");
+    throw std::invalid_argument(std::string(whatNeedsIt) +
+      " needs an image or a rectilinear grid of even spacing; on others use the field metric.");
   }
-  std::array<int, 3> dimensions{};
-  image->GetDimensions(dimensions.data());
-  CheckArray(inputArray, image);
+  return *map;
+}
+
+Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoundary)
+{
+  if (!grid || grid->GetNumberOfPoints() == 0)
+  {
+    throw std::invalid_argument("The input is not a grid or is empty.");
+  }
+  const std::array<int, 3> dimensions = DimensionsOf(grid);
+  CheckArray(inputArray, grid);
   CheckDimensions(dimensions);
   vtkDataArray* array = inputArray.Array;
   Volume volume;
+  volume.Grid = grid;
   volume.Dimensions = dimensions;
+  volume.Padding = closeBoundary ? 1 : 0;
   volume.Array = array;
   volume.ArrayName = array->GetName() ? array->GetName() : "";
   if (!array->HasStandardMemoryLayout())
@@ -262,10 +237,11 @@ Volume ReadVolume(vtkImageData* image, const InputArray& inputArray, bool closeB
   {
     const double minimum = isodiamond::FiniteRange(volume.Samples).Minimum;
     volume.Array = PaddedCopy(volume.Array, dimensions, minimum);
-    dimensions = { dimensions[0] + 2, dimensions[1] + 2, dimensions[2] + 2 };
-    ViewSamples(volume.Array, dimensions, volume.Samples);
+    ViewSamples(
+      volume.Array, { dimensions[0] + 2, dimensions[1] + 2, dimensions[2] + 2 }, volume.Samples);
   }
-  volume.World = IndexToWorld(image, closeBoundary ? 1 : 0);
+  volume.Place = GeometryOf(grid, volume.Padding);
+  volume.Hidden = HiddenCellsOf(grid, volume.Padding);
   return volume;
 }
 

@@ -2,10 +2,11 @@
 #ifndef vtkIsodiamondInput_h
 #define vtkIsodiamondInput_h
 
-#include "AffineMap.h"
 #include "IsodiamondHierarchy.h"
 #include "Samples.h"
+#include "vtkIsodiamondGrid.h"
 
+#include "vtkDataSet.h"
 #include "vtkSmartPointer.h"
 
 #include <optional>
@@ -13,7 +14,6 @@
 
 class vtkDataArray;
 class vtkDataObject;
-class vtkImageData;
 class vtkInformation;
 
 namespace vtkIsodiamond
@@ -22,11 +22,17 @@ namespace vtkIsodiamond
 /** The volume that a filter works on: samples in index space, and where they are in the world. */
 struct Volume
 {
-  std::array<int, 3> Dimensions{};     ///< of the image
+  vtkSmartPointer<vtkDataSet> Grid;
+  std::array<int, 3> Dimensions{};     ///< of the grid
+  int Padding = 0;                     ///< layers of samples around it
   vtkSmartPointer<vtkDataArray> Array; ///< holds the samples, one component
   isodiamond::AnySamples Samples;
-  isodiamond::AffineMap World; ///< of the lattice; includes extent, origin, spacing, direction
+  Geometry Place; ///< of the samples, padding included
+  isodiamond::HiddenCells Hidden;
   std::string ArrayName;
+
+  /** The map to the world, if it is affine; else an exception that says what needs one. */
+  const isodiamond::AffineMap& AffineWorld(const char* whatNeedsIt) const;
 };
 
 /** An array and what it is of, as vtkDataObject::FIELD_ASSOCIATION_... says. */
@@ -50,24 +56,25 @@ std::optional<double> ExtentOfValues(vtkDataArray* array);
 /** Distance tolerances beyond this part of the grid's diagonal are hardly of use. */
 inline constexpr double DistanceOfInterest = 0.02;
 
-/** The largest error tolerance that is worth trying on an image's array: by the distance metric
- * part of the diagonal, by the field metric the extent of the values; 1 while there is no input. */
+/** The largest error tolerance that is worth trying on a grid's array: by the distance metric part
+ * of the diagonal, by the field metric the extent of the values; 1 while there is no input. */
 double LargestTolerance(
   isodiamond::ErrorMetric metric, vtkDataObject* input, const InputArray& array);
 
 /**
- * An image's array as samples.
+ * A grid's array as samples.
  *
+ * @param grid an image, rectilinear grid or structured grid
  * @param closeBoundary pad by one layer of the data's minimum on all six sides
- * @throws std::invalid_argument saying why the image or the array cannot be used
+ * @throws std::invalid_argument saying why the grid or the array cannot be used
  */
-Volume ReadVolume(vtkImageData* image, const InputArray& array, bool closeBoundary);
+Volume ReadVolume(vtkDataSet* grid, const InputArray& array, bool closeBoundary);
 
 /** The samples of an array as volume of given dimensions. @return false for an unknown type. */
 bool ViewSamples(
   vtkDataArray* array, const std::array<int, 3>& dimensions, isodiamond::AnySamples& samples);
 
-/** Asks for the whole image: a hierarchy of a part of it is another hierarchy. */
+/** Asks for the whole grid: a hierarchy of a part of it is another hierarchy. */
 void RequestWholeExtent(vtkInformation* inputInformation);
 
 /** Whether this process makes the output: in parallel the first piece does, the others are empty.

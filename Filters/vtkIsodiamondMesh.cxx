@@ -3,21 +3,24 @@
 
 #include "IntervalExtraction.h"
 #include "SurfaceExtraction.h"
-#include "vtkIsodiamondThreads.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkIdList.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkSignedCharArray.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <cmath>
 #include <limits>
+#include <vector>
 
 namespace vtkIsodiamond
 {
@@ -26,13 +29,14 @@ namespace
 
 /** Cells of one size: the offsets are known, write(connectivity) fills in the point ids. */
 template <typename Array, typename Write>
-vtkSmartPointer<vtkCellArray> WriteCells(std::int64_t count, int size, const Write& write)
+vtkSmartPointer<vtkCellArray> WriteCells(
+  std::int64_t count, int size, const isodiamond::ParallelFor& parallelFor, const Write& write)
 {
   using Id = typename Array::ValueType;
   vtkSmartPointer<Array> offsets = vtkSmartPointer<Array>::New();
   offsets->SetNumberOfValues(count + 1);
   Id* offset = offsets->GetPointer(0);
-  SMPFor()(count + 1, 65536,
+  parallelFor(count + 1, 65536,
     [offset, size](std::int64_t begin, std::int64_t end)
     {
       for (std::int64_t i = begin; i < end; ++i)
@@ -50,11 +54,12 @@ vtkSmartPointer<vtkCellArray> WriteCells(std::int64_t count, int size, const Wri
 
 /** In 32 bits where they fit: half the bytes. */
 template <typename Write>
-vtkSmartPointer<vtkCellArray> WriteCells(std::int64_t count, int size, const Write& write)
+vtkSmartPointer<vtkCellArray> WriteCells(
+  std::int64_t count, int size, const isodiamond::ParallelFor& parallelFor, const Write& write)
 {
   return size * count <= std::numeric_limits<std::int32_t>::max()
-    ? WriteCells<vtkTypeInt32Array>(count, size, write)
-    : WriteCells<vtkTypeInt64Array>(count, size, write);
+    ? WriteCells<vtkTypeInt32Array>(count, size, parallelFor, write)
+    : WriteCells<vtkTypeInt64Array>(count, size, parallelFor, write);
 }
 
 vtkSmartPointer<vtkSignedCharArray> NewArray(const char* name, std::int64_t count)
@@ -67,29 +72,71 @@ vtkSmartPointer<vtkSignedCharArray> NewArray(const char* name, std::int64_t coun
 
 template <typename Array, typename Extraction>
 vtkSmartPointer<vtkPoints> WritePoints(
-  const Extraction& extraction, const isodiamond::AffineMap& world)
+  const Extraction& extraction, const isodiamond::GridGeometry& world)
 {
   vtkSmartPointer<Array> coordinates = vtkSmartPointer<Array>::New();
   coordinates->SetNumberOfComponents(3);
   coordinates->SetNumberOfTuples(extraction.PointCount());
-  extraction.WritePoints(world, coordinates->GetPointer(0));
+  auto* values = coordinates->GetPointer(0);
+  if (const isodiamond::AffineMap* map = world.Affine())
+  {
+    extraction.WritePoints(*map, values);
+  }
+  else
+  {
+    extraction.ForEachPoint(
+      [&](const isodiamond::MeshPoint& point)
+      {
+        const isodiamond::Vector position = world(point.Index);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          values[3 * point.Id + axis] = static_cast<typename Array::ValueType>(position[axis]);
+        }
+      });
+  }
   vtkSmartPointer<vtkPoints> points = vtkSmartPointer<vtkPoints>::New();
   points->SetData(coordinates);
   return points;
 }
 
+template <typename Extraction>
+void AddPoints(const Extraction& extraction, const MeshWishes& wishes, bool isDouble, Mesh& mesh)
+{
+  if (wishes.PointsPrecision != vtkAlgorithm::DEFAULT_PRECISION)
+  {
+    isDouble = wishes.PointsPrecision == vtkAlgorithm::DOUBLE_PRECISION;
+  }
+  mesh.Points = isDouble ? WritePoints<vtkDoubleArray>(extraction, wishes.World)
+                         : WritePoints<vtkFloatArray>(extraction, wishes.World);
+}
+
+template <typename Extraction>
+void AddMorePointData(const Extraction& extraction, const MeshWishes& wishes, Mesh& mesh)
+{
+  if (!wishes.MorePointData)
+  {
+    return;
+  }
+  const std::vector<PointWriter> writers =
+    wishes.MorePointData(extraction.PointCount(), mesh.PointData);
+  for (const PointWriter& write : writers)
+  {
+    extraction.ForEachPoint(write);
+  }
+}
+
 /** Field values: floats unless the samples need more. */
 template <typename Array>
-void AddValues(const isodiamond::IntervalExtraction& extraction, const std::string& name,
-  vtkUnstructuredGrid* output)
+void AddValues(
+  const isodiamond::IntervalExtraction& extraction, const std::string& name, Mesh& mesh)
 {
   vtkSmartPointer<Array> values = vtkSmartPointer<Array>::New();
   values->SetName(name.c_str());
   values->SetNumberOfValues(extraction.PointCount());
   const auto surfaces = NewArray("Surface", extraction.PointCount());
   extraction.WriteValues(values->GetPointer(0), surfaces->GetPointer(0));
-  output->GetPointData()->SetScalars(values);
-  output->GetPointData()->AddArray(surfaces);
+  mesh.PointData->SetScalars(values);
+  mesh.PointData->AddArray(surfaces);
 }
 
 bool NeedDouble(const isodiamond::AnySamples& samples)
@@ -98,67 +145,154 @@ bool NeedDouble(const isodiamond::AnySamples& samples)
     !std::holds_alternative<isodiamond::SampleView<float>>(samples);
 }
 
-void ExtractVolume(const isodiamond::RefinedSet& refined, const isodiamond::AffineMap& world,
-  const std::string& arrayName, vtkUnstructuredGrid* output)
+/** Leaves out the cells that lie in hidden ones of the grid, and points that no cell has then.
+ *  Cells there are of full resolution, so each lies in one. */
+template <typename Extraction>
+void LeaveOutHidden(
+  const Extraction& extraction, const isodiamond::HiddenCells& hidden, Mesh& mesh)
 {
-  const isodiamond::IntervalExtraction extraction(refined, SMPFor());
-  // In floats the thinnest tetrahedra would turn over, even close to the world's origin.
-  output->SetPoints(WritePoints<vtkDoubleArray>(extraction, world));
+  std::vector<isodiamond::Vector> positions(extraction.PointCount());
+  extraction.ForEachPoint(
+    [&](const isodiamond::MeshPoint& point) { positions[point.Id] = point.Index; });
+  vtkNew<vtkIdList> keptCells;
+  vtkNew<vtkIdList> keptPoints;
+  std::vector<vtkIdType> newIds(positions.size(), -1);
+  vtkNew<vtkCellArray> cells;
+  const vtkIdType count = mesh.Cells->GetNumberOfCells();
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    mesh.Cells->GetCellAtId(cell, size, ids);
+    isodiamond::Point inGrid{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      double sum = 0.0;
+      for (vtkIdType i = 0; i < size; ++i)
+      {
+        sum += positions[ids[i]][axis];
+      }
+      inGrid[axis] = static_cast<int>(std::floor(sum / static_cast<double>(size)));
+    }
+    if (hidden(inGrid))
+    {
+      continue;
+    }
+    keptCells->InsertNextId(cell);
+    cells->InsertNextCell(static_cast<int>(size));
+    for (vtkIdType i = 0; i < size; ++i)
+    {
+      vtkIdType& id = newIds[ids[i]];
+      if (id < 0)
+      {
+        id = keptPoints->InsertNextId(ids[i]);
+      }
+      cells->InsertCellPoint(id);
+    }
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(mesh.Points->GetDataType());
+  mesh.Points->GetPoints(keptPoints, points);
+  const auto keep = [](vtkDataSetAttributes* data, vtkIdList* ids)
+  {
+    vtkNew<vtkPointData> all;
+    all->ShallowCopy(data);
+    data->Initialize();
+    data->CopyAllOn();
+    data->CopyAllocate(all, ids->GetNumberOfIds());
+    data->CopyData(all, ids);
+  };
+  keep(mesh.PointData, keptPoints);
+  keep(mesh.CellData, keptCells);
+  mesh.Points = points;
+  mesh.Cells = cells;
+}
+
+void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshWishes& wishes,
+  const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
+{
+  const isodiamond::IntervalExtraction extraction(refined, parallelFor);
+  AddPoints(extraction, wishes, true, mesh);
   const auto levels = NewArray("Level", extraction.TetrahedronCount());
-  output->SetCells(VTK_TETRA,
-    WriteCells(extraction.TetrahedronCount(), 4,
-      [&](auto* connectivity)
-      { extraction.WriteTetrahedra(world.Mirrors(), connectivity, levels->GetPointer(0)); }));
-  output->GetCellData()->AddArray(levels);
+  mesh.Cells = WriteCells(extraction.TetrahedronCount(), 4, parallelFor,
+    [&](auto* connectivity)
+    {
+      extraction.WriteTetrahedra(wishes.World.Mirrors(), connectivity, levels->GetPointer(0));
+    });
+  mesh.CellData->AddArray(levels);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
   {
-    AddValues<vtkDoubleArray>(extraction, arrayName, output);
+    AddValues<vtkDoubleArray>(extraction, wishes.ArrayName, mesh);
   }
   else
   {
-    AddValues<vtkFloatArray>(extraction, arrayName, output);
+    AddValues<vtkFloatArray>(extraction, wishes.ArrayName, mesh);
   }
-}
-
-}
-
-Surface ExtractSurface(const isodiamond::RefinedSet& refined, const isodiamond::AffineMap& world)
-{
-  const isodiamond::SurfaceExtraction extraction(refined, SMPFor());
-  Surface surface;
-  surface.Points = WritePoints<vtkFloatArray>(extraction, world);
-  surface.Levels = NewArray("Level", extraction.TriangleCount());
-  surface.Triangles = WriteCells(extraction.TriangleCount(), 3,
-    [&](auto* connectivity)
-    { extraction.WriteTriangles(world.Mirrors(), connectivity, surface.Levels->GetPointer(0)); });
-  return surface;
-}
-
-vtkSmartPointer<vtkFloatArray> ConstantScalars(
-  const std::string& name, std::int64_t count, double isovalue)
-{
-  vtkSmartPointer<vtkFloatArray> scalars = vtkSmartPointer<vtkFloatArray>::New();
-  scalars->SetName(name.c_str());
-  scalars->SetNumberOfValues(count);
-  scalars->Fill(isovalue);
-  return scalars;
-}
-
-void ExtractMesh(const isodiamond::RefinedSet& refined, const isodiamond::AffineMap& world,
-  const std::string& arrayName, vtkUnstructuredGrid* output)
-{
-  const isodiamond::Isoregion& region = refined.Hierarchy().Region();
-  if (region.IsVolume())
+  AddMorePointData(extraction, wishes, mesh);
+  if (wishes.Hidden != nullptr && wishes.Hidden->Any())
   {
-    ExtractVolume(refined, world, arrayName, output);
-    return;
+    LeaveOutHidden(extraction, *wishes.Hidden, mesh);
   }
-  const Surface surface = ExtractSurface(refined, world);
-  output->SetPoints(surface.Points);
-  output->SetCells(VTK_TRIANGLE, surface.Triangles);
-  output->GetCellData()->AddArray(surface.Levels);
-  output->GetPointData()->SetScalars(
-    ConstantScalars(arrayName, surface.Points->GetNumberOfPoints(), region.Isovalue()));
+}
+
+void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshWishes& wishes,
+  const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
+{
+  const isodiamond::SurfaceExtraction extraction(refined, parallelFor);
+  AddPoints(extraction, wishes, false, mesh);
+  const auto levels = NewArray("Level", extraction.TriangleCount());
+  mesh.Cells = WriteCells(extraction.TriangleCount(), 3, parallelFor,
+    [&](auto* connectivity)
+    {
+      extraction.WriteTriangles(wishes.World.Mirrors(), connectivity, levels->GetPointer(0));
+    });
+  mesh.CellData->AddArray(levels);
+  if (wishes.WithValues)
+  {
+    vtkNew<vtkFloatArray> values;
+    values->SetName(wishes.ArrayName.c_str());
+    values->SetNumberOfValues(extraction.PointCount());
+    values->Fill(refined.Hierarchy().Region().Isovalue());
+    mesh.PointData->SetScalars(values);
+  }
+  AddMorePointData(extraction, wishes, mesh);
+  if (wishes.Hidden != nullptr && wishes.Hidden->Any())
+  {
+    LeaveOutHidden(extraction, *wishes.Hidden, mesh);
+  }
+}
+
+}
+
+void Mesh::Give(vtkPolyData* triangles) const
+{
+  triangles->SetPoints(this->Points);
+  triangles->SetPolys(this->Cells);
+  triangles->GetPointData()->ShallowCopy(this->PointData);
+  triangles->GetCellData()->ShallowCopy(this->CellData);
+}
+
+void Mesh::Give(vtkUnstructuredGrid* output, bool isVolume) const
+{
+  output->SetPoints(this->Points);
+  output->SetCells(isVolume ? VTK_TETRA : VTK_TRIANGLE, this->Cells);
+  output->GetPointData()->ShallowCopy(this->PointData);
+  output->GetCellData()->ShallowCopy(this->CellData);
+}
+
+Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshWishes& wishes, Task& task)
+{
+  task.Begin("Extracting the mesh", 0.0, 1.0);
+  Mesh mesh;
+  if (refined.Hierarchy().Region().IsVolume())
+  {
+    ExtractVolume(refined, wishes, task.For(), mesh);
+  }
+  else
+  {
+    ExtractSurface(refined, wishes, task.For(), mesh);
+  }
+  return mesh;
 }
 
 }

@@ -2,40 +2,54 @@
 #ifndef vtkIsodiamondMesh_h
 #define vtkIsodiamondMesh_h
 
-#include "AffineMap.h"
 #include "RefinedSet.h"
+#include "vtkIsodiamondPointData.h"
+#include "vtkIsodiamondTask.h"
 
+#include "vtkAlgorithm.h"
+#include "vtkCellData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
 
 class vtkCellArray;
-class vtkFloatArray;
 class vtkPoints;
-class vtkSignedCharArray;
+class vtkPolyData;
 class vtkUnstructuredGrid;
 
 namespace vtkIsodiamond
 {
 
-/** An extracted isosurface as VTK arrays. */
-struct Surface
+/** A mesh as VTK arrays: triangles of an isosurface, tetrahedra of an interval volume. */
+struct Mesh
 {
-  vtkSmartPointer<vtkPoints> Points;          ///< world positions, float
-  vtkSmartPointer<vtkCellArray> Triangles;    ///< 32-bit storage where ids fit
-  vtkSmartPointer<vtkSignedCharArray> Levels; ///< "Level", one a triangle
+  vtkSmartPointer<vtkPoints> Points;   ///< world positions
+  vtkSmartPointer<vtkCellArray> Cells; ///< 32-bit storage where ids fit
+  vtkNew<vtkPointData> PointData;
+  vtkNew<vtkCellData> CellData; ///< "Level"
+
+  /** Hands it to a data set. */
+  void Give(vtkPolyData* triangles) const;
+  void Give(vtkUnstructuredGrid* output, bool isVolume) const;
 };
 
-/** Extracts a surface. Runs in the calling thread's vtkSMPTools scope, like all of these. */
-Surface ExtractSurface(const isodiamond::RefinedSet& refined, const isodiamond::AffineMap& world);
+/** What is wanted of a mesh. */
+struct MeshWishes
+{
+  const isodiamond::GridGeometry& World;
+  std::string ArrayName;   ///< the field's values get it
+  bool WithValues = true;  ///< whether a surface's points have them
+  /** A vtkAlgorithm::DesiredOutputPrecision; by default floats for triangles, doubles for
+   *  tetrahedra: rounded to floats, the thinnest would turn over. */
+  int PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;
+  PointDataMaker MorePointData = nullptr;
+  const isodiamond::HiddenCells* Hidden = nullptr; ///< what lies in them is left out
+};
 
-/** The isovalue at every point, under the name of the input's array. */
-vtkSmartPointer<vtkFloatArray> ConstantScalars(
-  const std::string& name, std::int64_t count, double isovalue);
-
-/** Extracts an isosurface or interval volume with all of its point and cell data. */
-void ExtractMesh(const isodiamond::RefinedSet& refined, const isodiamond::AffineMap& world,
-  const std::string& arrayName, vtkUnstructuredGrid* output);
+/** Extracts a mesh. Runs in the calling thread's vtkSMPTools scope. */
+Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshWishes& wishes, Task& task);
 
 }
 

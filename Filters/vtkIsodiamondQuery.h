@@ -19,6 +19,13 @@
 namespace vtkIsodiamond
 {
 
+/** From where a mesh is seen. */
+struct View
+{
+  isodiamond::Vector Position{}; ///< in the world
+  double TolerancePerDistance = 0.0;
+};
+
 /** What a filter's properties ask of a hierarchy. */
 struct Query
 {
@@ -27,10 +34,14 @@ struct Query
   /** In the world; the tolerances hold there. */
   std::optional<isodiamond::Box> Region;
   double OutsideErrorTolerance = HUGE_VAL;
+  std::optional<vtkIsodiamond::View> View;
   /** What to extract instead of the hierarchy's own; an HD can. */
   std::optional<isodiamond::Shape> Shape;
   std::optional<double> Isovalue;
   std::optional<std::array<double, 2>> Isorange;
+
+  /** Whether it is for full resolution, whatever errors are. */
+  bool IsFull() const { return this->ErrorTolerance == 0.0 && !this->Region && !this->View; }
 
   /** The hierarchy's own choice, overridden by the query's. */
   Choice Override(Choice choice) const
@@ -63,17 +74,27 @@ inline void CheckTolerances(const Query& query)
   }
 }
 
-/** The query in terms of the core. @param world from the grid's index space */
+/** The query in terms of the core. @param world from the grid's index space; affine for a view */
 inline isodiamond::Query CoreQuery(
-  const Query& query, const isodiamond::Grid& grid, const isodiamond::AffineMap& world)
+  const Query& query, const isodiamond::Grid& grid, const isodiamond::GridGeometry& world)
 {
   isodiamond::Query result;
   result.Tolerance = query.ErrorTolerance;
   result.InteriorTolerance = query.InteriorTolerance;
   result.OutsideTolerance = query.OutsideErrorTolerance;
-  if (query.Region)
+  const isodiamond::AffineMap* map = world.Affine();
+  if (query.Region && map)
   {
-    result.Region.emplace(*query.Region, grid, world);
+    result.Region.emplace(*query.Region, grid, *map);
+  }
+  else if (query.Region)
+  {
+    result.Region.emplace(
+      isodiamond::IndexBoxOf(*query.Region, world), grid, isodiamond::AffineMap());
+  }
+  if (query.View)
+  {
+    result.View.emplace(query.View->Position, query.View->TolerancePerDistance, *map);
   }
   return result;
 }
@@ -106,7 +127,8 @@ inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, cons
  * @throws std::exception that says what is wrong with the query
  */
 template <typename Use>
-void RefineState(const State& state, const Query& query, int numberOfThreads, Use&& use)
+void RefineState(const State& state, const Query& query, int numberOfThreads,
+  const isodiamond::ParallelFor& parallelFor, Use&& use)
 {
   RunThreaded(numberOfThreads,
     [&]
@@ -115,14 +137,14 @@ void RefineState(const State& state, const Query& query, int numberOfThreads, Us
       {
         const isodiamond::Grid& grid = state.Isodiamonds->Domain();
         use(isodiamond::RefinedSet(
-          *state.Isodiamonds, CoreQuery(query, grid, state.World), SMPFor()));
+          *state.Isodiamonds, CoreQuery(query, grid, state.World), parallelFor));
         return;
       }
-      const isodiamond::Encoding answer =
-        isodiamond::EncodeQuery(*state.Scalars, query.Override(state.Chosen).Region(),
-          CoreQuery(query, state.Scalars->Domain(), state.World), state.ExactIsovertices, SMPFor());
-      const isodiamond::IsodiamondHierarchy hierarchy(answer, SMPFor());
-      use(isodiamond::RefinedSet(hierarchy, {}, SMPFor()));
+      const isodiamond::Encoding answer = isodiamond::EncodeQuery(*state.Scalars,
+        query.Override(state.Chosen).Region(),
+        CoreQuery(query, state.Scalars->Domain(), state.World), state.ExactIsovertices, parallelFor);
+      const isodiamond::IsodiamondHierarchy hierarchy(answer, parallelFor);
+      use(isodiamond::RefinedSet(hierarchy, {}, parallelFor));
     });
 }
 
@@ -137,6 +159,10 @@ inline std::shared_ptr<const State> ReadForQuery(
     throw std::invalid_argument("There is no input hierarchy.");
   }
   std::shared_ptr<const State> state = vtkIsodiamondHierarchy::ReadState(input);
+  if (query.View && state->Metric != isodiamond::ErrorMetric::Distance)
+  {
+    throw std::invalid_argument("A view-dependent mesh needs a hierarchy of the distance metric.");
+  }
   if (state->Isodiamonds)
   {
     WarnOfWhatHasNoEffect(filter, *state, query);

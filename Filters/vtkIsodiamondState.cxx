@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondState.h"
 
+#include "MeshPoints.h"
 #include "vtkIsodiamondThreads.h"
 
 #include "vtkCellArray.h"
@@ -28,6 +29,7 @@ namespace
 constexpr int FormatVersion = 2;
 constexpr int HeaderCount = 9;
 constexpr int ParameterCount = 17;
+const std::string PointArrayPrefix = "IsodiamondPointData:";
 constexpr const char* HeaderName = "IsodiamondHeader";
 constexpr const char* ParametersName = "IsodiamondParameters";
 constexpr int ErrorScaleAt = 3; ///< among the parameters
@@ -217,6 +219,33 @@ void ReadIsodiamonds(Reader& reader, const isodiamond::EncodingHeader& header, S
     [&] { state.Isodiamonds = std::make_unique<isodiamond::IsodiamondHierarchy>(view, SMPFor()); });
 }
 
+/** The other arrays at stored points, under their own names: copies that share the values. */
+void ReadPointArrays(vtkFieldData* fieldData, State& state)
+{
+  const std::int64_t count = isodiamond::StoredPointCount(*state.Isodiamonds);
+  for (int i = 0; i < fieldData->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* found = fieldData->GetAbstractArray(i);
+    const std::string name = found->GetName() ? found->GetName() : "";
+    if (name.compare(0, PointArrayPrefix.size(), PointArrayPrefix) != 0)
+    {
+      continue;
+    }
+    vtkDataArray* array = vtkDataArray::SafeDownCast(found);
+    if (!array || array->GetDataType() == VTK_BIT || array->GetNumberOfComponents() < 1 ||
+      array->GetNumberOfTuples() != count)
+    {
+      throw std::invalid_argument("the field data array \"" + name + "\" is malformed");
+    }
+    state.Arrays.emplace_back(array);
+    state.StorageSize += array->GetNumberOfValues() * array->GetDataTypeSize();
+    auto own = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+    own->ShallowCopy(array);
+    own->SetName(name.substr(PointArrayPrefix.size()).c_str());
+    state.PointArrays.push_back(own);
+  }
+}
+
 void ReadScalars(Reader& reader, const isodiamond::EncodingHeader& header, State& state)
 {
   const isodiamond::AnySamples samples = reader.Samples("IsodiamondSamples", header.Dimensions);
@@ -290,6 +319,7 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   else
   {
     ReadIsodiamonds(reader, core, state);
+    ReadPointArrays(fieldData, state);
   }
 }
 
@@ -351,7 +381,8 @@ bool IsCurrent(const State& state, vtkFieldData* fieldData)
 }
 
 void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
-  const isodiamond::AffineMap& world, const std::string& arrayName, vtkPolyData* output)
+  const isodiamond::AffineMap& world, const std::string& arrayName,
+  const std::vector<vtkSmartPointer<vtkDataArray>>& pointArrays, vtkPolyData* output)
 {
   WriteOutline(encoding.Header.Dimensions, world, output);
   vtkFieldData* fieldData = output->GetFieldData();
@@ -370,6 +401,11 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice
     AddArray<vtkTypeUInt16Array>(
       fieldData, "IsodiamondInteriorCodes", encoding.Arrays.InteriorCodes);
   }
+  for (vtkDataArray* array : pointArrays)
+  {
+    array->SetName((PointArrayPrefix + array->GetName()).c_str());
+    fieldData->AddArray(array);
+  }
 }
 
 void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choice,
@@ -377,7 +413,8 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choi
 {
   const std::array<int, 3> dimensions =
     std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
-  WriteOutline(dimensions, volume.World, output);
+  const isodiamond::AffineMap& world = *volume.Place.World.Affine();
+  WriteOutline(dimensions, world, output);
   vtkFieldData* fieldData = output->GetFieldData();
   isodiamond::EncodingHeader header;
   header.Kind = isodiamond::Model::HierarchyOfDiamonds;
@@ -386,7 +423,7 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choi
   header.ErrorScale = encoding.ErrorScale;
   header.FieldScale = encoding.ErrorScale;
   header.ExactIsovertices = exactIsovertices;
-  WriteHeader(header, choice, volume.World, volume.ArrayName, fieldData);
+  WriteHeader(header, choice, world, volume.ArrayName, fieldData);
   // The input's own array under another name: shared memory would rename it for the input too.
   AddSamples(fieldData, "IsodiamondSamples", volume.Array->GetDataType(),
     volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());

@@ -8,6 +8,7 @@
 #include "vtkIsodiamondInput.h"
 
 #include "vtkAbstractArray.h"
+#include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
 
 #include <memory>
@@ -34,6 +35,8 @@ class vtkPolyData;
  * | IsodiamondIsovertices | uint8 |
  * | IsodiamondInsideValues (interval volumes only) | of the samples' type |
  * | IsodiamondInteriorCodes (where the interior can be refined) | uint16 |
+ * | IsodiamondPointData:NAME (where wanted) | of any type: other arrays at the stored points, that |
+ * | | is, the isovertices, then the inside values; "Normals" are normals |
  * | IsodiamondSamples (HD only) | the input's samples |
  * | IsodiamondErrors (HD only) | uint16, see isodiamond::ScalarHierarchy |
  * | IsodiamondMinima, IsodiamondMaxima (HD only) | of the samples' type |
@@ -53,6 +56,8 @@ struct State
   isodiamond::AffineMap World;
   std::int64_t StorageSize = 0;
   std::vector<vtkSmartPointer<vtkAbstractArray>> Arrays;
+  /** Other arrays at stored points, under their own names. */
+  std::vector<vtkSmartPointer<vtkDataArray>> PointArrays;
   /** One of the two is set: RI and MI, or HD. */
   std::unique_ptr<isodiamond::IsodiamondHierarchy> Isodiamonds;
   std::unique_ptr<isodiamond::ScalarHierarchy> Scalars;
@@ -73,9 +78,11 @@ std::shared_ptr<const State> ReadState(vtkFieldData* fieldData);
 /** Whether the state was read from just these arrays. */
 bool IsCurrent(const State& state, vtkFieldData* fieldData);
 
-/** Puts an RI or MI into a data set; its geometry becomes the outline of the grid. */
+/** Puts an RI or MI into a data set; its geometry becomes the outline of the grid. @param
+ *  pointArrays other arrays at stored points */
 void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
-  const isodiamond::AffineMap& world, const std::string& arrayName, vtkPolyData* output);
+  const isodiamond::AffineMap& world, const std::string& arrayName,
+  const std::vector<vtkSmartPointer<vtkDataArray>>& pointArrays, vtkPolyData* output);
 
 /** Puts an HD into a data set. @param choice,exactIsovertices the default of queries, and how they
  *  place isovertices */

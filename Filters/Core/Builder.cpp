@@ -107,6 +107,20 @@ DiamondCodes DistanceTriggers(const Source& source, const IsodiamondHierarchy& r
   return triggers;
 }
 
+/** Active diamonds that touch a hidden cell are always subdivided. */
+void RefineAtHiddenCells(const HiddenCells& hidden, const DiamondMask& active,
+  const DiamondSet& members, const ParallelFor& parallelFor, DiamondCodes& codes)
+{
+  ForEachMember(members, parallelFor,
+    [&](const Place& place, std::uint32_t rank)
+    {
+      if (active.Contains(place) && hidden.Touch(place))
+      {
+        codes.Surface[rank] = ErrorCode::Always;
+      }
+    });
+}
+
 /** Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
  *  ancestors. */
 void RaiseToThresholds(
@@ -186,7 +200,17 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
   const BuildOptions& options, const ParallelFor& parallelFor)
 {
   const Grid& grid = source.Domain;
-  const bool refineInterior = options.RefineInterior && region.IsVolume();
+  const auto report = [&](const char* phase, double begin, double end)
+  {
+    if (options.Report)
+    {
+      options.Report(phase, begin, end);
+    }
+  };
+  const bool hides = options.Hidden != nullptr && options.Hidden->Any();
+  // What lies in hidden cells can be left out at full resolution only, deep inside too.
+  const bool refineInterior = (options.RefineInterior || hides) && region.IsVolume();
+  report("Classifying diamonds", 0.0, 0.2);
   Classification kinds = [&]
   {
     const SignLattice signs(grid, source.Samples, region, parallelFor);
@@ -212,14 +236,26 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
 
   // Distances are measured on the encoding; otherwise it waits: less memory at once.
   const bool isFirst = options.Metric == ErrorMetric::Distance;
-  Encoding encoding = isFirst ? encode() : Encoding();
+  Encoding encoding;
+  if (isFirst)
+  {
+    report("Placing isovertices", 0.2, 0.25);
+    encoding = encode();
+  }
+  report("Measuring errors", 0.25, 0.8);
   DiamondCodes codes = isFirst
     ? DistanceTriggers(
         source, IsodiamondHierarchy(encoding, parallelFor), options, refineInterior, parallelFor)
     : FieldTriggers(source, region, members, refineInterior, parallelFor);
+  if (hides)
+  {
+    RefineAtHiddenCells(*options.Hidden, kinds.Active, members, parallelFor, codes);
+  }
+  report("Finding thresholds", 0.8, 0.9);
   RaiseToThresholds(grid, members, parallelFor, codes);
   if (!isFirst)
   {
+    report("Placing isovertices", 0.9, 1.0);
     encoding = encode();
   }
   SetCodes(encoding, std::move(codes));

@@ -3,6 +3,7 @@
 #define isodiamond_Builder_h
 
 #include "AffineMap.h"
+#include "HiddenCells.h"
 #include "IsodiamondHierarchy.h"
 #include "Query.h"
 #include "ScalarHierarchy.h"
@@ -24,6 +25,11 @@ struct BuildOptions
   bool RefineInterior = false;
   /** From index space to the world, where distances are measured. */
   AffineMap World = AffineMap();
+  /** Cells that count as absent, if there are any. What carries something and touches one is always
+   *  subdivided, so that whoever has the mesh can leave out what lies in it. */
+  const HiddenCells* Hidden = nullptr;
+  /** Is told what is being done; may throw to stop. */
+  Progress Report = nullptr;
 };
 
 /**

@@ -187,85 +187,29 @@ IntervalExtraction::IntervalExtraction(const RefinedSet& refined, const Parallel
 {
 }
 
-template <typename Coordinate>
-void IntervalExtraction::WritePoints(const AffineMap& world, Coordinate* points) const
-{
-  const IsodiamondHierarchy& hierarchy = this->Passes.Hierarchy();
-  this->Passes.ForEachBrickWithPoints(
-    [&](std::int64_t brick)
-    {
-      this->Passes.ForEachDiamondWithPoints(brick,
-        [&](const Place& place, std::uint32_t rank, const DiamondPoints& own)
-        {
-          Coordinate* next = points + 3 * std::int64_t{ own.First };
-          const auto write = [&](const std::array<double, 3>& inside)
-          {
-            for (const double coordinate : world(inside[0], inside[1], inside[2]))
-            {
-              *next++ = static_cast<Coordinate>(coordinate);
-            }
-          };
-          if (own.HasCentre())
-          {
-            const Point centre = Centre(place);
-            write({ 1.0 * centre[0], 1.0 * centre[1], 1.0 * centre[2] });
-          }
-          const std::uint32_t lower = hierarchy.Edges(rank);
-          const std::uint8_t* coefficients = hierarchy.Isovertices(rank);
-          ForEachIsovertex(place, lower, own.Edges(0), coefficients, write);
-          ForEachIsovertex(
-            place, hierarchy.UpperEdges(rank), own.Edges(1), coefficients + PopCount(lower), write);
-        });
-    });
-}
-
 template <typename Value>
 void IntervalExtraction::WriteValues(Value* values, std::int8_t* surfaces) const
 {
-  const IsodiamondHierarchy& hierarchy = this->Passes.Hierarchy();
+  const Isoregion& region = this->Passes.Hierarchy().Region();
   std::array<Value, 2> isovalues{};
   for (int surface = 0; surface < 2; ++surface)
   {
-    const double isovalue = hierarchy.Region().Isovalue(surface);
+    const double isovalue = region.Isovalue(surface);
     isovalues[surface] = std::isfinite(isovalue) ? static_cast<Value>(isovalue)
                                                  : std::numeric_limits<Value>::quiet_NaN();
   }
-  const auto writeBrick = [&](std::int64_t brick, const auto* insideValue)
-  {
-    std::uint32_t next = this->Passes.BrickAt(brick).StoredBrick().First;
-    this->Passes.ForEachDiamondWithPoints(brick,
-      [&](const Place& /*place*/, std::uint32_t rank, const DiamondPoints& own)
-      {
-        std::uint32_t id = own.First;
-        for (; next < rank; ++next)
-        {
-          insideValue += hierarchy.Sign(next) == InsideSign ? 1 : 0;
-        }
-        if (own.HasCentre())
-        {
-          values[id] = static_cast<Value>(*insideValue);
-          surfaces[id++] = 0;
-        }
-        for (int surface = 0; surface < 2; ++surface)
-        {
-          const int count = PopCount(own.Edges(surface));
-          std::fill_n(values + id, count, isovalues[surface]);
-          std::fill_n(surfaces + id, count, static_cast<std::int8_t>(2 * surface - 1));
-          id += count;
-        }
-      });
-  };
   std::visit(
     [&](const auto& insideValues)
     {
-      this->Passes.ForEachBrickWithPoints(
-        [&](std::int64_t brick)
+      this->ForEachPoint(
+        [&, inside = insideValues.Pointer()](const MeshPoint& point)
         {
-          const std::int64_t stored = this->Passes.BrickAt(brick).StoredNumber();
-          writeBrick(brick, insideValues.Pointer() + hierarchy.FirstInsideValue(stored));
+          surfaces[point.Id] = static_cast<std::int8_t>(point.Surface);
+          values[point.Id] = point.Surface == 0 ? static_cast<Value>(inside[point.Stored])
+                                                : isovalues[point.Surface < 0 ? 0 : 1];
         });
     },
-    hierarchy.InsideValues());
+    this->Passes.Hierarchy().InsideValues());
 }
 
 template <typename Id>
@@ -282,8 +226,6 @@ void IntervalExtraction::WriteTetrahedra(bool mirrored, Id* connectivity, std::i
     });
 }
 
-template void IntervalExtraction::WritePoints(const AffineMap&, float*) const;
-template void IntervalExtraction::WritePoints(const AffineMap&, double*) const;
 template void IntervalExtraction::WriteValues(float*, std::int8_t*) const;
 template void IntervalExtraction::WriteValues(double*, std::int8_t*) const;
 template void IntervalExtraction::WriteTetrahedra(bool, std::int32_t*, std::int8_t*) const;

@@ -4,6 +4,7 @@
 
 #include "AffineMap.h"
 #include "ExtractionPasses.h"
+#include "MeshPoints.h"
 
 namespace isodiamond
 {
@@ -29,7 +30,17 @@ public:
 
   /** Writes 3 coordinates a point; float or double. */
   template <typename Coordinate>
-  void WritePoints(const AffineMap& world, Coordinate* points) const;
+  void WritePoints(const AffineMap& world, Coordinate* points) const
+  {
+    isodiamond::WritePoints(this->Passes, world, points);
+  }
+
+  /** Calls body(point) for every MeshPoint, in parallel. */
+  template <typename Body>
+  void ForEachPoint(Body&& body) const
+  {
+    isodiamond::ForEachPoint(this->Passes, body);
+  }
 
   /**
    * Writes what is known of the points.

@@ -217,6 +217,11 @@ public:
     return this->View.Arrays.Isovertices.Data + this->FirstIsovertex[rank];
   }
 
+  /** The number of isovertices of diamonds before that of a rank, and the coefficient of one by
+   *  its number. */
+  std::int64_t FirstIsovertexOf(std::int64_t rank) const { return this->FirstIsovertex[rank]; }
+  std::uint8_t Isovertex(std::int64_t number) const { return this->View.Arrays.Isovertices[number]; }
+
   /** The samples inside the interval volume, by rank of the centres, as a row. */
   const AnySamples& InsideValues() const { return this->View.InsideValues; }
 

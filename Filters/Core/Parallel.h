@@ -19,6 +19,9 @@ namespace isodiamond
 using ParallelFor = std::function<void(std::int64_t count, std::int64_t grain,
   const std::function<void(std::int64_t begin, std::int64_t end)>& body)>;
 
+/** Told that a phase of some work begins, and which part of the whole it is, from 0 to 1. */
+using Progress = std::function<void(const char* phase, double begin, double end)>;
+
 /** The parallel-for of one thread. */
 inline void SerialFor(std::int64_t count, std::int64_t /*grain*/,
   const std::function<void(std::int64_t, std::int64_t)>& body)

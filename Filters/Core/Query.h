@@ -3,6 +3,7 @@
 #define isodiamond_Query_h
 
 #include "RegionOfInterest.h"
+#include "Viewpoint.h"
 
 #include <cmath>
 #include <optional>
@@ -23,6 +24,9 @@ struct Query
   std::optional<RegionOfInterest> Region = std::nullopt;
   /** The tolerance outside of the region. */
   double OutsideTolerance = HUGE_VAL;
+  /** From where the mesh is seen: a diamond's tolerance is at least what the distance from there
+   *  makes of it. For errors that are distances. */
+  std::optional<Viewpoint> View = std::nullopt;
 };
 
 }

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefinedSet.h"
 
+#include "LocalTolerance.h"
+
 namespace isodiamond
 {
 namespace
 {
 
-/** Which stored diamonds exceed a tolerance, or an interior tolerance. */
+/** Which stored diamonds exceed what is tolerated. */
 class Exceeds
 {
 public:
-  Exceeds(const IsodiamondHierarchy& hierarchy, double tolerance, double interiorTolerance)
+  Exceeds(const IsodiamondHierarchy& hierarchy, const Tolerances& tolerated)
     : Hierarchy(hierarchy)
-    , Accepted(hierarchy.Codes().Accepted(tolerance))
-    , AcceptedInside(hierarchy.InteriorCodes().Accepted(interiorTolerance))
+    , Accepted(hierarchy.Codes().Accepted(tolerated.Surface))
+    , AcceptedInside(hierarchy.InteriorCodes().Accepted(tolerated.Interior))
     , Interior(hierarchy.RefinesInterior() && this->AcceptedInside < ErrorCode::Always - 1)
   {
   }
@@ -58,29 +60,33 @@ BrickMask ExceedingIn(const Brick& brick, const Exceeds& exceeds)
   return mask;
 }
 
-/** Of a brick's diamonds those that exceed, are no relevant ones and touch the region. */
-BrickMask ExceedingInRegion(const IsodiamondHierarchy& hierarchy, int scale, const Brick& brick,
-  const Exceeds& exceeds, const RegionOfInterest& region)
+/** Of a brick's candidates those that exceed what is tolerated of them, and are no relevant ones. */
+BrickMask ExceedingLocally(const IsodiamondHierarchy& hierarchy, const BrickPlace& place,
+  const Brick& brick, const BrickMask& candidates, const LocalTolerance& tolerance)
 {
+  const Point origin = hierarchy.Diamonds().Level(place.Scale).Box.Origin(brick.BoxIndex);
   BrickMask mask{};
-  hierarchy.Diamonds().ForEachInBrick(scale, brick,
-    [&](const Place& place, std::uint32_t rank)
-    {
-      const bool wanted =
-        exceeds(rank) && hierarchy.KindOf(rank) != Kind::Relevant && region.Touches(place);
-      mask[place.Position[2] & 7] |= static_cast<std::uint64_t>(wanted) << BitOf(place.Position);
-    });
+  for (int z = 0; z < 8; ++z)
+  {
+    ForEachBit(candidates[z],
+      [&](int bit)
+      {
+        const std::uint32_t rank = brick.Rank(z, bit);
+        const bool wanted = hierarchy.KindOf(rank) != Kind::Relevant &&
+          Exceeds(hierarchy, tolerance.At({ place.Scale, PositionOf(origin, z, bit) }))(rank);
+        mask[z] |= static_cast<std::uint64_t>(wanted) << bit;
+      });
+  }
   return mask;
 }
 
 /**
- * What a region asks for beyond the diamonds that exceed outside of it, with all ancestors: those
- * that an MI does not store lead to others that it does.
+ * What is wanted beyond the diamonds that exceed what is tolerated everywhere, with all ancestors:
+ * those that an MI does not store lead to others that it does.
  */
-DiamondMask WantedInRegion(const IsodiamondHierarchy& hierarchy, const Query& query,
-  const Exceeds& exceedsOutside, const ParallelFor& parallelFor)
+DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalTolerance& tolerance,
+  const Exceeds& exceedsEverywhere, const ParallelFor& parallelFor)
 {
-  const Exceeds exceeds(hierarchy, query.Tolerance, query.InteriorTolerance);
   DiamondMask wanted(hierarchy.Domain());
   for (int scale = 0; scale < hierarchy.Domain().Depth(); ++scale)
   {
@@ -92,14 +98,17 @@ DiamondMask WantedInRegion(const IsodiamondHierarchy& hierarchy, const Query& qu
         for (std::int64_t i = begin; i < end; ++i)
         {
           const Brick& brick = level.Bricks[i];
-          if (query.Region->MayTouch(scale, level.Box.Origin(brick.BoxIndex)))
+          const Exceeds exceedsLeast(
+            hierarchy, tolerance.LeastIn(scale, level.Box.Origin(brick.BoxIndex)));
+          if (exceedsLeast.InBrick(level.FirstNumber + i))
           {
-            added[i] = ExceedingInRegion(hierarchy, scale, brick, exceeds, *query.Region);
-            const BrickMask outside = ExceedingIn(brick, exceedsOutside);
+            BrickMask candidates = ExceedingIn(brick, exceedsLeast);
+            const BrickMask everywhere = ExceedingIn(brick, exceedsEverywhere);
             for (int z = 0; z < 8; ++z)
             {
-              added[i][z] &= ~outside[z];
+              candidates[z] &= ~everywhere[z];
             }
+            added[i] = ExceedingLocally(hierarchy, { scale, i }, brick, candidates, tolerance);
           }
         }
       });
@@ -162,13 +171,12 @@ RefinedSet::RefinedSet(
   const IsodiamondHierarchy& hierarchy, const Query& query, const ParallelFor& parallelFor)
   : Source(hierarchy)
 {
-  const Exceeds exceeds = query.Region
-    ? Exceeds(hierarchy, query.OutsideTolerance, HUGE_VAL)
-    : Exceeds(hierarchy, query.Tolerance, query.InteriorTolerance);
+  const LocalTolerance tolerance(query, hierarchy.Domain());
+  const Exceeds exceeds(hierarchy, tolerance.Everywhere());
   this->All = exceeds.All();
-  if (!this->All && query.Region)
+  if (!this->All && !tolerance.IsUniform())
   {
-    const DiamondMask wanted = WantedInRegion(hierarchy, query, exceeds, parallelFor);
+    const DiamondMask wanted = WantedLocally(hierarchy, tolerance, exceeds, parallelFor);
     this->Some = Select(hierarchy, exceeds, &wanted, parallelFor);
   }
   else if (!this->All)

@@ -12,10 +12,11 @@ namespace isodiamond
  * The subdivided diamonds of a query: a set with ranks of its own, so that what passes keep for
  * every diamond, and the bricks that they visit, are as many as the query asks for.
  *
- * Without a region of interest that is R(t) = {threshold > t}: no front, no closure, the thresholds
- * have them (see Activation.h). With one it is the smallest closed superset of R(outside tolerance)
- * and of those active and creation diamonds of R(tolerance) that touch the region: inside, the mesh
- * is the uniform one; outside it is what conformity needs.
+ * Where the tolerance is the same everywhere that is R(t) = {threshold > t}: no front, no closure,
+ * the thresholds have them (see Activation.h). With a region of interest or a viewpoint it is the
+ * smallest closed superset of R(what is tolerated everywhere) and of those active and creation
+ * diamonds whose threshold exceeds the tolerance that they have (see LocalTolerance.h): inside of a
+ * region, the mesh is the uniform one; outside it is what conformity needs.
  *
  * The corners of the base cube always count as subdivided.
  */

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace isodiamond
 {
@@ -42,6 +43,58 @@ std::array<Point, 8> CornersOf(const Point& minimum, const Point& maximum)
   return corners;
 }
 
+/** For each side of the box whether a point lies beyond it: what has a side in common with all
+ *  corners of a cell is apart from the cell. */
+unsigned SidesBeyond(const Box& box, const Vector& point)
+{
+  unsigned sides = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    sides |= (point[axis] < box.Minimum[axis] ? 1U : 0U) << (2 * axis);
+    sides |= (point[axis] > box.Maximum[axis] ? 2U : 0U) << (2 * axis);
+  }
+  return sides;
+}
+
+}
+
+Box IndexBoxOf(const Box& box, const GridGeometry& world)
+{
+  const std::array<int, 3> size = world.Dimensions();
+  const auto row = static_cast<std::size_t>(size[0]);
+  const auto slice = row * size[1];
+  std::vector<unsigned> sides(2 * slice); // of two slices in turn
+  Box result{ { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } };
+  for (int z = 0; z < size[2]; ++z)
+  {
+    unsigned* above = sides.data() + (z & 1) * slice;
+    const unsigned* below = sides.data() + (1 - (z & 1)) * slice;
+    for (int y = 0; y < size[1]; ++y)
+    {
+      for (int x = 0; x < size[0]; ++x)
+      {
+        const std::size_t i = y * row + x;
+        above[i] = SidesBeyond(box, world.SampleAt({ x, y, z }));
+        // The cell that ends here.
+        if (x == 0 || y == 0 || z == 0 ||
+          (above[i] & above[i - 1] & above[i - row] & above[i - row - 1] & below[i] &
+            below[i - 1] & below[i - row] & below[i - row - 1]) != 0)
+        {
+          continue;
+        }
+        const Point end = { x, y, z };
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          // Padding belongs to the cells at the ends.
+          const int first = end[axis] == 1 ? 0 : end[axis] - 1 + world.Padding();
+          const int last = end[axis] + (end[axis] == size[axis] - 1 ? 2 : 1) * world.Padding();
+          result.Minimum[axis] = std::min(result.Minimum[axis], 1.0 * first);
+          result.Maximum[axis] = std::max(result.Maximum[axis], 1.0 * last);
+        }
+      }
+    }
+  }
+  return result;
 }
 
 RegionOfInterest::RegionOfInterest(const Box& box, const Grid& grid, const AffineMap& world)

@@ -4,6 +4,7 @@
 
 #include "AffineMap.h"
 #include "DiamondSet.h"
+#include "GridGeometry.h"
 
 #include <array>
 
@@ -22,6 +23,10 @@ struct Box
       this->Minimum[2] <= this->Maximum[2]);
   }
 };
+
+/** The smallest box in index space around the cells of a grid that may touch a box in the world; of
+ *  those at the grid's ends the padding, too. Not by an affine map. */
+Box IndexBoxOf(const Box& box, const GridGeometry& world);
 
 /**
  * The region of interest of a query: a box in the world, whatever the orientation of the grid in

@@ -88,28 +88,6 @@ SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFo
 {
 }
 
-void SurfaceExtraction::WritePoints(const AffineMap& world, float* points) const
-{
-  const IsodiamondHierarchy& hierarchy = this->Passes.Hierarchy();
-  this->Passes.ForEachBrickWithPoints(
-    [&](std::int64_t brick)
-    {
-      this->Passes.ForEachDiamondWithPoints(brick,
-        [&](const Place& place, std::uint32_t rank, const DiamondPoints& own)
-        {
-          float* next = points + 3 * std::int64_t{ own.First };
-          ForEachIsovertex(place, hierarchy.Edges(rank), own.Edges(0), hierarchy.Isovertices(rank),
-            [&](const std::array<double, 3>& inside)
-            {
-              for (const double coordinate : world(inside[0], inside[1], inside[2]))
-              {
-                *next++ = static_cast<float>(coordinate);
-              }
-            });
-        });
-    });
-}
-
 template <typename Id>
 void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const
 {

@@ -4,6 +4,7 @@
 
 #include "AffineMap.h"
 #include "ExtractionPasses.h"
+#include "MeshPoints.h"
 
 namespace isodiamond
 {
@@ -26,8 +27,19 @@ public:
   std::int64_t PointCount() const { return this->Passes.Total().Points; }
   std::int64_t TriangleCount() const { return this->Passes.Total().Cells; }
 
-  /** Writes 3 coordinates a point. */
-  void WritePoints(const AffineMap& world, float* points) const;
+  /** Writes 3 coordinates a point; float or double. */
+  template <typename Coordinate>
+  void WritePoints(const AffineMap& world, Coordinate* points) const
+  {
+    isodiamond::WritePoints(this->Passes, world, points);
+  }
+
+  /** Calls body(point) for every MeshPoint, in parallel. */
+  template <typename Body>
+  void ForEachPoint(Body&& body) const
+  {
+    isodiamond::ForEachPoint(this->Passes, body);
+  }
 
   /**
    * Writes the triangles.

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondAlgorithm.h"
+
+#include "vtkIsodiamondQuery.h"
+
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkInformation.h"
+#include "vtkMath.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+//------------------------------------------------------------------------------
+vtkIsodiamondAlgorithm::vtkIsodiamondAlgorithm()
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(1);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
+  os << indent << "UseRegionOfInterest: " << (this->UseRegionOfInterest ? "On" : "Off") << "\n";
+  os << indent << "RegionOfInterest:";
+  for (const double bound : this->RegionOfInterest)
+  {
+    os << " " << bound;
+  }
+  os << "\n" << indent << "OutsideErrorTolerance: " << this->OutsideErrorTolerance << "\n";
+  os << indent << "ViewDependent: " << (this->ViewDependent ? "On" : "Off") << "\n";
+  os << indent << "ViewPosition: " << this->ViewPosition[0] << " " << this->ViewPosition[1] << " "
+     << this->ViewPosition[2] << "\n";
+  os << indent << "ViewAngle: " << this->ViewAngle << "\n";
+  os << indent << "ViewHeight: " << this->ViewHeight << "\n";
+  os << indent << "PixelTolerance: " << this->PixelTolerance << "\n";
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondAlgorithm::SetRegionOfInterestPosition(double x, double y, double z)
+{
+  const double position[3] = { x, y, z };
+  double region[6];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* bounds = this->RegionOfInterest + 2 * axis;
+    region[2 * axis] = position[axis];
+    // A size is kept to the bit where the position stays.
+    region[2 * axis + 1] =
+      bounds[0] == position[axis] ? bounds[1] : position[axis] + (bounds[1] - bounds[0]);
+  }
+  this->SetRegionOfInterest(region);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondAlgorithm::SetRegionOfInterestSize(double x, double y, double z)
+{
+  const double* region = this->RegionOfInterest;
+  this->SetRegionOfInterest(
+    region[0], region[0] + x, region[2], region[2] + y, region[4], region[4] + z);
+}
+
+//------------------------------------------------------------------------------
+vtkDataObject* vtkIsodiamondAlgorithm::GetInput()
+{
+  return this->GetNumberOfInputConnections(0) > 0 ? this->GetInputDataObject(0, 0) : nullptr;
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::Query vtkIsodiamondAlgorithm::GetQuery() const
+{
+  vtkIsodiamond::Query query;
+  query.ErrorTolerance = this->ErrorTolerance;
+  query.OutsideErrorTolerance = this->OutsideErrorTolerance;
+  if (this->UseRegionOfInterest)
+  {
+    const double* region = this->RegionOfInterest;
+    query.Region =
+      isodiamond::Box{ { region[0], region[2], region[4] }, { region[1], region[3], region[5] } };
+  }
+  if (this->ViewDependent)
+  {
+    if (!(this->ViewAngle > 0.0 && this->ViewAngle < 180.0 && this->ViewHeight > 0.0))
+    {
+      throw std::invalid_argument(
+        "The view angle must lie between 0 and 180 degrees, and the view height be more than 0.");
+    }
+    vtkIsodiamond::CheckTolerance(this->PixelTolerance, "pixel");
+    const double angle = vtkMath::RadiansFromDegrees(this->ViewAngle);
+    query.View = vtkIsodiamond::View{ { this->ViewPosition[0], this->ViewPosition[1],
+                                        this->ViewPosition[2] },
+      2.0 * std::tan(0.5 * angle) * this->PixelTolerance / this->ViewHeight };
+  }
+  return query;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkIsodiamondAlgorithm::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    return this->RequestData(request, inputVector, outputVector);
+  }
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    return this->RequestUpdateExtent(request, inputVector, outputVector);
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondAlgorithm::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  return 1;
+}

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkIsodiamondAlgorithm
+ * @brief   what all filters have that extract meshes: tolerances, a region of interest, a viewpoint
+ *
+ * Where more than one of them is used, a place has the greatest of its tolerances: inside of the
+ * region of interest ErrorTolerance, outside OutsideErrorTolerance, and from a viewpoint what
+ * PixelTolerance comes to at its distance, if that is more.
+ *
+ * @sa vtkIsodiamondExtractor vtkIsodiamondContour vtkIsodiamondIntervalVolume vtkDiamondMesh
+ */
+
+#ifndef vtkIsodiamondAlgorithm_h
+#define vtkIsodiamondAlgorithm_h
+
+#include "vtkAlgorithm.h"
+#include "vtkIsodiamondFiltersModule.h" // for export macro
+
+class vtkDataObject;
+namespace vtkIsodiamond
+{
+struct Query;
+}
+
+class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondAlgorithm : public vtkAlgorithm
+{
+public:
+  vtkTypeMacro(vtkIsodiamondAlgorithm, vtkAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The error that is tolerated, in the units of the metric. *Distance*: world units; no vertex of
+   * the full-resolution surface is farther from the mesh. *Field* (the paper's): field units; at
+   * every sample in a tetrahedron that carries the surface, field and interpolant differ by no
+   * more. 0 is full resolution; infinity the coarsest. Negative values and NaN are errors. Default:
+   * 0.
+   */
+  vtkSetMacro(ErrorTolerance, double);
+  vtkGetMacro(ErrorTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether ErrorTolerance, and InteriorTolerance where there is one, hold in the region of
+   * interest only, and OutsideErrorTolerance elsewhere. Default: off.
+   */
+  vtkSetMacro(UseRegionOfInterest, bool);
+  vtkGetMacro(UseRegionOfInterest, bool);
+  vtkBooleanMacro(UseRegionOfInterest, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The region of interest, a closed box along the world's axes (xmin, xmax, ymin, ymax, zmin,
+   * zmax), whatever the image's direction. In it the mesh is the uniform one of ErrorTolerance (or
+   * of OutsideErrorTolerance, should that be smaller), outside as coarse as OutsideErrorTolerance
+   * and conformity let it be. Bounds may be infinite; a box with a minimum greater than its maximum
+   * is empty. Position is its lowest corner; setting it keeps the size, setting the size keeps the
+   * position. Default: the unit cube [0, 1]^3.
+   */
+  vtkSetVector6Macro(RegionOfInterest, double);
+  vtkGetVector6Macro(RegionOfInterest, double);
+  void SetRegionOfInterestPosition(double x, double y, double z);
+  void SetRegionOfInterestPosition(double position[3])
+  {
+    this->SetRegionOfInterestPosition(position[0], position[1], position[2]);
+  }
+  void SetRegionOfInterestSize(double x, double y, double z);
+  void SetRegionOfInterestSize(double size[3])
+  {
+    this->SetRegionOfInterestSize(size[0], size[1], size[2]);
+  }
+  ///@}
+
+  ///@{
+  /**
+   * The error that is tolerated outside of the region of interest, in the units of ErrorTolerance.
+   * Negative values and NaN are errors while the region is used. Default: VTK_DOUBLE_MAX, as good
+   * as infinity.
+   */
+  vtkSetMacro(OutsideErrorTolerance, double);
+  vtkGetMacro(OutsideErrorTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Coarser with the distance from a viewpoint: no vertex of the full-resolution surface is farther
+   * from the mesh than PixelTolerance pixels, seen from ViewPosition by a camera with perspective,
+   * ViewAngle degrees high on ViewHeight pixels, or than ErrorTolerance, whichever is more. That
+   * holds in all directions, so turning the camera needs no new mesh. Needs the distance metric.
+   * Defaults: off; at (0, 0, 1), 30 degrees, 1000 pixels, 1 pixel. ViewAngle is to be more than 0
+   * and less than 180, ViewHeight more than 0, PixelTolerance at least 0.
+   */
+  vtkSetMacro(ViewDependent, bool);
+  vtkGetMacro(ViewDependent, bool);
+  vtkBooleanMacro(ViewDependent, bool);
+  vtkSetVector3Macro(ViewPosition, double);
+  vtkGetVector3Macro(ViewPosition, double);
+  vtkSetMacro(ViewAngle, double);
+  vtkGetMacro(ViewAngle, double);
+  vtkSetMacro(ViewHeight, double);
+  vtkGetMacro(ViewHeight, double);
+  vtkSetMacro(PixelTolerance, double);
+  vtkGetMacro(PixelTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
+   * DEFAULT_PRECISION, which is single for triangles and double for tetrahedra: rounded to single
+   * precision, the thinnest could turn over. Default: DEFAULT_PRECISION.
+   */
+  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkGetMacro(OutputPointsPrecision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to use; 0 for all cores. The result does not depend on it. Default: 0.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  /** Error tolerances that are worth trying: by the distance metric up to 2 % of the grid's
+   *  diagonal; by the field metric up to the extent of the field's values, beyond which a tolerance
+   *  changes nothing. {0, 1} while there is no input. */
+  virtual double* GetErrorToleranceRange() VTK_SIZEHINT(2) = 0;
+
+  ///@{
+  /** An input without a pipeline. */
+  void SetInputData(vtkDataObject* input) { this->SetInputDataObject(0, input); }
+  void SetInputData(int port, vtkDataObject* input) { this->SetInputDataObject(port, input); }
+  ///@}
+
+  /** The input, or null. */
+  vtkDataObject* GetInput();
+
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+protected:
+  vtkIsodiamondAlgorithm();
+  ~vtkIsodiamondAlgorithm() override = default;
+
+  virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+  virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) = 0;
+
+  /** What the properties ask of a hierarchy. @throws std::invalid_argument if they make no sense */
+  vtkIsodiamond::Query GetQuery() const;
+
+  double ErrorTolerance = 0.0;
+  bool UseRegionOfInterest = false;
+  double RegionOfInterest[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+  double OutsideErrorTolerance = VTK_DOUBLE_MAX;
+  bool ViewDependent = false;
+  double ViewPosition[3] = { 0.0, 0.0, 1.0 };
+  double ViewAngle = 30.0;
+  double ViewHeight = 1000.0;
+  double PixelTolerance = 1.0;
+  int OutputPointsPrecision = DEFAULT_PRECISION;
+  int NumberOfThreads = 0;
+  double ErrorToleranceRange[2] = { 0.0, 1.0 };
+
+private:
+  vtkIsodiamondAlgorithm(const vtkIsodiamondAlgorithm&) = delete;
+  void operator=(const vtkIsodiamondAlgorithm&) = delete;
+};
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamondGrid_h
+#define vtkIsodiamondGrid_h
+
+#include "GridGeometry.h"
+#include "HiddenCells.h"
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+
+class vtkDataArray;
+class vtkDataSet;
+
+/**
+ * @file vtkIsodiamondGrid.h
+ * VTK's structured data sets as grids: images, rectilinear grids and structured grids.
+ */
+namespace vtkIsodiamond
+{
+
+/** Samples on each axis; all 0 if the data set is of no such kind. */
+std::array<int, 3> DimensionsOf(vtkDataSet* grid);
+
+/** The length of the diagonal of a grid's samples: of an image in index space, else of its bounds. */
+double DiagonalOf(vtkDataSet* grid);
+
+/** Where a grid's samples are in the world. */
+struct Geometry
+{
+  isodiamond::GridGeometry World = isodiamond::AffineMap();
+  vtkSmartPointer<vtkDataArray> Positions; ///< that it views, if it does
+};
+
+/**
+ * The geometry of a grid of 2 or more samples on each axis. A rectilinear grid with even spacing
+ * counts as affine.
+ *
+ * @param padding layers of samples around the grid
+ * @throws std::invalid_argument for a grid without positions
+ */
+Geometry GeometryOf(vtkDataSet* grid, int padding);
+
+/** Blanked cells, cells at blanked points, and ghosts. @param padding as above */
+isodiamond::HiddenCells HiddenCellsOf(vtkDataSet* grid, int padding);
+
+}
+
+#endif

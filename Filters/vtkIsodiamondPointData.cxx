@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondPointData.h"
+
+#include "Gradients.h"
+#include "Trilinear.h"
+
+#include "vtkArrayListTemplate.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <stdexcept>
+
+namespace vtkIsodiamond
+{
+namespace
+{
+
+constexpr const char* NormalsName = "Normals";
+
+vtkSmartPointer<vtkFloatArray> NewVectors(const char* name, vtkIdType count)
+{
+  vtkSmartPointer<vtkFloatArray> vectors = vtkSmartPointer<vtkFloatArray>::New();
+  vectors->SetName(name);
+  vectors->SetNumberOfComponents(3);
+  vectors->SetNumberOfTuples(count);
+  return vectors;
+}
+
+/** @param normals,gradients may be null */
+PointWriter WriteGradients(const Volume& volume, vtkFloatArray* normals, vtkFloatArray* gradients)
+{
+  const auto write = [](vtkFloatArray* array, std::int64_t id, const isodiamond::Vector& vector)
+  {
+    float* tuple = array->GetPointer(3 * id);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      tuple[axis] = static_cast<float>(vector[axis]);
+    }
+  };
+  return [&volume, write, normals, gradients](const isodiamond::MeshPoint& point)
+  {
+    const isodiamond::Vector gradient =
+      isodiamond::Gradients(volume.Samples, volume.Place.World)(point.Index);
+    if (normals)
+    {
+      write(normals, point.Id, isodiamond::NormalOf(gradient));
+    }
+    if (gradients)
+    {
+      write(gradients, point.Id, gradient);
+    }
+  };
+}
+
+/** Whether values between an array's own make sense. */
+bool CanBeInterpolated(vtkDataArray* array, int attribute)
+{
+  return array && array->GetName() && array->GetDataType() != VTK_BIT &&
+    std::string(array->GetName()) != vtkDataSetAttributes::GhostArrayName() &&
+    attribute != vtkDataSetAttributes::GLOBALIDS && attribute != vtkDataSetAttributes::PEDIGREEIDS;
+}
+
+/** The arrays of the grid that are wanted, but those that the output has under the same name;
+ *  integers as floats. */
+PointWriter WriteOthers(const Volume& volume, const std::vector<std::string>& names,
+  vtkIdType count, vtkPointData* output)
+{
+  vtkPointData* input = volume.Grid->GetPointData();
+  const auto arrays = std::make_shared<ArrayList>();
+  for (int i = 0; i < input->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = input->GetArray(i);
+    const int attribute = input->IsArrayAnAttribute(i);
+    if (!CanBeInterpolated(array, attribute) || array->GetName() == volume.ArrayName ||
+      output->HasArray(array->GetName()) ||
+      (!names.empty() && std::find(names.begin(), names.end(), array->GetName()) == names.end()))
+    {
+      continue;
+    }
+    vtkStdString name = array->GetName();
+    vtkAbstractArray* made = arrays->AddArrayPair(count, array, name, 0.0, true);
+    output->AddArray(made);
+    if (attribute >= 0 && !output->GetAbstractAttribute(attribute))
+    {
+      output->SetActiveAttribute(made->GetName(), attribute);
+    }
+  }
+  return [&volume, arrays](const isodiamond::MeshPoint& point)
+  {
+    const std::array<int, 3>& dimensions = volume.Dimensions;
+    isodiamond::Vector index = point.Index;
+    for (double& coordinate : index)
+    {
+      coordinate -= volume.Padding;
+    }
+    std::array<vtkIdType, 8> ids{};
+    std::array<double, 8> weights{};
+    int corners = 0;
+    isodiamond::CellPosition(index, dimensions)
+      .Clamped()
+      .ForEachCorner(
+        [&](const isodiamond::Point& sample, double weight)
+        {
+          ids[corners] =
+            (vtkIdType{ sample[2] } * dimensions[1] + sample[1]) * dimensions[0] + sample[0];
+          weights[corners++] = weight;
+        });
+    arrays->Interpolate(corners, ids.data(), weights.data(), vtkIdType{ point.Id });
+  };
+}
+
+}
+
+PointDataMaker FromVolume(const Volume& volume, const VolumePointData& wanted)
+{
+  return [&volume, wanted](vtkIdType count, vtkPointData* output)
+  {
+    std::vector<PointWriter> writers;
+    const auto normals = wanted.Normals ? NewVectors(NormalsName, count) : nullptr;
+    const auto gradients = wanted.Gradients ? NewVectors("Gradient", count) : nullptr;
+    if (normals)
+    {
+      output->SetNormals(normals);
+    }
+    if (gradients)
+    {
+      output->AddArray(gradients);
+    }
+    if (normals || gradients)
+    {
+      writers.push_back(WriteGradients(volume, normals, gradients));
+    }
+    if (wanted.Others && volume.Grid->GetPointData()->GetNumberOfArrays() > 1)
+    {
+      writers.push_back(WriteOthers(volume, wanted.Names, count, output));
+    }
+    return writers;
+  };
+}
+
+PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
+  const std::vector<vtkSmartPointer<vtkDataArray>>& stored)
+{
+  return [&hierarchy, &stored](vtkIdType count, vtkPointData* output) -> std::vector<PointWriter>
+  {
+    const auto arrays = std::make_shared<ArrayList>();
+    for (vtkDataArray* array : stored)
+    {
+      vtkStdString name = array->GetName();
+      output->AddArray(arrays->AddArrayPair(count, array, name, 0.0, false));
+    }
+    if (output->HasArray(NormalsName))
+    {
+      output->SetActiveNormals(NormalsName);
+    }
+    return { [&hierarchy, arrays](const isodiamond::MeshPoint& point)
+      { arrays->Copy(vtkIdType{ isodiamond::StoredNumber(hierarchy, point) }, vtkIdType{ point.Id }); } };
+  };
+}
+
+std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Volume& volume,
+  const VolumePointData& wanted, const isodiamond::IsodiamondHierarchy& hierarchy,
+  const isodiamond::ParallelFor& parallelFor)
+{
+  vtkNew<vtkPointData> made;
+  const std::vector<PointWriter> writers =
+    FromVolume(volume, wanted)(isodiamond::StoredPointCount(hierarchy), made);
+  for (const std::string& name : wanted.Names)
+  {
+    if (!made->HasArray(name.c_str()))
+    {
+      throw std::invalid_argument("The input has no other point array \"" + name + "\".");
+    }
+  }
+  for (const PointWriter& write : writers)
+  {
+    isodiamond::ForEachStoredPoint(hierarchy, parallelFor, write);
+  }
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
+  for (int i = 0; i < made->GetNumberOfArrays(); ++i)
+  {
+    arrays.emplace_back(made->GetArray(i));
+  }
+  return arrays;
+}
+
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamondTask_h
+#define vtkIsodiamondTask_h
+
+#include "Parallel.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+
+#include <chrono>
+#include <exception>
+#include <new>
+
+namespace vtkIsodiamond
+{
+
+/** Thrown where a filter's work ends because its user asked for that. */
+struct Aborted : std::exception
+{
+  const char* what() const noexcept override { return "aborted"; }
+};
+
+/**
+ * Work of a filter that its user can watch and stop. Its phases have names, and a part of the whole
+ * each; its loops run in batches of about 30 ms. After a batch progress is told and abortion asked
+ * for, both in the thread that runs the filter: observers may touch what they like. How loops are
+ * cut does not change results (see Parallel.h).
+ */
+class Task
+{
+public:
+  explicit Task(vtkAlgorithm* filter)
+    : Filter(filter)
+  {
+  }
+
+  /** What comes next, from its begin until its end of the whole, 0 to 1. @throws Aborted */
+  void Begin(const char* phase, double begin, double end);
+
+  /** A task that is a part of this one. */
+  Task Part(double begin, double end) const;
+
+  /** Loops of this task. It must outlive them. @throws Aborted */
+  isodiamond::ParallelFor For();
+
+  /** Progress of the core as progress of this task. It must outlive it. */
+  isodiamond::Progress Report();
+
+private:
+  void Tell();
+
+  vtkAlgorithm* Filter;
+  double First = 0.0; ///< the task's part of the whole
+  double Last = 1.0;
+  double Done = 0.0; ///< of the whole
+  double End = 0.0;  ///< of the phase
+  std::chrono::steady_clock::time_point Told;
+};
+
+/** Tells a filter's user what went wrong, but for an abortion. The output becomes empty. */
+void HandleException(vtkAlgorithm* filter, vtkDataObject* output);
+
+/** Runs work(task) of a filter's execution. @return what RequestData does: a failed execution is
+ *  one with an error and an empty output */
+template <typename Work>
+int Execute(vtkAlgorithm* filter, vtkDataObject* output, Work&& work)
+{
+  try
+  {
+    Task task(filter);
+    work(task);
+  }
+  catch (...)
+  {
+    HandleException(filter, output);
+  }
+  return 1;
+}
+
+}
+
+#endif

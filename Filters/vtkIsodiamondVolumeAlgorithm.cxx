@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondVolumeAlgorithm.h"
+
+#include "vtkIsodiamondCache.h"
+#include "vtkIsodiamondInput.h"
+#include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondTask.h"
+#include "vtkIsodiamondThreads.h"
+
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+
+//------------------------------------------------------------------------------
+vtkIsodiamondVolumeAlgorithm::vtkIsodiamondVolumeAlgorithm()
+  : Hierarchies(std::make_unique<vtkIsodiamond::Cache>())
+{
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamondVolumeAlgorithm::~vtkIsodiamondVolumeAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondVolumeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
+  os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
+  os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
+  os << indent << "InterpolateAttributes: " << (this->InterpolateAttributes ? "On" : "Off") << "\n";
+  os << indent << "CacheSize: " << this->CacheSize << "\n";
+  os << indent << "NumberOfBuilds: " << this->GetNumberOfBuilds() << "\n";
+  os << indent << "NumberOfCachedHierarchies: " << this->GetNumberOfCachedHierarchies() << "\n";
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondVolumeAlgorithm::GetNumberOfBuilds()
+{
+  return this->Hierarchies->GetNumberOfBuilds();
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondVolumeAlgorithm::GetNumberOfCachedHierarchies()
+{
+  return this->Hierarchies->GetSize();
+}
+
+//------------------------------------------------------------------------------
+double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
+{
+  vtkDataObject* input = this->GetInput();
+  this->ErrorToleranceRange[1] = vtkIsodiamond::LargestTolerance(
+    static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), input, this->FindInputArray(input));
+  return this->ErrorToleranceRange;
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondVolumeAlgorithm::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkRectilinearGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkStructuredGrid");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondVolumeAlgorithm::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  vtkIsodiamond::RequestWholeExtent(inputVector[0]->GetInformationObject(0));
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataObject* input)
+{
+  vtkIsodiamond::InputArray found;
+  if (input)
+  {
+    found.Array = this->GetInputArrayToProcess(0, input, found.Association);
+  }
+  return vtkIsodiamond::OrScalars(found, this->GetInputArrayInformation(0), input);
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondVolumeAlgorithm::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  if (!vtkIsodiamond::IsFirstPiece(outputVector->GetInformationObject(0)))
+  {
+    return 1; // the first piece has all of it
+  }
+  return vtkIsodiamond::Execute(this, output,
+    [&](vtkIsodiamond::Task& task)
+    {
+      const vtkIsodiamond::Query query = this->GetQuery();
+      vtkIsodiamond::CheckTolerances(query);
+      vtkDataSet* grid = vtkDataSet::GetData(inputVector[0]);
+      const vtkIsodiamond::InputArray array = this->FindInputArray(grid);
+      const vtkIsodiamond::Volume volume =
+        vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
+      isodiamond::BuildOptions options;
+      options.ExactIsovertices = this->ExactIsovertices;
+      options.PreserveFeatures = this->PreserveFeatures;
+      if (query.View && this->ErrorMetric != vtkIsodiamondHierarchy::DISTANCE)
+      {
+        throw std::invalid_argument("A view-dependent mesh needs the distance metric.");
+      }
+      if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
+        (volume.Place.World.Affine() || !query.IsFull()))
+      {
+        options.Metric = isodiamond::ErrorMetric::Distance;
+        options.World = volume.AffineWorld("The distance metric");
+      }
+      vtkIsodiamond::RunThreaded(this->NumberOfThreads,
+        [&]
+        {
+          this->Hierarchies->Prepare(array.Array, volume, options);
+          this->Extract(volume, query, task, output);
+          this->Hierarchies->Trim(std::int64_t{ this->CacheSize } << 20);
+        });
+    });
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkIsodiamondVolumeAlgorithm
+ * @brief   what the filters have that go from a volume to a mesh in one step
+ *
+ * The input is a volume: a vtkImageData (vtkUniformGrid too), a vtkRectilinearGrid or a
+ * vtkStructuredGrid with two or more samples on each axis, and a point array of one component.
+ * Composite inputs are worked on block by block. The filter keeps the minimal isodiamond
+ * hierarchies that it builds: a new tolerance, region of interest or viewpoint only extracts again,
+ * and so do blocks, time steps, isovalues and isoranges that it has seen before, while they are
+ * kept (CacheSize).
+ *
+ * Blanked cells, cells at blanked points and ghost cells count as absent. On grids without even
+ * spacing tolerances are by the field metric; full resolution needs no metric.
+ *
+ * The whole extent of the input is requested. In parallel the first piece holds the mesh, the
+ * others are empty.
+ *
+ * @sa vtkIsodiamondContour vtkIsodiamondIntervalVolume
+ */
+
+#ifndef vtkIsodiamondVolumeAlgorithm_h
+#define vtkIsodiamondVolumeAlgorithm_h
+
+#include "vtkIsodiamondAlgorithm.h"
+#include "vtkIsodiamondFiltersModule.h" // for export macro
+#include "vtkIsodiamondHierarchy.h"     // for the metrics
+
+#include <memory> // for the cache
+
+namespace vtkIsodiamond
+{
+class Cache;
+struct InputArray;
+class Task;
+struct Volume;
+}
+
+class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondVolumeAlgorithm : public vtkIsodiamondAlgorithm
+{
+public:
+  vtkTypeMacro(vtkIsodiamondVolumeAlgorithm, vtkIsodiamondAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * How the error of a tolerance is measured. *Distance*: in world units, from the full-resolution
+   * surface to the mesh; no vertex of the one is farther from the other than the tolerance. *Field*
+   * (the paper's): in field units, between the field and its linear interpolant. Default:
+   * distance.
+   */
+  vtkSetClampMacro(
+    ErrorMetric, int, vtkIsodiamondHierarchy::FIELD, vtkIsodiamondHierarchy::DISTANCE);
+  vtkGetMacro(ErrorMetric, int);
+  void SetErrorMetricToField() { this->SetErrorMetric(vtkIsodiamondHierarchy::FIELD); }
+  void SetErrorMetricToDistance() { this->SetErrorMetric(vtkIsodiamondHierarchy::DISTANCE); }
+  ///@}
+
+  ///@{
+  /**
+   * Put every vertex on the full-resolution surface, to 1/256 of its lattice edge (2/256 where an
+   * edge carries both surfaces of an interval volume). Off, vertices lie where the field would
+   * cross the isovalue if it were linear along the edge, as in the paper; at full resolution both
+   * are the same. Default: on.
+   */
+  vtkSetMacro(ExactIsovertices, bool);
+  vtkGetMacro(ExactIsovertices, bool);
+  vtkBooleanMacro(ExactIsovertices, bool);
+  ///@}
+
+  ///@{
+  /**
+   * With the distance metric, keep every piece of the surface at any tolerance. Off, pieces that
+   * are thinner than the tolerance may vanish, and the promise of the tolerance with them. Default:
+   * on.
+   */
+  vtkSetMacro(PreserveFeatures, bool);
+  vtkGetMacro(PreserveFeatures, bool);
+  vtkBooleanMacro(PreserveFeatures, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Interpolate all other point arrays of the input at the mesh's points, trilinearly; integers
+   * become floats. Default: on.
+   */
+  vtkSetMacro(InterpolateAttributes, vtkTypeBool);
+  vtkGetMacro(InterpolateAttributes, vtkTypeBool);
+  vtkBooleanMacro(InterpolateAttributes, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Up to how many MiB of hierarchies are kept beside those that the last execution used. What was
+   * used longest ago goes first. Default: 512.
+   */
+  vtkSetClampMacro(CacheSize, int, 0, VTK_INT_MAX);
+  vtkGetMacro(CacheSize, int);
+  ///@}
+
+  ///@{
+  /** How many hierarchies this filter has built so far, and keeps. */
+  vtkIdType GetNumberOfBuilds();
+  vtkIdType GetNumberOfCachedHierarchies();
+  ///@}
+
+  double* GetErrorToleranceRange() VTK_SIZEHINT(2) override;
+
+protected:
+  vtkIsodiamondVolumeAlgorithm();
+  ~vtkIsodiamondVolumeAlgorithm() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  /** Whether the volume is padded. */
+  virtual bool ClosesBoundary() const { return false; }
+
+  /** Makes the output, from hierarchies of the cache, which is ready for the volume. Runs in a
+   *  scope of vtkSMPTools. @throws std::exception that says what is wrong */
+  virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::Query& query,
+    vtkIsodiamond::Task& task, vtkDataObject* output) = 0;
+
+  vtkIsodiamond::InputArray FindInputArray(vtkDataObject* input);
+
+  int ErrorMetric = vtkIsodiamondHierarchy::DISTANCE;
+  bool ExactIsovertices = true;
+  bool PreserveFeatures = true;
+  vtkTypeBool InterpolateAttributes = 1;
+  int CacheSize = 512;
+
+  std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
+
+private:
+  vtkIsodiamondVolumeAlgorithm(const vtkIsodiamondVolumeAlgorithm&) = delete;
+  void operator=(const vtkIsodiamondVolumeAlgorithm&) = delete;
+};
+
+#endif
