@@ -145,9 +145,14 @@ inline LeafParent MakeLeafParent(const RefinedBrick& brick, const Place& place, 
 {
   const int type = TypeOf(place.Position);
   const VertexWords& words = tables::WordsAsListed[type];
-  const std::uint32_t unsampled = AllEdges & ~brick.Sampled(place, tables::Types[type]);
-  return { place, rank, type,
-    HalvesOfChildren(children) & HalvesWithAny(words(wanted)) & ~HalvesWithAny(words(unsampled)) };
+  HalfWord leaves = HalvesOfChildren(children) & HalvesWithAny(words(wanted));
+  if (!brick.IsInner(place))
+  {
+    const std::uint32_t sampled =
+      SampledVertices(brick.Hierarchy().Domain(), place, tables::Types[type]);
+    leaves &= ~HalvesWithAny(words(AllEdges & ~sampled));
+  }
+  return { place, rank, type, leaves };
 }
 
 /** A leaf of the current mesh. */

@@ -122,6 +122,7 @@ public:
     }
   }
 
+  const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
   int Scale() const { return this->BrickScale; }
   const Point& Origin() const { return this->First; }
 
@@ -149,13 +150,12 @@ public:
     }
   }
 
-  /** SampledVertices() of a diamond of this brick. */
-  std::uint32_t Sampled(const Place& place, const TypeTable& shape) const
+  /** Whether all vertices of a diamond of this brick have samples, whatever its class. */
+  bool IsInner(const Place& place) const
   {
     const Point& at = place.Position;
-    const bool isInner = at[0] > 0 && at[1] > 0 && at[2] > 0 && at[0] <= this->LastInner[0] &&
+    return at[0] > 0 && at[1] > 0 && at[2] > 0 && at[0] <= this->LastInner[0] &&
       at[1] <= this->LastInner[1] && at[2] <= this->LastInner[2];
-    return isInner ? AllEdges : SampledVertices(this->Source.Domain(), place, shape);
   }
 
 private:
