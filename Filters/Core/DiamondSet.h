@@ -4,6 +4,7 @@
 
 #include "DiamondTables.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -91,6 +92,15 @@ inline constexpr int BitOf(const Point& position)
 inline Point PositionOf(const Point& origin, int z, int bit)
 {
   return { origin[0] + (bit & 7), origin[1] + (bit >> 3), origin[2] + z };
+}
+
+/** The bits of a brick's word whose x and y lie in ranges, ends included. */
+inline std::uint64_t BitsBetween(int firstX, int lastX, int firstY, int lastY)
+{
+  const std::uint64_t row = (0xffU >> (7 - lastX)) & (0xffU << firstX);
+  const std::uint64_t rows =
+    (~std::uint64_t{ 0 } >> (8 * (7 - lastY))) & (~std::uint64_t{ 0 } << (8 * firstY));
+  return (row * 0x0101010101010101U) & rows;
 }
 
 namespace tables
@@ -258,7 +268,53 @@ struct BrickLevel
     return boxIndex < 0 || this->Lookup[boxIndex] < 0 ? nullptr
                                                       : &this->Bricks[this->Lookup[boxIndex]];
   }
+
+  /** Calls body(index of a brick, its origin) for those that hold positions of a box, ends
+   *  included. */
+  template <typename Body>
+  void ForEachBrickBetween(const Point& first, const Point& last, Body&& body) const
+  {
+    const Point end = BrickOf(last);
+    const Point from = { std::max(first[0] >> 3, 0), std::max(first[1] >> 3, 0),
+      std::max(first[2] >> 3, 0) };
+    const Point to = { std::min(end[0], this->Box.Count[0] - 1),
+      std::min(end[1], this->Box.Count[1] - 1), std::min(end[2], this->Box.Count[2] - 1) };
+    for (int z = from[2]; z <= to[2]; ++z)
+    {
+      for (int y = from[1]; y <= to[1]; ++y)
+      {
+        const std::int64_t row = (std::int64_t{ z } * this->Box.Count[1] + y) * this->Box.Count[0];
+        for (int x = from[0]; x <= to[0]; ++x)
+        {
+          if (const std::int32_t index = this->Lookup[row + x]; index >= 0)
+          {
+            body(index, Point{ 8 * x, 8 * y, 8 * z });
+          }
+        }
+      }
+    }
+  }
 };
+
+/** Calls body(z, bits of word z) for those of a brick's words that hold positions of a box, ends
+ *  included. @param origin of the brick */
+template <typename Body>
+void ForEachWordBetween(
+  const BrickMask& mask, const Point& origin, const Point& first, const Point& last, Body&& body)
+{
+  Point from{};
+  Point to{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    from[axis] = std::max(first[axis] - origin[axis], 0);
+    to[axis] = std::min(last[axis] - origin[axis], 7);
+  }
+  const std::uint64_t bits = BitsBetween(from[0], to[0], from[1], to[1]);
+  for (int z = from[2]; z <= to[2]; ++z)
+  {
+    body(z, mask[z] & bits);
+  }
+}
 
 /**
  * A set of diamonds with ranks: coarse scales first (from N, the base cube's corners, to 0), then

@@ -16,34 +16,54 @@ ExtractionPasses::ExtractionPasses(const RefinedSet& refined, const ParallelFor&
 {
 }
 
-ExtractionPasses::Slot ExtractionPasses::MakeSlot(
-  const LeafFinder& finder, const Place& place, std::uint32_t rank) const
+std::int64_t ExtractionPasses::FillSlots(const RefinedBrick& brick)
 {
   const IsodiamondHierarchy& hierarchy = this->Hierarchy();
   const bool isVolume = hierarchy.Region().IsVolume();
-  const bool isInside = isVolume && hierarchy.Sign(rank) == InsideSign;
-  const std::uint32_t lower = hierarchy.Edges(rank);
-  const std::uint32_t upper = isVolume ? hierarchy.UpperEdges(rank) : 0;
-  std::uint32_t crossed = lower | upper;
-  std::uint32_t alive = crossed;
-  if (this->Set.IsFull())
+  if (this->Set.IsFull() && !isVolume)
   {
-    // Only at scale 0 are there crossed edges, and crossed leaves in diamonds of class 2.
-    const bool isFinest = place.Scale == 0;
-    alive = isFinest ? alive : 0;
-    crossed = isFinest && ShapeOf(place.Position).DiamondClass == 2 ? crossed : 0;
+    return this->FillFinestSlots(brick);
   }
-  else
-  {
-    alive = finder.AliveEdges(place, crossed);
-  }
-  Slot slot;
-  slot.Points = (isInside ? 1U << DiamondPoints::Centre : 0U) |
-    (alive & lower) << DiamondPoints::Isovertex(0, 0) |
-    (alive & upper) << DiamondPoints::Isovertex(1, 0);
-  slot.LeafChildren =
-    static_cast<std::uint8_t>(finder.LeafChildren(place, isInside ? AllEdges : crossed));
-  return slot;
+  const LeafFinder finder(this->Set, brick);
+  std::int64_t points = 0;
+  brick.ForEachDiamond(
+    [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
+    {
+      const bool isInside = isVolume && hierarchy.Sign(rank) == InsideSign;
+      const std::uint32_t lower = hierarchy.Edges(rank);
+      const std::uint32_t upper = isVolume ? hierarchy.UpperEdges(rank) : 0;
+      const std::uint32_t alive = finder.AliveEdges(place, lower | upper);
+      Slot& slot = this->Slots[refinedRank];
+      slot.Points = (isInside ? 1U << DiamondPoints::Centre : 0U) |
+        (alive & lower) << DiamondPoints::Isovertex(0, 0) |
+        (alive & upper) << DiamondPoints::Isovertex(1, 0);
+      slot.First = static_cast<std::uint16_t>(points);
+      slot.LeafChildren =
+        static_cast<std::uint8_t>(finder.LeafChildren(place, isInside ? AllEdges : lower | upper));
+      points += PopCount(slot.Points);
+    });
+  return points;
+}
+
+/** The same at full resolution, where all that carries a surface has scale 0. */
+std::int64_t ExtractionPasses::FillFinestSlots(const RefinedBrick& brick)
+{
+  std::int64_t points = 0;
+  brick.ForEachDiamond(
+    [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
+    {
+      const std::uint32_t crossed = this->Hierarchy().Edges(rank);
+      const int type = TypeOf(place.Position);
+      Slot& slot = this->Slots[refinedRank];
+      slot.Points = crossed << DiamondPoints::Isovertex(0, 0);
+      slot.First = static_cast<std::uint16_t>(points);
+      slot.LeafChildren = tables::Types[type].DiamondClass == 2
+        ? static_cast<std::uint8_t>(
+            ChildrenOfHalves(HalvesWithAny(tables::WordsAsListed[type](crossed))))
+        : 0;
+      points += PopCount(crossed);
+    });
+  return points;
 }
 
 /** Counts become sums of all before. */

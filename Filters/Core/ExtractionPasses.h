@@ -77,7 +77,10 @@ public:
       {
         if (!this->IsIdle(brick))
         {
-          this->First[brick + 1] = this->CountBrick(this->BrickAt(brick), cellsOf);
+          Counts& counts = this->First[brick + 1];
+          counts.Points = this->FillSlots(this->BrickAt(brick));
+          this->ForEachLeafParent(
+            brick, [&](const LeafParent& parent) { counts.Cells += cellsOf(parent); });
         }
       });
     this->SumUp();
@@ -193,29 +196,10 @@ private:
       this->Bricks[brick].Scale > 0;
   }
 
-  /** Fills the slots of a brick, and counts. */
-  template <typename CellsOf>
-  Counts CountBrick(const RefinedBrick& brick, CellsOf&& cellsOf)
-  {
-    const LeafFinder finder(this->Set, brick);
-    Counts counts;
-    brick.ForEachDiamond(
-      [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
-      {
-        Slot slot = this->MakeSlot(finder, place, rank);
-        slot.First = static_cast<std::uint16_t>(counts.Points);
-        counts.Points += PopCount(slot.Points);
-        if (slot.LeafChildren != 0)
-        {
-          counts.Cells += cellsOf(MakeLeafParent(
-            brick, place, rank, slot.LeafChildren, this->Hierarchy().CarryingEdges(rank)));
-        }
-        this->Slots[refinedRank] = slot;
-      });
-    return counts;
-  }
+  /** Fills the slots of a brick. @return the number of its points */
+  std::int64_t FillSlots(const RefinedBrick& brick);
+  std::int64_t FillFinestSlots(const RefinedBrick& brick);
 
-  Slot MakeSlot(const LeafFinder& finder, const Place& place, std::uint32_t rank) const;
   void SumUp();
 
   const RefinedSet& Set;

@@ -3,9 +3,11 @@
 #define isodiamond_Leaves_h
 
 #include "HalfWords.h"
+#include "OccupancyWindow.h"
 #include "RefinedSet.h"
 
 #include <array>
+#include <optional>
 
 /**
  * @file Leaves.h
@@ -18,71 +20,74 @@
 namespace isodiamond
 {
 
-/** The diamonds of one scale in 27 bricks, at hand without a search. */
-class MaskWindow
+/** The diamonds of a brick's scale in the brick and behind it: a child of the same scale is even
+ *  where it differs from its parent, which is odd there. */
+using SameScaleWindow = OccupancyWindow<9>;
+
+/** Those of the next finer scale around the doubled positions. */
+using FinerWindow = OccupancyWindow<17>;
+
+namespace tables
 {
-public:
-  /** @param origin of the middle brick */
-  MaskWindow(const BrickLevel& level, const Point& origin)
-    : First(origin + Point{ -8, -8, -8 })
+
+inline constexpr std::array<std::array<std::int16_t, MaximumVertices>, 8> MakeMiddleDistances()
+{
+  std::array<std::array<std::int16_t, MaximumVertices>, 8> distances{};
+  for (std::size_t parity = 1; parity < distances.size(); ++parity)
   {
-    static constexpr BrickMask none{};
-    const Point first = BrickOf(this->First);
-    for (int i = 0; i < 27; ++i)
+    for (int i = 0; i < Parities[parity].VertexCount; ++i)
     {
-      const Brick* brick = level.Find(level.Box.Index(first + Point{ i % 3, i / 3 % 3, i / 9 }));
-      this->Masks[i] = brick != nullptr ? &brick->Occupancy : &none;
-      this->Empty = this->Empty && brick == nullptr;
+      distances[parity][i] =
+        static_cast<std::int16_t>(FinerWindow::Distance(Parities[parity].Offsets[i]));
     }
   }
+  return distances;
+}
 
-  bool IsEmpty() const { return this->Empty; }
-
-  /** @param position in one of the 27 bricks */
-  bool Contains(const Point& position) const
+inline constexpr std::array<std::array<std::int16_t, MaximumChildren>, 64> MakeChildDistances()
+{
+  std::array<std::array<std::int16_t, MaximumChildren>, 64> distances{};
+  for (std::size_t type = 0; type < distances.size(); ++type)
   {
-    const int x = (position[0] - this->First[0]) >> 3;
-    const int y = (position[1] - this->First[1]) >> 3;
-    const int z = (position[2] - this->First[2]) >> 3;
-    const std::uint64_t word = (*this->Masks[x + 3 * y + 9 * z])[position[2] & 7];
-    return ((word >> BitOf(position)) & 1U) != 0;
+    const TypeTable& shape = Types[type];
+    for (int i = 0; i < shape.ChildCount; ++i)
+    {
+      const Point& offset = shape.ChildOffsets[i];
+      distances[type][i] = static_cast<std::int16_t>(
+        shape.ChildStep == 0 ? SameScaleWindow::Distance(offset) : FinerWindow::Distance(offset));
+    }
   }
+  return distances;
+}
 
-private:
-  Point First; ///< the first position of the first brick
-  std::array<const BrickMask*, 27> Masks{};
-  bool Empty = true;
-};
+/** In a FinerWindow, by parity: from a diamond to the middles of its edges. */
+inline constexpr auto MiddleDistances = MakeMiddleDistances();
+
+/** By type: from a diamond to its children, in the window of their scale. */
+inline constexpr auto ChildDistances = MakeChildDistances();
+
+}
 
 /** Tells what belongs to the current mesh of the diamonds of one brick. */
 class LeafFinder
 {
 public:
-  /** Whatever is centred on the diamonds' edges, or is a child of theirs, lies in a window of their
-   *  own scale, or in one of the next finer scale around the doubled origin. */
   LeafFinder(const RefinedSet& refined, const RefinedBrick& brick)
     : Same(refined.Diamonds().Level(brick.Scale()), brick.Origin())
-    , Finer(refined.Diamonds().Level(std::max(brick.Scale() - 1, 0)), 2 * brick.Origin())
-    , HasFiner(brick.Scale() > 0 && !this->Finer.IsEmpty())
   {
+    if (brick.Scale() > 0)
+    {
+      this->Finer.emplace(
+        refined.Diamonds().Level(brick.Scale() - 1), 2 * brick.Origin() + Point{ -1, -1, -1 });
+    }
   }
 
   /** Of a refined diamond's subdivision edges, those that are edges of the current mesh. */
   std::uint32_t AliveEdges(const Place& place, std::uint32_t edges) const
   {
-    if (!this->HasFiner)
-    {
-      return edges;
-    }
-    const ParityTable& shape = tables::Parities[Parity(place.Position)];
-    std::uint32_t alive = edges;
-    ForEachBit(edges,
-      [&](int edge)
-      {
-        const Point middle = 2 * place.Position + shape.Offsets[edge];
-        alive ^= static_cast<std::uint32_t>(this->Finer.Contains(middle)) << edge;
-      });
-    return alive;
+    return this->Finer ? edges &
+        ~this->Finer->Around(2 * place.Position, tables::MiddleDistances[Parity(place.Position)])
+                       : edges;
   }
 
   /** The children of a refined diamond that are not refined, as a mask.
@@ -90,27 +95,22 @@ public:
   std::uint32_t LeafChildren(const Place& place, std::uint32_t wanted) const
   {
     const int type = TypeOf(place.Position);
-    const TypeTable& shape = tables::Types[type];
-    const bool isFiner = shape.ChildStep != 0;
-    std::uint32_t leaves = ChildrenOfHalves(HalvesWithAny(tables::WordsAsListed[type](wanted)));
-    if (isFiner && !this->HasFiner)
+    const std::uint32_t children =
+      ChildrenOfHalves(HalvesWithAny(tables::WordsAsListed[type](wanted)));
+    if (tables::Types[type].ChildStep == 0)
     {
-      return leaves;
+      return children & ~this->Same.Around(place.Position, tables::ChildDistances[type]);
     }
-    const MaskWindow& window = isFiner ? this->Finer : this->Same;
-    ForEachBit(leaves,
-      [&](int child)
-      {
-        const Point position = ChildPlace(shape, place, child).Position;
-        leaves ^= static_cast<std::uint32_t>(window.Contains(position)) << child;
-      });
-    return leaves;
+    return this->Finer
+      ? children & ~this->Finer->Around(2 * place.Position, tables::ChildDistances[type])
+      : children;
   }
 
 private:
-  MaskWindow Same;
-  MaskWindow Finer;
-  bool HasFiner;
+  /** Children of classes 0 and 1. */
+  SameScaleWindow Same;
+  /** What is centred on edges, and children of class 2. */
+  std::optional<FinerWindow> Finer;
 };
 
 /** A refined diamond whose children are not all refined: the parent of leaves. */
@@ -145,9 +145,14 @@ inline LeafParent MakeLeafParent(const RefinedBrick& brick, const Place& place, 
 {
   const int type = TypeOf(place.Position);
   const VertexWords& words = tables::WordsAsListed[type];
-  const std::uint32_t unsampled = AllEdges & ~brick.Sampled(place, tables::Types[type]);
-  return { place, rank, type,
-    HalvesOfChildren(children) & HalvesWithAny(words(wanted)) & ~HalvesWithAny(words(unsampled)) };
+  HalfWord leaves = HalvesOfChildren(children) & HalvesWithAny(words(wanted));
+  if (!brick.IsInner(place))
+  {
+    const std::uint32_t sampled =
+      SampledVertices(brick.Hierarchy().Domain(), place, tables::Types[type]);
+    leaves &= ~HalvesWithAny(words(AllEdges & ~sampled));
+  }
+  return { place, rank, type, leaves };
 }
 
 /** A leaf of the current mesh. */

@@ -13,8 +13,8 @@ namespace
 PatchPointPlace PlaceOf(const Point& offset, int bit)
 {
   PatchPointPlace place;
-  place.Distance = static_cast<std::int16_t>(VertexWindow::Distance(offset));
-  place.Bit = static_cast<std::int16_t>(bit);
+  place.Distance = static_cast<std::int8_t>(VertexWindow::Distance(offset));
+  place.Bit = static_cast<std::int8_t>(bit);
   return place;
 }
 

@@ -18,8 +18,8 @@ namespace isodiamond
 /** A point at a vertex, or on an edge, of a half-tetrahedron. */
 struct PatchPointPlace
 {
-  std::int16_t Distance = 0; ///< of its diamond from the parent in a VertexWindow
-  std::int16_t Bit = 0;      ///< in DiamondPoints; on an edge, of the isovertex on surface 0
+  std::int8_t Distance = 0; ///< of its diamond from the parent in a VertexWindow
+  std::int8_t Bit = 0;      ///< in DiamondPoints; on an edge, of the isovertex on surface 0
 };
 
 /** On the edges of a half-tetrahedron, numbered as SurfacePatch.h does. */

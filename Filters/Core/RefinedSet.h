@@ -116,10 +116,14 @@ public:
     , BrickScale(place.Scale)
     , First(this->StoredLevel(place.Scale).Box.Origin(this->Refined.BoxIndex))
   {
-    this->IsInner = this->First[0] > 0 && this->First[1] > 0 && this->First[2] > 0 &&
-      this->Source.Domain().IsSampled((1 << place.Scale) * (this->First + Point{ 8, 8, 8 }));
+    const std::array<int, 3>& dimensions = this->Source.Domain().Dimensions();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->LastInner[axis] = ((dimensions[axis] - 1) >> place.Scale) - 1;
+    }
   }
 
+  const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
   int Scale() const { return this->BrickScale; }
   const Point& Origin() const { return this->First; }
 
@@ -147,10 +151,12 @@ public:
     }
   }
 
-  /** SampledVertices() of a diamond of this brick. */
-  std::uint32_t Sampled(const Place& place, const TypeTable& shape) const
+  /** Whether all vertices of a diamond of this brick have samples, whatever its class. */
+  bool IsInner(const Place& place) const
   {
-    return this->IsInner ? AllEdges : SampledVertices(this->Source.Domain(), place, shape);
+    const Point& at = place.Position;
+    return at[0] > 0 && at[1] > 0 && at[2] > 0 && at[0] <= this->LastInner[0] &&
+      at[1] <= this->LastInner[1] && at[2] <= this->LastInner[2];
   }
 
 private:
@@ -161,7 +167,7 @@ private:
   const Brick& Stored;
   int BrickScale;
   Point First;
-  bool IsInner = false; ///< whether all vertices of all diamonds have samples
+  Point LastInner{}; ///< the last position all of whose neighbours have samples
 };
 
 }

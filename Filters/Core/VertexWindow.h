@@ -43,8 +43,6 @@ private:
 
   int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
   void Fill(const ExtractionPasses& passes, int scale, int step);
-  void FillFrom(
-    const ExtractionPasses& passes, const BrickPlace& place, const Point& origin, int step);
 
   Point First; ///< the first position
   std::array<DiamondPoints, Width * Width * Width> Points{};
