@@ -49,6 +49,7 @@ Task Task::Part(double begin, double end) const
   const double length = this->Last - this->First;
   part.First = this->First + begin * length;
   part.Last = this->First + end * length;
+  part.Done = part.First;
   part.End = part.First;
   return part;
 }

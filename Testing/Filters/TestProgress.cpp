@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Progress in named phases, and abortion at any of its reports.
+#include "FilterTestTools.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondExtractor.h"
+#include "vtkIsodiamondHierarchy.h"
+#include "vtkIsodiamondIntervalVolume.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <thread>
+
+namespace
+{
+
+/** Listens to an algorithm's progress, and aborts at one of the reports. */
+class Listener : public vtkCommand
+{
+public:
+  static Listener* New() { return new Listener; }
+  void Execute(vtkObject* caller, unsigned long, void* data) override
+  {
+    auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
+    const double progress = *static_cast<double*>(data);
+    // The executive itself reports 0 before and 1 after the work.
+    if (progress > 0.0 && progress < 1.0)
+    {
+      EXPECT_GE(progress, this->Last) << algorithm->GetProgressText();
+      EXPECT_EQ(std::this_thread::get_id(), this->Thread);
+      this->Last = progress;
+      if (algorithm->GetProgressText())
+      {
+        this->Phases.insert(algorithm->GetProgressText());
+      }
+    }
+    if (this->Count++ == this->AbortAt)
+    {
+      algorithm->SetAbortExecute(1);
+    }
+  }
+  void Start(int abortAt)
+  {
+    this->Last = 0.0;
+    this->Count = 0;
+    this->AbortAt = abortAt;
+  }
+
+  double Last = 0.0;
+  int Count = 0;
+  int AbortAt = -1;
+  std::set<std::string> Phases;
+  std::thread::id Thread = std::this_thread::get_id();
+};
+
+vtkIdType CellsOf(vtkAlgorithm* algorithm)
+{
+  return vtkDataSet::SafeDownCast(algorithm->GetOutputDataObject(0))->GetNumberOfCells();
+}
+
+/** Aborts a filter at each of its first reports, and expects nothing then, and all after. */
+void ExpectAborts(vtkAlgorithm* filter, vtkIdType expected)
+{
+  ASSERT_GT(expected, 0);
+  vtkNew<Listener> listener;
+  filter->AddObserver(vtkCommand::ProgressEvent, listener);
+  const auto messages = test::Watch(filter);
+  int aborted = 0;
+  for (int at = 0; at < 12; ++at)
+  {
+    filter->Modified();
+    listener->Start(at);
+    filter->Update();
+    if (filter->GetAbortExecute() == 0)
+    {
+      break; // it had no more reports
+    }
+    const bool wasInTime = listener->Count - 1 <= at + 2; // its last may be the executive's
+    EXPECT_TRUE(wasInTime);
+    if (CellsOf(filter) == 0)
+    {
+      ++aborted;
+    }
+    filter->SetAbortExecute(0);
+    filter->Modified();
+    listener->Start(-1);
+    filter->Update();
+    EXPECT_EQ(CellsOf(filter), expected) << at;
+  }
+  EXPECT_GE(aborted, 2);
+  EXPECT_EQ(messages->ErrorCount, 0) << messages->Errors;
+}
+
+}
+
+TEST(Progress, HasNamedPhasesInOrder)
+{
+  const auto image = test::PhantomImage({ 64, 64, 64 }, 1.0);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 50.0);
+  contour->SetValue(1, 30.0);
+  contour->SetErrorTolerance(0.5);
+  vtkNew<Listener> listener;
+  contour->AddObserver(vtkCommand::ProgressEvent, listener);
+  contour->Update();
+  for (const char* phase : { "Classifying diamonds", "Placing isovertices", "Measuring errors",
+         "Finding thresholds", "Refining", "Extracting the mesh" })
+  {
+    EXPECT_EQ(listener->Phases.count(phase), 1U) << phase;
+  }
+  EXPECT_GT(listener->Last, 0.8);
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(image);
+  builder->SetIsovalue(50.0);
+  vtkNew<Listener> ofBuilder;
+  builder->AddObserver(vtkCommand::ProgressEvent, ofBuilder);
+  builder->Update();
+  EXPECT_EQ(ofBuilder->Phases.count("Measuring errors"), 1U);
+}
+
+TEST(Progress, AnAbortedContourIsEmptyAndTheNextIsWhole)
+{
+  const auto image = test::PhantomImage({ 64, 64, 64 }, 1.0);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 50.0);
+  contour->SetCacheSize(0);
+  contour->Update();
+  ExpectAborts(contour, CellsOf(contour)); // with the hierarchy at hand
+  vtkNew<vtkIsodiamondContour> fresh;
+  fresh->SetInputData(image);
+  fresh->SetValue(0, 50.0);
+  fresh->SetErrorMetricToField();
+  vtkNew<Listener> listener;
+  fresh->AddObserver(vtkCommand::ProgressEvent, listener);
+  listener->Start(2); // while it builds
+  fresh->Update();
+  EXPECT_EQ(CellsOf(fresh), 0);
+  EXPECT_EQ(fresh->GetNumberOfBuilds(), 0);
+  fresh->SetAbortExecute(0);
+  fresh->Modified();
+  listener->Start(-1);
+  fresh->Update();
+  EXPECT_EQ(CellsOf(fresh), CellsOf(contour));
+}
+
+TEST(Progress, AllFiltersCanBeAborted)
+{
+  const auto image = test::PhantomImage({ 48, 48, 48 }, 1.0);
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  volume->SetInputData(image);
+  volume->SetIsorange(50.0, 1e9);
+  volume->Update();
+  ExpectAborts(volume, CellsOf(volume));
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(image);
+  builder->SetIsovalue(50.0);
+  builder->Update();
+  const vtkIdType stored = builder->GetHierarchy()->GetStorageSize();
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(builder->GetOutputPort());
+  extractor->Update();
+  ExpectAborts(extractor, CellsOf(extractor));
+  for (const bool isScalars : { false, true })
+  {
+    vtkNew<vtkIsodiamondBuilder> aborted;
+    aborted->SetInputData(image);
+    aborted->SetIsovalue(50.0);
+    aborted->SetModel(isScalars ? vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS
+                                : vtkIsodiamondHierarchy::MINIMAL);
+    vtkNew<Listener> listener;
+    aborted->AddObserver(vtkCommand::ProgressEvent, listener);
+    listener->Start(1);
+    aborted->Update();
+    EXPECT_EQ(aborted->GetHierarchy()->GetNumberOfPoints(), 0);
+    aborted->SetAbortExecute(0);
+    aborted->Modified();
+    listener->Start(-1);
+    aborted->Update();
+    EXPECT_GT(aborted->GetHierarchy()->GetStorageSize(), 0);
+    if (!isScalars)
+    {
+      EXPECT_EQ(aborted->GetHierarchy()->GetStorageSize(), stored);
+    }
+  }
+}
