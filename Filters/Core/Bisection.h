@@ -70,6 +70,18 @@ public:
       [&](const FinePlane& face) { return face.Side(position) >= 0; });
   }
 
+  /** The corners of the least face, edge or vertex of it that a position in it lies on, as a mask:
+   *  bit 0 for the centre, then the vertices. */
+  std::uint32_t CornersAround(const FinePosition& position) const
+  {
+    std::uint32_t corners = 0;
+    for (int opposite = 0; opposite < 4; ++opposite)
+    {
+      corners |= (this->Faces[opposite].Side(position) != 0 ? 1U : 0U) << opposite;
+    }
+    return corners;
+  }
+
   /** Whether all of a box lies in it. */
   bool HoldsAll(const FineBox& box) const
   {

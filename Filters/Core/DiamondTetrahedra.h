@@ -26,6 +26,31 @@ struct HalfPlace
   Place Child() const { return ChildPlace(this->Shape(), this->Parent, this->Half->Child); }
 };
 
+/** An edge by its owner, the diamond at its younger end. */
+struct OwnedEdge
+{
+  Place Owner;
+  std::uint8_t Edge = 0; ///< index in the owner's edge mask
+};
+
+/** An edge of a half-tetrahedron: 0 to 2 lead from the centre to its vertices, 3 to 5 lie opposite
+ *  to them. */
+inline OwnedEdge OwnedEdgeOf(const HalfPlace& tetrahedron, int edge)
+{
+  const HalfTetrahedron& half = *tetrahedron.Half;
+  if (edge < 3)
+  {
+    return { tetrahedron.Parent, half.Vertices[edge] };
+  }
+  const OuterEdge& outer = half.OuterEdges[edge - 3];
+  const Point position =
+    tetrahedron.Parent.Position + tetrahedron.Shape().Offsets[outer.OwnerVertex];
+  const int step = outer.OwnerStep;
+  return { { tetrahedron.Parent.Scale + step,
+             { position[0] >> step, position[1] >> step, position[2] >> step } },
+    outer.OwnerEdge };
+}
+
 /** The first of the halves that a parent makes for a child. */
 inline const HalfTetrahedron* HalvesOfChild(const Place& parent, const Place& child)
 {

@@ -3,8 +3,10 @@
 
 #include "Bisection.h"
 #include "FarthestSearch.h"
+#include "TetrahedronGeneration.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -19,62 +21,6 @@ struct ClusterPart
 {
   std::uint32_t Index = 0;
   bool Straddles = false; ///< some of the cluster may lie outside
-};
-
-/** A tetrahedron with its items, isovertices or parts of clusters, and the diamond that it lies
- *  in. */
-struct Holder
-{
-  HalfPlace Tetrahedron;
-  Place Diamond;
-  std::uint32_t Rank = 0; ///< of the diamond
-  std::size_t Begin = 0;  ///< its items in the level's
-  std::size_t End = 0;
-};
-
-/** Tetrahedra of one generation. */
-template <typename Item>
-struct Generation
-{
-  std::vector<Holder> Holders;
-  std::vector<Item> Items; ///< the first Count; memory that was used once is kept
-  std::size_t Count = 0;
-  std::vector<std::uint64_t> Order; ///< rank of the diamond, and index of the holder in 32 bits
-
-  /** Brings the tetrahedra of a diamond together, in the order. */
-  void SortByDiamond()
-  {
-    this->Order.clear();
-    for (std::size_t i = 0; i < this->Holders.size(); ++i)
-    {
-      this->Order.push_back(std::uint64_t{ this->Holders[i].Rank } << 32 | i);
-    }
-    std::sort(this->Order.begin(), this->Order.end());
-  }
-  const Holder& At(std::size_t inOrder) const
-  {
-    return this->Holders[this->Order[inOrder] & 0xffffffffU];
-  }
-
-  /** Where some more items fit. */
-  Item* Room(std::size_t more)
-  {
-    if (this->Count + more > this->Items.size())
-    {
-      this->Items.resize(std::max(this->Count + more, 2 * this->Items.size()));
-    }
-    return this->Items.data() + this->Count;
-  }
-  void Add(const Item& item)
-  {
-    *this->Room(1) = item;
-    ++this->Count;
-  }
-  void Clear()
-  {
-    this->Holders.clear();
-    this->Count = 0;
-  }
 };
 
 /** The walk with the clusters of one surface. */
@@ -174,29 +120,68 @@ private:
   }
 
   /** Appends a tetrahedron's halves, and what lies in them, to the next generation. */
-  template <typename Item>
-  void Split(const Holder& holder, const std::vector<Item>& items, Generation<Item>& halves) const
+  void Split(const Holder& holder, const std::vector<ClusterPart>& items,
+    Generation<ClusterPart>& halves) const
   {
     ForEachHalf(this->Errors.Hierarchy().Domain(), holder.Tetrahedron, holder.Diamond, holder.Rank,
       [&](const HalfPlace& half, const FinePlane& plane)
       {
         const std::size_t begin = halves.Count;
-        Item* const room = halves.Room(holder.End - holder.Begin);
-        Item* next = room;
         for (std::size_t i = holder.Begin; i < holder.End; ++i)
         {
-          *next = items[i];
-          next += this->IsInHalf(plane, *next) ? 1 : 0;
+          ClusterPart part = items[i];
+          if (this->IsInHalf(plane, part))
+          {
+            halves.Add(part);
+          }
         }
-        halves.Count += next - room;
         this->Hold(half, begin, halves);
       });
   }
 
-  bool IsInHalf(const FinePlane& plane, const FinePosition& position) const
+  /** The same for isovertices: one look at each. */
+  void Split(const Holder& holder, const std::vector<FinePosition>& items,
+    Generation<FinePosition>& halves) const
   {
-    return plane.Side(position) >= 0;
+    std::array<HalfPlace, 2> places;
+    FinePlane plane; // whose positive side is the last half's
+    int count = 0;
+    ForEachHalf(this->Errors.Hierarchy().Domain(), holder.Tetrahedron, holder.Diamond, holder.Rank,
+      [&](const HalfPlace& half, const FinePlane& turned)
+      {
+        places[count++] = half;
+        plane = turned;
+      });
+    if (count == 0)
+    {
+      return;
+    }
+    const std::size_t all = holder.End - holder.Begin;
+    const std::size_t begin = halves.Count;
+    FinePosition* const last = halves.Room(2 * all);
+    FinePosition* const first = last + all;
+    FinePosition* nextLast = last;
+    FinePosition* nextFirst = first;
+    for (std::size_t i = holder.Begin; i < holder.End; ++i)
+    {
+      const FinePosition position = items[i];
+      const std::int32_t side = plane.Side(position);
+      *nextLast = position;
+      *nextFirst = position;
+      nextLast += side >= 0 ? 1 : 0;
+      nextFirst += side <= 0 ? 1 : 0;
+    }
+    halves.Count += nextLast - last;
+    this->Hold(places[count - 1], begin, halves);
+    if (count == 2)
+    {
+      const std::size_t middle = halves.Count;
+      std::copy(first, nextFirst, halves.Items.data() + middle);
+      halves.Count += nextFirst - first;
+      this->Hold(places[0], middle, halves);
+    }
   }
+
   bool IsInHalf(const FinePlane& plane, ClusterPart& part) const
   {
     const auto [least, greatest] = plane.Sides(this->Clusters.All()[part.Index].Box);
@@ -356,11 +341,8 @@ private:
   void FindFarthest(FarthestSearch& search, const Holder& holder,
     const std::vector<FinePosition>& positions, Farthest& farthest) const
   {
-    const int tetrahedron = search.Find(holder.Tetrahedron);
-    for (std::size_t i = holder.Begin; i < holder.End; ++i)
-    {
-      search.Propose(tetrahedron, positions[i], farthest);
-    }
+    search.Propose(search.Find(holder.Tetrahedron), positions.data() + holder.Begin,
+      holder.End - holder.Begin, farthest);
   }
 
   void FindFarthest(FarthestSearch& search, const Holder& holder,
@@ -374,7 +356,8 @@ private:
       if (!farthest.IsAny || !search.IsWithin(tetrahedron, box, farthest.Squared))
       {
         this->ForEachIn(parts[i], closed,
-          [&](const FinePosition& position) { search.Propose(tetrahedron, position, farthest); });
+          [&](const FinePosition& position)
+          { search.Propose(tetrahedron, &position, 1, farthest); });
         search.Decide(farthest);
       }
     }

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace isodiamond
@@ -31,47 +33,85 @@ public:
   void Reset(const Place& diamond)
   {
     this->Patches.Reset(diamond);
-    this->Candidates.clear();
+    this->CandidateCount = 0;
   }
 
-  /** The number of one of the diamond's tetrahedra, and whether it is one with samples at all
-   *  vertices. */
+  /** The number of one of the diamond's tetrahedra. */
   int Find(const HalfPlace& tetrahedron) const { return this->Patches.Find(tetrahedron); }
-  bool IsThere(int tetrahedron) const { return this->Patches.IsThere(tetrahedron); }
 
-  /** Looks at the distance of an isovertex to the patch of its tetrahedron. */
-  void Propose(int tetrahedron, const FinePosition& position, Farthest& farthest)
+  /** Looks at how far isovertices can be from the patch of their tetrahedron. */
+  void Propose(
+    int tetrahedron, const FinePosition* positions, std::size_t count, Farthest& farthest)
   {
-    farthest.IsAny = true;
-    const Vector point = this->Metric(position);
-    const double squared = this->Patches.SquaredTo(tetrahedron, point);
-    if (squared > farthest.Squared)
+    if (count == 0)
     {
-      this->Candidates.push_back({ squared, tetrahedron, point });
+      return;
+    }
+    farthest.IsAny = true;
+    const float known = this->Patches.MetricOfBounds().Squared(farthest.Squared);
+    const PatchBound* bound = this->Patches.Bound(tetrahedron);
+    Candidate* next = this->Room(count);
+    std::array<float, PatchBound::Width> bounds;
+    bounds.fill(std::numeric_limits<float>::infinity());
+    for (std::size_t first = 0; first < count; first += PatchBound::Width)
+    {
+      const int some = static_cast<int>(std::min<std::size_t>(count - first, PatchBound::Width));
+      if (bound != nullptr)
+      {
+        bounds = bound->Squared(positions + first, some);
+      }
+      for (int i = 0; i < some; ++i)
+      {
+        *next = { bounds[i], 1U << tetrahedron, positions[first + i] };
+        next += bounds[i] <= known ? 0 : 1;
+      }
+    }
+    this->CandidateCount = next - this->Candidates.data();
+  }
+
+  /** The same for one isovertex, that some tetrahedra hold.
+   *  @param around the edges of a triangle between them that it lies on, or the edge; or none */
+  void Propose(std::uint32_t tetrahedra, std::uint32_t around, const FinePosition& position,
+    Farthest& farthest)
+  {
+    const std::uint32_t holders = tetrahedra & this->Patches.AreThere();
+    if (holders == 0)
+    {
+      return;
+    }
+    farthest.IsAny = true;
+    const double squared = this->Patches.BoundToBorder(around, this->Metric(position));
+    const float bound = 1.01F * this->Patches.MetricOfBounds().Squared(squared) + 1e-20F;
+    if (!(bound <= this->Patches.MetricOfBounds().Squared(farthest.Squared)))
+    {
+      *this->Room(1) = { bound, holders, position };
+      ++this->CandidateCount;
     }
   }
 
-  /** Looks for nearer patches of what was proposed. The isovertex that is farthest from its own
-   *  goes first: few others need it then. */
+  /** Measures what was proposed. The isovertex that may be farthest from its own patch goes first:
+   *  few others need it then. */
   void Decide(Farthest& farthest)
   {
-    const auto measure = [&](const Candidate& candidate)
+    const auto begin = this->Candidates.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(this->CandidateCount);
+    this->CandidateCount = 0;
+    const auto first = std::max_element(
+      begin, end, [](const Candidate& a, const Candidate& b) { return a.Bound < b.Bound; });
+    if (first == end)
     {
-      if (candidate.Squared > farthest.Squared)
-      {
-        farthest.Squared = std::max(farthest.Squared,
-          this->Patches.SquaredToNearest(
-            candidate.Tetrahedron, candidate.Point, candidate.Squared, farthest.Squared));
-      }
-    };
-    const auto first = std::max_element(this->Candidates.begin(), this->Candidates.end(),
-      [](const Candidate& a, const Candidate& b) { return a.Squared < b.Squared; });
-    if (first != this->Candidates.end())
-    {
-      measure(*first);
+      return;
     }
-    std::for_each(this->Candidates.begin(), this->Candidates.end(), measure);
-    this->Candidates.clear();
+    this->Measure(*first, farthest);
+    float known = this->Patches.MetricOfBounds().Squared(farthest.Squared);
+    for (auto candidate = begin; candidate != end; ++candidate)
+    {
+      if (!(candidate->Bound <= known) && candidate != first)
+      {
+        this->Measure(*candidate, farthest);
+        known = this->Patches.MetricOfBounds().Squared(farthest.Squared);
+      }
+    }
   }
 
   /** Whether all of a box is surely nearer than a distance: no distance changes faster than the
@@ -110,14 +150,41 @@ public:
 private:
   struct Candidate
   {
-    double Squared = 0.0; ///< distance to the tetrahedron's own patch
-    int Tetrahedron = 0;
-    Vector Point{};
+    float Bound = 0.0F;           ///< of the squared distance to the tetrahedron's own patch
+    std::uint32_t Tetrahedra = 0; ///< that hold it, a mask
+    FinePosition Position{};
   };
+
+  /** Where some more candidates fit. */
+  Candidate* Room(std::size_t more)
+  {
+    if (this->Candidates.size() < this->CandidateCount + more)
+    {
+      this->Candidates.resize(2 * (this->CandidateCount + more));
+    }
+    return this->Candidates.data() + this->CandidateCount;
+  }
+
+  /** Raises the farthest distance to a candidate's, that to the nearest patch. */
+  void Measure(const Candidate& candidate, Farthest& farthest)
+  {
+    const Vector point = this->Metric(candidate.Position);
+    ForEachBit(candidate.Tetrahedra,
+      [&](int tetrahedron)
+      {
+        const double own = this->Patches.SquaredTo(tetrahedron, point);
+        if (own > farthest.Squared)
+        {
+          farthest.Squared = std::max(farthest.Squared,
+            this->Patches.SquaredToNearest(tetrahedron, point, own, farthest.Squared));
+        }
+      });
+  }
 
   const WorldMetric& Metric;
   DiamondPatches Patches;
-  std::vector<Candidate> Candidates;
+  std::vector<Candidate> Candidates; ///< the first CandidateCount; memory is kept
+  std::size_t CandidateCount = 0;
 };
 
 }

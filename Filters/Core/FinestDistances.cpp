@@ -53,7 +53,7 @@ private:
   /** An isovertex in the domain. */
   struct LocatedIsovertex
   {
-    std::uint16_t Tetrahedra = 0; ///< that hold it, a mask of numbers
+    const FinestDomain::Edge* Edge = nullptr; ///< that it lies on
     FinePosition Position{};
   };
 
@@ -74,7 +74,7 @@ private:
     {
       if (((crossed >> edge.OwnerEdge) & 1U) != 0 && this->Clusters.IsWanted(place, edge.OwnerEdge))
       {
-        this->Located.push_back({ edge.Tetrahedra,
+        this->Located.push_back({ &edge,
           IsovertexAt(this->Hierarchy, place, rank, edge.OwnerEdge, this->Clusters.Surface()) });
       }
     }
@@ -100,14 +100,8 @@ private:
       {
         for (const LocatedIsovertex& isovertex : this->Located)
         {
-          ForEachBit(isovertex.Tetrahedra,
-            [&](int tetrahedron)
-            {
-              if (this->Search.IsThere(tetrahedron))
-              {
-                this->Search.Propose(tetrahedron, isovertex.Position, farthest);
-              }
-            });
+          this->Search.Propose(
+            isovertex.Edge->Tetrahedra, isovertex.Edge->Around, isovertex.Position, farthest);
         }
         this->Search.Decide(farthest);
       });
@@ -119,7 +113,7 @@ private:
     std::uint32_t holders = 0;
     for (const LocatedIsovertex& isovertex : this->Located)
     {
-      holders |= isovertex.Tetrahedra;
+      holders |= isovertex.Edge->Tetrahedra;
     }
     bool isAny = false;
     SpineNeighbourhood(this->Hierarchy)

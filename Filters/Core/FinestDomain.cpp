@@ -2,6 +2,7 @@
 #include "FinestDomain.h"
 
 #include "Bisection.h"
+#include "SpineEdges.h"
 
 namespace isodiamond
 {
@@ -10,15 +11,27 @@ namespace
 
 /** Which of some tetrahedra hold the middle of an edge, and so all of it. */
 std::uint16_t HoldersOf(
-  const std::vector<ClosedTetrahedron>& tetrahedra, const Point& end, const Point& offset)
+  const std::vector<ClosedTetrahedron>& tetrahedra, const FinePosition& middle)
 {
-  const FinePosition middle = FineUnits * end + (FineUnits / 2) * offset;
   std::uint16_t holders = 0;
   for (std::size_t i = 0; i < tetrahedra.size(); ++i)
   {
     holders |= static_cast<std::uint16_t>(static_cast<unsigned>(tetrahedra[i].Holds(middle)) << i);
   }
   return holders;
+}
+
+/** The edges of a tetrahedron between corners, two or three of them: as a mask of its edges. */
+std::uint32_t EdgesBetween(std::uint32_t corners)
+{
+  // The edges by their ends, in the order of a half-tetrahedron's edges.
+  constexpr std::array<std::uint32_t, 6> ends = { 0b0011, 0b0101, 0b1001, 0b1100, 0b1010, 0b0110 };
+  std::uint32_t edges = 0;
+  for (std::size_t i = 0; i < ends.size() && corners != 0b1111; ++i)
+  {
+    edges |= ((ends[i] & ~corners) == 0 ? 1U : 0U) << i;
+  }
+  return edges;
 }
 
 FinestDomain MakeDomain(const Point& position)
@@ -37,11 +50,16 @@ FinestDomain MakeDomain(const Point& position)
     const TypeTable& shape = ShapeOf(centre);
     for (std::uint8_t edge = 0; shape.Valid && edge < shape.VertexCount; ++edge)
     {
-      const std::uint16_t holders = HoldersOf(tetrahedra, centre, shape.Offsets[edge]);
+      const FinePosition middle = FineUnits * centre + (FineUnits / 2) * shape.Offsets[edge];
+      const std::uint16_t holders = HoldersOf(tetrahedra, middle);
       if (holders != 0)
       {
+        const int holder = LowestBit(holders);
+        std::uint32_t around = 0;
+        ForEachBit(EdgesBetween(tetrahedra[holder].CornersAround(middle)),
+          [&](int i) { around |= 1U << SpineEdgesOf(position).OfTetrahedron[holder][i]; });
         owner.EdgeMask |= 1U << edge;
-        owner.Edges.push_back({ edge, holders });
+        owner.Edges.push_back({ edge, holders, around });
       }
     }
     owner.IsOlder = shape.DiamondClass < ShapeOf(position).DiamondClass;

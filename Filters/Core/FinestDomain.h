@@ -22,6 +22,9 @@ struct FinestDomain
   {
     std::uint8_t OwnerEdge = 0;   ///< of the owner's subdivision edges
     std::uint16_t Tetrahedra = 0; ///< mask of their numbers
+    /** The edge of the tetrahedra that it lies on, or those of the triangle, as SpineEdges counts;
+     *  none if it lies inside of a tetrahedron. */
+    std::uint32_t Around = 0;
   };
 
   struct Owner

@@ -87,8 +87,11 @@ void IsodiamondHierarchy::DeriveAllEdges(const ParallelFor& parallelFor)
       {
         for (std::int64_t i = begin; i < end; ++i)
         {
+          const BrickLevel& level = this->Set.Level(scale);
+          const BrickWindow window(level, level.Box.Origin(bricks[i].BoxIndex));
           this->Set.ForEachInBrick(scale, bricks[i],
-            [&](const Place& place, std::uint32_t rank) { this->DeriveDiamond(place, rank); });
+            [&](const Place& place, std::uint32_t rank)
+            { this->DeriveDiamond(window, place, rank); });
         }
       });
   }
@@ -262,7 +265,8 @@ int IsodiamondHierarchy::SignAt(const Place& place) const
   }
 }
 
-void IsodiamondHierarchy::DeriveDiamond(const Place& place, std::int64_t rank)
+void IsodiamondHierarchy::DeriveDiamond(
+  const BrickWindow& window, const Place& place, std::int64_t rank)
 {
   const ParityTable& shape = tables::Parities[Parity(place.Position)];
   const int surfaces = this->Region().SurfaceCount();
@@ -273,7 +277,10 @@ void IsodiamondHierarchy::DeriveDiamond(const Place& place, std::int64_t rank)
     const Point vertex = place.Position + shape.Offsets[i];
     if (this->TheGrid.IsSampled((1 << place.Scale) * vertex))
     {
-      const int sign = this->SignAt({ place.Scale, vertex });
+      const std::int64_t found =
+        Parity(vertex) != 0 ? window.Rank(vertex) : std::int64_t{ DiamondSet::None };
+      const int sign =
+        found != DiamondSet::None ? this->Sign(found) : this->SignAt({ place.Scale, vertex });
       sampled |= 1U << i;
       above[0] |= (sign > 0 ? 1U : 0U) << i;
       above[1] |= (sign > 1 ? 1U : 0U) << i;

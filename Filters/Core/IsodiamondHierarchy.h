@@ -244,7 +244,7 @@ private:
   void CountInsideValues();
   void FindHighestThresholds();
   int SignAt(const Place& place) const;
-  void DeriveDiamond(const Place& place, std::int64_t rank);
+  void DeriveDiamond(const BrickWindow& window, const Place& place, std::int64_t rank);
 
   EncodingView View;
   Grid TheGrid;

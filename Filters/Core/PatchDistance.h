@@ -2,8 +2,6 @@
 #ifndef isodiamond_PatchDistance_h
 #define isodiamond_PatchDistance_h
 
-#include "IsovertexClusters.h"
-#include "SpineNeighbourhood.h"
 #include "SurfacePatch.h"
 #include "TriangleDistance.h"
 
@@ -18,10 +16,11 @@ namespace isodiamond
 class PatchDistance
 {
 public:
-  void Reset(const IsodiamondHierarchy& hierarchy, const WorldMetric& metric,
-    const HalfPlace& tetrahedron, int surface)
+  /** @param cornerAt gives the isovertex on an edge of the patch's half-tetrahedron, in the world
+   */
+  template <typename CornerAt>
+  void Reset(const SurfacePatch& patch, CornerAt&& cornerAt)
   {
-    const SurfacePatch patch = PatchOf(hierarchy, tetrahedron.Rank, *tetrahedron.Half, surface);
     this->Count = patch.TriangleCount;
     std::array<Vector, 6> corners;
     std::uint32_t known = 0; // the edges whose isovertex is in corners
@@ -32,7 +31,7 @@ public:
         if (((known >> edge) & 1U) == 0)
         {
           known |= 1U << edge;
-          corners[edge] = metric(Corner(hierarchy, tetrahedron, edge, surface));
+          corners[edge] = cornerAt(edge);
         }
       }
       const std::array<std::uint8_t, 3>& edges = patch.Triangles[i];
@@ -50,26 +49,6 @@ public:
   }
 
 private:
-  /** The isovertex on an edge of a half-tetrahedron. */
-  static FinePosition Corner(const IsodiamondHierarchy& hierarchy, const HalfPlace& tetrahedron,
-    std::uint8_t edge, int surface)
-  {
-    const HalfTetrahedron& half = *tetrahedron.Half;
-    if (edge < OwnEdgeCount)
-    {
-      return IsovertexAt(
-        hierarchy, tetrahedron.Parent, tetrahedron.Rank, half.Vertices[edge], surface);
-    }
-    const OuterEdge& outer = half.OuterEdges[edge - OwnEdgeCount];
-    const Point position =
-      tetrahedron.Parent.Position + tetrahedron.Shape().Offsets[outer.OwnerVertex];
-    const int step = outer.OwnerStep;
-    const Place owner{ tetrahedron.Parent.Scale + step,
-      { position[0] >> step, position[1] >> step, position[2] >> step } };
-    const auto rank = static_cast<std::uint32_t>(hierarchy.Diamonds().Rank(owner));
-    return IsovertexAt(hierarchy, owner, rank, outer.OwnerEdge, surface);
-  }
-
   int Count = 0;
   std::array<TriangleDistance, 2> Triangles;
 };
