@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondGrid.h"
 
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
@@ -138,6 +140,28 @@ void ForEachOwnCell(const std::array<int, 3>& samples, int padding, Body&& body)
   }
 }
 
+}
+
+std::vector<vtkDataSet*> LeavesOf(vtkDataObject* data)
+{
+  std::vector<vtkDataSet*> leaves;
+  if (vtkDataSet* single = vtkDataSet::SafeDownCast(data))
+  {
+    leaves.push_back(single);
+  }
+  else if (vtkCompositeDataSet* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    const auto iterator =
+      vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      if (vtkDataSet* leaf = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
+      {
+        leaves.push_back(leaf);
+      }
+    }
+  }
+  return leaves;
 }
 
 std::array<int, 3> DimensionsOf(vtkDataSet* grid)

@@ -8,8 +8,10 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <vector>
 
 class vtkDataArray;
+class vtkDataObject;
 class vtkDataSet;
 
 /**
@@ -18,6 +20,9 @@ class vtkDataSet;
  */
 namespace vtkIsodiamond
 {
+
+/** The data sets of a composite one, or the one that there is. */
+std::vector<vtkDataSet*> LeavesOf(vtkDataObject* data);
 
 /** Samples on each axis; all 0 if the data set is of no such kind. */
 std::array<int, 3> DimensionsOf(vtkDataSet* grid);

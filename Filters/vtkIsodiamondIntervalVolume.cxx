@@ -9,6 +9,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkIsodiamondIntervalVolume);
 
 //------------------------------------------------------------------------------
@@ -34,8 +36,13 @@ vtkUnstructuredGrid* vtkIsodiamondIntervalVolume::GetOutput()
 //------------------------------------------------------------------------------
 double* vtkIsodiamondIntervalVolume::GetInteriorToleranceRange()
 {
-  vtkDataArray* array = this->FindInputArray(this->GetInput()).Array;
-  this->InteriorToleranceRange[1] = vtkIsodiamond::ExtentOfValues(array).value_or(VTK_DOUBLE_MAX);
+  double largest = 0.0;
+  for (vtkDataSet* grid : vtkIsodiamond::LeavesOf(this->GetInput()))
+  {
+    largest = std::max(
+      largest, vtkIsodiamond::ExtentOfValues(this->FindInputArray(grid).Array).value_or(0.0));
+  }
+  this->InteriorToleranceRange[1] = largest > 0.0 ? largest : VTK_DOUBLE_MAX;
   return this->InteriorToleranceRange;
 }
 

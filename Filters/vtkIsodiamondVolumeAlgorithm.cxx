@@ -12,6 +12,8 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 
+#include <algorithm>
+
 //------------------------------------------------------------------------------
 vtkIsodiamondVolumeAlgorithm::vtkIsodiamondVolumeAlgorithm()
   : Hierarchies(std::make_unique<vtkIsodiamond::Cache>())
@@ -51,9 +53,14 @@ vtkIdType vtkIsodiamondVolumeAlgorithm::GetNumberOfCachedHierarchies()
 //------------------------------------------------------------------------------
 double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
 {
-  vtkDataObject* input = this->GetInput();
-  this->ErrorToleranceRange[1] = vtkIsodiamond::LargestTolerance(
-    static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), input, this->FindInputArray(input));
+  double largest = 0.0;
+  for (vtkDataSet* grid : vtkIsodiamond::LeavesOf(this->GetInput()))
+  {
+    largest = std::max(largest,
+      vtkIsodiamond::LargestTolerance(static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), grid,
+        this->FindInputArray(grid)));
+  }
+  this->ErrorToleranceRange[1] = largest > 0.0 ? largest : 1.0;
   return this->ErrorToleranceRange;
 }
 
@@ -75,7 +82,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataObject* input)
+vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataSet* input)
 {
   vtkIsodiamond::InputArray found;
   if (input)

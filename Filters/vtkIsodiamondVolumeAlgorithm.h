@@ -28,6 +28,7 @@
 
 #include <memory> // for the cache
 
+class vtkDataSet;
 namespace vtkIsodiamond
 {
 class Cache;
@@ -124,7 +125,7 @@ protected:
   virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::Query& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) = 0;
 
-  vtkIsodiamond::InputArray FindInputArray(vtkDataObject* input);
+  vtkIsodiamond::InputArray FindInputArray(vtkDataSet* input);
 
   int ErrorMetric = vtkIsodiamondHierarchy::DISTANCE;
   bool ExactIsovertices = true;

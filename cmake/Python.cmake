@@ -13,6 +13,11 @@ vtk_module_wrap_python(
   LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   INSTALL_HEADERS OFF
   BUILD_STATIC OFF)
-set(python_init "${CMAKE_BINARY_DIR}/${python_destination}/isodiamonds/__init__.py")
-file(WRITE "${python_init}" "from .vtkIsodiamondFilters import *\n")
-install(FILES "${python_init}" DESTINATION "${python_destination}/isodiamonds" COMPONENT python)
+set(python_package "${CMAKE_BINARY_DIR}/${python_destination}/isodiamonds")
+file(WRITE "${python_package}/__init__.py" "from .vtkIsodiamondFilters import *\n")
+set(python_files "${python_package}/__init__.py")
+if(ISODIAMONDS_BUILD_PARAVIEW_PLUGIN)
+  configure_file(Plugin/Python/view.py "${python_package}/view.py" COPYONLY)
+  list(APPEND python_files "${python_package}/view.py")
+endif()
+install(FILES ${python_files} DESTINATION "${python_destination}/isodiamonds" COMPONENT python)

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs in ParaView's window: shows one of the plugin's filters, by the name in $ISODIAMONDS_PANEL, on
+the data named in $ISODIAMONDS_DATA. docs/panels.sh starts it and takes the picture."""
+import os
+
+from paraview.simple import *
+
+LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
+LoadPalette("WhiteBackground")
+
+
+def wavelet():
+    return Wavelet(WholeExtent=[-16, 16] * 3)
+
+
+def head():
+    return OpenDataFile(os.environ["ISODIAMONDS_HEAD"])
+
+
+def bytes_volume():
+    """An unsigned char volume: values 0 to 255."""
+    scaled = Calculator(wavelet(), ResultArrayName="density", Function="(RTData - 37) * 1.04")
+    typed = ProgrammableFilter(scaled)
+    typed.Script = """
+import numpy
+values = inputs[0].PointData["density"]
+output.PointData.append(numpy.asarray(values).clip(0, 255).astype(numpy.uint8), "bytes")
+"""
+    return typed
+
+
+volume = {"wavelet": wavelet, "head": head, "bytes": bytes_volume}[
+    os.environ.get("ISODIAMONDS_DATA", "wavelet")
+]()
+volume.UpdatePipeline()
+view = GetActiveViewOrCreate("RenderView")
+
+
+def show(filter, representation="Surface With Edges"):
+    display = Show(filter, view)
+    display.SetRepresentationType(representation)
+    SetActiveSource(filter)
+    return display
+
+
+def contour():
+    """As it comes."""
+    show(IsodiamondContour(volume), "Surface")
+
+
+def contour_tolerance():
+    surface = IsodiamondContour(volume)
+    surface.ErrorTolerance = surface.GetProperty("ErrorTolerance").GetDomain("range").GetMaximum(0) / 3
+    show(surface)
+
+
+def contour_region():
+    surface = IsodiamondContour(volume)
+    bounds = volume.GetDataInformation().GetBounds()
+    surface.UseRegionOfInterest = 1
+    surface.RegionOfInterestPosition = [bounds[0], bounds[2], (bounds[4] + bounds[5]) / 2]
+    surface.RegionOfInterestSize = [(bounds[1] - bounds[0]) / 2, bounds[3] - bounds[2],
+                                    (bounds[5] - bounds[4]) / 2]
+    show(surface)
+
+
+def interval_volume():
+    region = IsodiamondIntervalVolume(volume)
+    low, high = region.Isorange
+    region.Isorange = [low + 0.6 * (high - low), high]
+    region.ErrorTolerance = 0.5
+    show(region)
+
+
+def built(**properties):
+    """A hierarchy that has been applied: what follows adapts to it."""
+    made = IsodiamondHierarchy(volume, **properties)
+    made.UpdatePipeline()
+    return made
+
+
+def hierarchy():
+    show(built(), "Wireframe")
+
+
+def extract():
+    extracted = IsodiamondExtract(built(ComputeNormals=1))
+    extracted.ErrorTolerance = extracted.GetProperty("ErrorTolerance").GetDomain("range").GetMaximum(0) / 5
+    ColorBy(show(extracted), None)
+
+
+def points():
+    shown = IsodiamondPoints(built(Model="Relevant Isodiamonds"))
+    display = show(shown, "Points")
+    display.PointSize = 4
+    ColorBy(display, ("POINTS", "Kind"))
+
+
+def diamond_mesh():
+    mesh = DiamondMesh(built())
+    mesh.ErrorTolerance = 60
+    show(mesh)
+
+
+globals()[os.environ["ISODIAMONDS_PANEL"]]()
+view.CameraPosition = [120, -100, 80]
+view.CameraViewUp = [0, 0, 1]
+ResetCamera(view)
+Render(view)
+open(os.environ["ISODIAMONDS_READY"], "w").close()
