@@ -9,6 +9,7 @@
 #include "vtkDataSetMapper.h"
 #include "vtkDiamondMesh.h"
 #include "vtkExtractGeometry.h"
+#include "vtkFloatArray.h"
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondExtractor.h"
@@ -17,6 +18,7 @@
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
 #include "vtkPlane.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
@@ -217,4 +219,119 @@ TEST(Images, IntervalVolumes)
     actor->GetMapper()->SetScalarModeToUseCellFieldData();
   }
   scene.Compare("IntervalVolumes");
+}
+
+TEST(Images, ColouredByAnotherArray)
+{
+  // Stripes by height, the same at full resolution, coarse, and from a hierarchy that carries them.
+  const auto image = test::BallImage({ 33, 33, 33 });
+  vtkNew<vtkFloatArray> stripes;
+  stripes->SetName("stripes");
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    stripes->InsertNextValue(static_cast<float>(image->GetPoint(i)[2] / 4.0));
+  }
+  image->GetPointData()->AddArray(stripes);
+  Scene scene(3);
+  vtkNew<vtkIsodiamondContour> contours[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    contours[i]->SetInputData(image);
+    contours[i]->SetValue(0, 0.0);
+    contours[i]->SetErrorTolerance(0.5 * i);
+    vtkActor* actor = scene.Add(contours[i]->GetOutputPort());
+    ColourBy(actor, "stripes", 8);
+    actor->GetMapper()->SetScalarModeToUsePointFieldData();
+    actor->GetProperty()->SetEdgeVisibility(i);
+  }
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(image);
+  builder->SetErrorMetricToDistance();
+  builder->AddPointArray("stripes");
+  builder->ComputeNormalsOn();
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(builder->GetOutputPort());
+  extractor->SetErrorTolerance(0.2);
+  vtkActor* actor = scene.Add(extractor->GetOutputPort());
+  ColourBy(actor, "stripes", 8);
+  actor->GetMapper()->SetScalarModeToUsePointFieldData();
+  scene.Compare("ColouredByAnotherArray");
+}
+
+TEST(Images, SeveralIsovalues)
+{
+  // Three shells, cut open, each in the colour of its value.
+  Scene scene(2);
+  vtkNew<vtkIsodiamondContour> contours[2];
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(16.0, 16.0, 16.0);
+  plane->SetNormal(0.0, -1.0, 0.0);
+  vtkNew<vtkExtractGeometry> halves[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    contours[i]->SetInputData(test::BallImage({ 33, 33, 33 }));
+    contours[i]->SetValue(0, 0.0);
+    contours[i]->SetValue(1, 0.2);
+    contours[i]->SetValue(2, 0.4);
+    contours[i]->SetErrorTolerance(0.4 * i);
+    halves[i]->SetInputConnection(contours[i]->GetOutputPort());
+    halves[i]->SetImplicitFunction(plane);
+    vtkActor* actor = scene.Add(halves[i]->GetOutputPort());
+    actor->GetMapper()->ScalarVisibilityOn();
+    actor->GetMapper()->SetScalarRange(0.0, 0.4);
+    actor->GetProperty()->SetEdgeVisibility(i);
+  }
+  scene.Compare("SeveralIsovalues");
+}
+
+TEST(Images, DiamondMeshesOfHierarchiesOfDiamondsAndMinimalOnes)
+{
+  // The paper's figure 14: an HD's mesh is all of the domain, an MI's what carries the surface.
+  Scene scene(2);
+  vtkNew<vtkIsodiamondBuilder> builders[2];
+  vtkNew<vtkDiamondMesh> meshes[2];
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(16.0, 16.0, 16.0);
+  plane->SetNormal(0.0, -1.0, 0.0);
+  vtkNew<vtkExtractGeometry> halves[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    builders[i]->SetInputData(test::BallImage({ 33, 33, 33 }));
+    builders[i]->SetModel(
+      i == 0 ? vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS : vtkIsodiamondHierarchy::MINIMAL);
+    meshes[i]->SetInputConnection(builders[i]->GetOutputPort());
+    meshes[i]->SetErrorTolerance(0.05);
+    halves[i]->SetInputConnection(meshes[i]->GetOutputPort());
+    halves[i]->SetImplicitFunction(plane);
+    vtkActor* actor = scene.Add(halves[i]->GetOutputPort());
+    ColourBy(actor, "Level", 5);
+    actor->GetMapper()->SetScalarModeToUseCellFieldData();
+    actor->GetProperty()->EdgeVisibilityOn();
+  }
+  scene.Compare("DiamondMeshesOfHierarchiesOfDiamondsAndMinimalOnes");
+}
+
+TEST(Images, KindsOfIsodiamonds)
+{
+  // Active, creation and relevant ones of RI; MI has no relevant ones; interval volumes have an
+  // inside.
+  Scene scene(3);
+  vtkNew<vtkIsodiamondBuilder> builders[3];
+  vtkNew<vtkIsodiamondPoints> points[3];
+  const auto image = test::PhantomImage({ 33, 33, 33 }, 0.0);
+  for (int i = 0; i < 3; ++i)
+  {
+    builders[i]->SetInputData(image);
+    builders[i]->SetModel(
+      i == 0 ? vtkIsodiamondHierarchy::RELEVANT : vtkIsodiamondHierarchy::MINIMAL);
+    builders[i]->SetShape(i == 2 ? 1 : 0);
+    builders[i]->SetIsovalue(50.0);
+    builders[i]->SetIsorange(50.0, 1e9);
+    points[i]->SetInputConnection(builders[i]->GetOutputPort());
+    vtkActor* actor = scene.Add(points[i]->GetOutputPort());
+    ColourBy(actor, "Kind", 3);
+    actor->GetMapper()->SetScalarModeToUsePointFieldData();
+    actor->GetProperty()->SetPointSize(4.0);
+  }
+  scene.Compare("KindsOfIsodiamonds");
 }

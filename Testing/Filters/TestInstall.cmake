@@ -10,7 +10,7 @@ endfunction()
 
 file(REMOVE_RECURSE "${FOLDER}")
 run(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${FOLDER}/prefix")
-run(${CMAKE_COMMAND} -S "${SOURCE}/Examples/Cpp" -B "${FOLDER}/build" -G "${GENERATOR}"
+run(${CMAKE_COMMAND} -S "${SOURCE}/Examples/Cxx" -B "${FOLDER}/build" -G "${GENERATOR}"
   "-DCMAKE_PREFIX_PATH=${FOLDER}/prefix" -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build "${FOLDER}/build")
 run("${FOLDER}/build/LevelsOfDetail" "${FOLDER}/hierarchy.vtp")
