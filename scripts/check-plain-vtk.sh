@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds, tests and installs the VTK module of the commit HEAD on a plain VTK: Debian 12's
+# Builds, tests and installs what needs no ParaView, of the commit HEAD, on a plain VTK: Debian 12's
 # libvtk9-dev, which cannot be installed beside python3-paraview, hence in a root of its own.
 # Needs root.
 #   scripts/check-plain-vtk.sh [FOLDER]
@@ -45,6 +45,7 @@ else
 fi
 
 apt-get update -qq # what it fetches tells which sources are Debian's
+# shellcheck disable=SC2016 # apt's variables
 sources=$(apt-get indextargets --format 'deb $(REPO_URI) $(CODENAME) $(COMPONENT)' \
   'Created-By: Packages' 'Origin: Debian' | grep -E '^deb [^ ]+ bookworm(-updates|-security)? ' | sort -u) ||
   fail "apt has no sources of Debian 12"
@@ -66,6 +67,6 @@ prepare="set -euo pipefail; source /root/isodiamonds/scripts/common.sh"
 in_root "$folder" bash -c "$prepare; install_packages $plain_packages $render_packages"
 # Displays of other roots are seen, their lock files are not: hence a number of its own.
 in_root "$folder" bash -c "$prepare
-  configure_and_build plain-vtk
+  configure_and_build plain-vtk -DISODIAMONDS_BUILD_BENCHMARKS=ON
   cd /root/isodiamonds/build-plain-vtk
   xvfb-run -a -n $((100 + RANDOM % 900)) -s '-screen 0 1600x1000x24' ctest --output-on-failure"
