@@ -60,8 +60,13 @@ void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   vtkIsodiamond::Query withInterior = query;
   withInterior.InteriorTolerance = this->InteriorTolerance;
   vtkIsodiamond::CheckTolerances(withInterior);
+  const auto extent = [&]
+  {
+    const isodiamond::ValueRange range = isodiamond::FiniteRange(volume.Samples);
+    return range.Maximum - range.Minimum;
+  };
   const bool refineInterior =
-    this->InteriorTolerance < vtkIsodiamond::ExtentOfValues(volume.Array).value_or(0.0);
+    this->InteriorTolerance < VTK_DOUBLE_MAX && this->InteriorTolerance < extent();
   vtkIsodiamond::MeshWishes wishes{ volume.Place.World, volume.ArrayName };
   wishes.PointsPrecision = this->OutputPointsPrecision;
   wishes.Hidden = &volume.Hidden;

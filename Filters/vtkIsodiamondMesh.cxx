@@ -20,6 +20,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace vtkIsodiamond
@@ -148,8 +149,7 @@ bool NeedDouble(const isodiamond::AnySamples& samples)
 /** Leaves out the cells that lie in hidden ones of the grid, and points that no cell has then.
  *  Cells there are of full resolution, so each lies in one. */
 template <typename Extraction>
-void LeaveOutHidden(
-  const Extraction& extraction, const isodiamond::HiddenCells& hidden, Mesh& mesh)
+void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells& hidden, Mesh& mesh)
 {
   std::vector<isodiamond::Vector> positions(extraction.PointCount());
   extraction.ForEachPoint(
@@ -197,10 +197,13 @@ void LeaveOutHidden(
   {
     vtkNew<vtkPointData> all;
     all->ShallowCopy(data);
+    vtkNew<vtkIdList> places; // VTK 9.1 has no CopyData without
+    places->SetNumberOfIds(ids->GetNumberOfIds());
+    std::iota(places->begin(), places->end(), vtkIdType(0));
     data->Initialize();
     data->CopyAllOn();
     data->CopyAllocate(all, ids->GetNumberOfIds());
-    data->CopyData(all, ids);
+    data->CopyData(all, ids, places);
   };
   keep(mesh.PointData, keptPoints);
   keep(mesh.CellData, keptCells);
@@ -216,9 +219,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshWishes& wish
   const auto levels = NewArray("Level", extraction.TetrahedronCount());
   mesh.Cells = WriteCells(extraction.TetrahedronCount(), 4, parallelFor,
     [&](auto* connectivity)
-    {
-      extraction.WriteTetrahedra(wishes.World.Mirrors(), connectivity, levels->GetPointer(0));
-    });
+    { extraction.WriteTetrahedra(wishes.World.Mirrors(), connectivity, levels->GetPointer(0)); });
   mesh.CellData->AddArray(levels);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
   {
@@ -243,9 +244,7 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshWishes& wis
   const auto levels = NewArray("Level", extraction.TriangleCount());
   mesh.Cells = WriteCells(extraction.TriangleCount(), 3, parallelFor,
     [&](auto* connectivity)
-    {
-      extraction.WriteTriangles(wishes.World.Mirrors(), connectivity, levels->GetPointer(0));
-    });
+    { extraction.WriteTriangles(wishes.World.Mirrors(), connectivity, levels->GetPointer(0)); });
   mesh.CellData->AddArray(levels);
   if (wishes.WithValues)
   {

@@ -15,8 +15,12 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr double BatchSeconds = 0.03;
-/** Grains in the first batch: a batch has to wait for all threads, and most loops are short. */
-constexpr std::int64_t FirstGrains = 64;
+/** The first batch: a batch has to wait for all threads, and most loops are short; but where a single
+ *  step is worth a thread, few are long enough. */
+std::int64_t FirstBatch(std::int64_t grain)
+{
+  return grain > 1 ? 64 * grain : 4;
+}
 
 double SecondsSince(Clock::time_point start)
 {
@@ -74,7 +78,7 @@ isodiamond::ParallelFor Task::For()
   return [this, run = SMPFor()](std::int64_t count, std::int64_t grain,
            const std::function<void(std::int64_t, std::int64_t)>& body)
   {
-    std::int64_t batch = FirstGrains * grain;
+    std::int64_t batch = FirstBatch(grain);
     for (std::int64_t begin = 0; begin < count;)
     {
       const std::int64_t size = std::min(batch, count - begin);
@@ -90,7 +94,7 @@ isodiamond::ParallelFor Task::For()
       }
       const double factor = BatchSeconds / std::max(SecondsSince(start), 1e-6);
       batch = std::max(
-        grain, static_cast<std::int64_t>(std::clamp(factor, 0.25, 16.0) * static_cast<double>(batch)));
+        grain, static_cast<std::int64_t>(std::clamp(factor, 0.25, 2.0) * static_cast<double>(batch)));
     }
   };
 }

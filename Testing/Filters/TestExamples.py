@@ -13,7 +13,7 @@ os.makedirs(FOLDER, exist_ok=True)
 def run(example, *arguments):
     """The output of an example, run in the folder."""
     return subprocess.run(
-        [os.environ["ISODIAMONDS_PVPYTHON"], os.path.join(EXAMPLES, example), *arguments],
+        [os.environ["ISODIAMONDS_PYTHON"], os.path.join(EXAMPLES, example), *arguments],
         cwd=FOLDER, check=True, stdout=subprocess.PIPE, text=True,
     ).stdout
 

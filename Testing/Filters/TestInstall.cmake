@@ -1,5 +1,6 @@
-# The installed library as its users meet it: installs to an empty folder, then builds and runs the
-# C++ example against it. Needs: BUILD, SOURCE, FOLDER, GENERATOR.
+# The installed library as its users meet it: installs to an empty folder, builds and runs the C++
+# example against it, and runs TestPython.py with its Python package.
+# Needs: BUILD, SOURCE, FOLDER, GENERATOR. If there is a package: PYTHON, PACKAGES (its folder).
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -17,4 +18,10 @@ run("${FOLDER}/build/LevelsOfDetail" "${FOLDER}/hierarchy.vtp")
 message("${output}")
 if(NOT output MATCHES "tolerance 20: [1-9][0-9]* triangles" OR NOT EXISTS "${FOLDER}/hierarchy.vtp")
   message(FATAL_ERROR "The example did not do its work.")
+endif()
+
+if(PYTHON)
+  run(${CMAKE_COMMAND} -E env "PYTHONPATH=${FOLDER}/prefix/${PACKAGES}"
+    "${PYTHON}" "${SOURCE}/Testing/Filters/TestPython.py")
+  message("${output}")
 endif()

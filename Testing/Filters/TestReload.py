@@ -48,6 +48,6 @@ for model in [0, 1, 2]:
     assert writer.Write() == 1
     expected = describe(builder.GetOutputPort())
     found = subprocess.check_output(
-        [os.environ["ISODIAMONDS_PVPYTHON"], sys.argv[0], sys.argv[1], path], text=True).strip()
+        [os.environ["ISODIAMONDS_PYTHON"], sys.argv[0], sys.argv[1], path], text=True).strip()
     assert found == expected, f"{found}\n{expected}"
     print(found)
