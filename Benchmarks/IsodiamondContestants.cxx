@@ -69,7 +69,7 @@ vtkSmartPointer<vtkIsodiamondExtractor> MakeExtractor(
   return extractor;
 }
 
-/** The arrays that hold the hierarchy: all but its header. */
+/** The arrays that hold the hierarchy: all of its own but its header. */
 double BytesOfArrays(vtkFieldData* arrays)
 {
   double bytes = 0.0;
@@ -77,8 +77,8 @@ double BytesOfArrays(vtkFieldData* arrays)
   {
     vtkAbstractArray* array = arrays->GetAbstractArray(i);
     const std::string name = array->GetName();
-    if (name != "IsodiamondHeader" && name != "IsodiamondParameters" &&
-      name != "IsodiamondArrayName")
+    if (name.rfind("Isodiamond", 0) == 0 && name != "IsodiamondHeader" &&
+      name != "IsodiamondParameters" && name != "IsodiamondArrayName")
     {
       bytes += static_cast<double>(array->GetNumberOfValues()) * array->GetDataTypeSize();
     }

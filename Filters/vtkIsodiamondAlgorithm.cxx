@@ -88,9 +88,9 @@ vtkIsodiamond::Query vtkIsodiamondAlgorithm::GetQuery() const
     }
     vtkIsodiamond::CheckTolerance(this->PixelTolerance, "pixel");
     const double angle = vtkMath::RadiansFromDegrees(this->ViewAngle);
-    query.View = vtkIsodiamond::View{ { this->ViewPosition[0], this->ViewPosition[1],
-                                        this->ViewPosition[2] },
-      2.0 * std::tan(0.5 * angle) * this->PixelTolerance / this->ViewHeight };
+    query.View =
+      vtkIsodiamond::View{ { this->ViewPosition[0], this->ViewPosition[1], this->ViewPosition[2] },
+        2.0 * std::tan(0.5 * angle) * this->PixelTolerance / this->ViewHeight };
   }
   return query;
 }

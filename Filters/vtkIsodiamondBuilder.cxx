@@ -221,8 +221,8 @@ void vtkIsodiamondBuilder::BuildFromImage(
   vtkIsodiamond::RunThreaded(this->NumberOfThreads,
     [&]
     {
-      encoding = isodiamond::BuildIsodiamonds(static_cast<isodiamond::Model>(this->Model),
-        volume.Samples, region, task.For(), options);
+      encoding = isodiamond::BuildIsodiamonds(
+        static_cast<isodiamond::Model>(this->Model), volume.Samples, region, task.For(), options);
       if (!this->PointArrays.empty() || this->ComputeNormals)
       {
         const isodiamond::IsodiamondHierarchy hierarchy(encoding, task.For());

@@ -48,8 +48,8 @@ void Cache::Prepare(
   this->Current.Options = options;
 }
 
-const isodiamond::IsodiamondHierarchy& Cache::Get(const Volume& volume,
-  const isodiamond::Isoregion& region, bool refineInterior, Task& task)
+const isodiamond::IsodiamondHierarchy& Cache::Get(
+  const Volume& volume, const isodiamond::Isoregion& region, bool refineInterior, Task& task)
 {
   // What can be refined inside need not be.
   const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),

@@ -31,12 +31,11 @@ class Cache
 public:
   /** The volume and the way to build that what follows is about. @param array the grid's own,
    *  before padding @param options RefineInterior is Get()'s */
-  void Prepare(
-    vtkDataArray* array, const Volume& volume, const isodiamond::BuildOptions& options);
+  void Prepare(vtkDataArray* array, const Volume& volume, const isodiamond::BuildOptions& options);
 
   /** The hierarchy of a region; built if there is none yet. */
-  const isodiamond::IsodiamondHierarchy& Get(const Volume& volume,
-    const isodiamond::Isoregion& region, bool refineInterior, Task& task);
+  const isodiamond::IsodiamondHierarchy& Get(
+    const Volume& volume, const isodiamond::Isoregion& region, bool refineInterior, Task& task);
 
   /** Forgets all but what was used since the last time, and as much more as fits. */
   void Trim(std::int64_t bytes);
@@ -82,7 +81,8 @@ private:
 
 struct Query;
 
-/** What both one-step filters do: the hierarchy of a region, the refined set of a query, the mesh. */
+/** What both one-step filters do: the hierarchy of a region, the refined set of a query, the mesh.
+ */
 Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
   bool refineInterior, const Query& query, const MeshWishes& wishes, Task& task);
 

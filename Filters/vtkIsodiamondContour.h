@@ -3,11 +3,11 @@
  * @class   vtkIsodiamondContour
  * @brief   isosurfaces of a volume at an error tolerance, in one step
  *
- * A drop-in for a contour filter: a volume in, vtkPolyData of triangles out, with an error tolerance
- * in addition. The filter keeps one minimal isodiamond hierarchy per isovalue; a new tolerance,
- * region of interest or viewpoint only extracts again. A new input, array, isovalue, boundary option
- * or error metric, other isovertices or features, and with the distance metric another spacing or
- * direction, build what is missing; see vtkIsodiamondVolumeAlgorithm.
+ * A drop-in for a contour filter: a volume in, vtkPolyData of triangles out, with an error
+ * tolerance in addition. The filter keeps one minimal isodiamond hierarchy per isovalue; a new
+ * tolerance, region of interest or viewpoint only extracts again. A new input, array, isovalue,
+ * boundary option or error metric, other isovertices or features, and with the distance metric
+ * another spacing or direction, build what is missing; see vtkIsodiamondVolumeAlgorithm.
  *
  * Point data: the isovalue under the input array's name (ComputeScalars), "Normals" toward lower
  * values (ComputeNormals) and "Gradient" (ComputeGradients), both of the full-resolution field, and

@@ -194,7 +194,8 @@ int vtkIsodiamondExtractor::RequestData(
       task.Begin("Refining", 0.2, 0.5);
       vtkIsodiamond::Task writing = task.Part(0.5, 1.0);
       vtkIsodiamond::RefineState(*execution->State, execution->Query, this->NumberOfThreads,
-        task.For(), [&](const isodiamond::RefinedSet& refined)
+        task.For(),
+        [&](const isodiamond::RefinedSet& refined)
         { this->WriteMesh(*execution->State, refined, writing, output); });
       this->Last = std::move(execution);
     });

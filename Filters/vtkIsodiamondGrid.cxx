@@ -85,8 +85,7 @@ isodiamond::GridGeometry GeometryOf(vtkRectilinearGrid* grid, int padding)
     map.Rows[axis] = { 0.0, 0.0, 0.0, axes[axis].front() - padding * spacing };
     map.Rows[axis][axis] = spacing;
   }
-  return even ? isodiamond::GridGeometry(map)
-              : isodiamond::GridGeometry(std::move(axes), padding);
+  return even ? isodiamond::GridGeometry(map) : isodiamond::GridGeometry(std::move(axes), padding);
 }
 
 Geometry GeometryOf(vtkStructuredGrid* grid, int padding)
@@ -151,8 +150,7 @@ std::vector<vtkDataSet*> LeavesOf(vtkDataObject* data)
   }
   else if (vtkCompositeDataSet* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
-    const auto iterator =
-      vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
     for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
     {
       if (vtkDataSet* leaf = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
@@ -228,8 +226,8 @@ isodiamond::HiddenCells HiddenCellsOf(vtkDataSet* grid, int padding)
   {
     return {};
   }
-  constexpr int hiddenCell = vtkDataSetAttributes::HIDDENCELL |
-    vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::DUPLICATECELL;
+  constexpr int hiddenCell = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL |
+    vtkDataSetAttributes::DUPLICATECELL;
   const std::array<int, 3> samples = DimensionsOf(grid);
   const std::array<int, 3> cells = { samples[0] - 1 + 2 * padding, samples[1] - 1 + 2 * padding,
     samples[2] - 1 + 2 * padding };
@@ -245,8 +243,8 @@ isodiamond::HiddenCells HiddenCellsOf(vtkDataSet* grid, int padding)
           (vtkIdType{ cell[2] + (corner >> 2) } * samples[1] + cell[1] + ((corner >> 1) & 1)) *
             samples[0] +
           cell[0] + (corner & 1);
-        isHidden = isHidden ||
-          (pointGhosts->GetValue(sample) & vtkDataSetAttributes::HIDDENPOINT) != 0;
+        isHidden =
+          isHidden || (pointGhosts->GetValue(sample) & vtkDataSetAttributes::HIDDENPOINT) != 0;
       }
       hidden[padded] = isHidden ? 1 : 0;
       ++cellId;

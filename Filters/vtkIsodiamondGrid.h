@@ -27,7 +27,8 @@ std::vector<vtkDataSet*> LeavesOf(vtkDataObject* data);
 /** Samples on each axis; all 0 if the data set is of no such kind. */
 std::array<int, 3> DimensionsOf(vtkDataSet* grid);
 
-/** The length of the diagonal of a grid's samples: of an image in index space, else of its bounds. */
+/** The length of the diagonal of a grid's samples: of an image in index space, else of its bounds.
+ */
 double DiagonalOf(vtkDataSet* grid);
 
 /** Where a grid's samples are in the world. */

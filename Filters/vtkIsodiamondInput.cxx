@@ -190,8 +190,7 @@ double LargestTolerance(
     return ExtentOfValues(array.Array).value_or(1.0);
   }
   vtkDataSet* grid = vtkDataSet::SafeDownCast(input);
-  const double length =
-    grid && grid->GetNumberOfPoints() > 0 ? DiagonalOf(grid) : 0.0;
+  const double length = grid && grid->GetNumberOfPoints() > 0 ? DiagonalOf(grid) : 0.0;
   return std::isfinite(length) && length > 0.0 ? DistanceOfInterest * length : 1.0;
 }
 

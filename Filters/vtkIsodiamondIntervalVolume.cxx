@@ -72,7 +72,7 @@ void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   wishes.Hidden = &volume.Hidden;
   wishes.MorePointData =
     vtkIsodiamond::FromVolume(volume, { false, false, this->InterpolateAttributes != 0 });
-  vtkIsodiamond::ExtractFrom(*this->Hierarchies, volume,
-    { this->Isorange[0], this->Isorange[1] }, refineInterior, withInterior, wishes, task)
+  vtkIsodiamond::ExtractFrom(*this->Hierarchies, volume, { this->Isorange[0], this->Isorange[1] },
+    refineInterior, withInterior, wishes, task)
     .Give(vtkUnstructuredGrid::SafeDownCast(output), true);
 }

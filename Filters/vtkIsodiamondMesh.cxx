@@ -146,6 +146,37 @@ bool NeedDouble(const isodiamond::AnySamples& samples)
     !std::holds_alternative<isodiamond::SampleView<float>>(samples);
 }
 
+/** The cell of the grid that holds the middle of a mesh's cell. */
+isodiamond::Point CellOfGrid(
+  const std::vector<isodiamond::Vector>& positions, const vtkIdType* ids, vtkIdType size)
+{
+  isodiamond::Point cell{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double sum = 0.0;
+    for (vtkIdType i = 0; i < size; ++i)
+    {
+      sum += positions[ids[i]][axis];
+    }
+    cell[axis] = static_cast<int>(std::floor(sum / static_cast<double>(size)));
+  }
+  return cell;
+}
+
+/** Of a mesh's attributes those of some ids. */
+void KeepTuples(vtkDataSetAttributes* data, vtkIdList* ids)
+{
+  vtkNew<vtkPointData> all;
+  all->ShallowCopy(data);
+  data->Initialize();
+  data->CopyAllOn();
+  data->CopyAllocate(all, ids->GetNumberOfIds());
+  vtkNew<vtkIdList> newIds; // VTK 9.1 has no CopyData without
+  newIds->SetNumberOfIds(ids->GetNumberOfIds());
+  std::iota(newIds->begin(), newIds->end(), vtkIdType{ 0 });
+  data->CopyData(all, ids, newIds);
+}
+
 /** Leaves out the cells that lie in hidden ones of the grid, and points that no cell has then.
  *  Cells there are of full resolution, so each lies in one. */
 template <typename Extraction>
@@ -158,23 +189,12 @@ void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells&
   vtkNew<vtkIdList> keptPoints;
   std::vector<vtkIdType> newIds(positions.size(), -1);
   vtkNew<vtkCellArray> cells;
-  const vtkIdType count = mesh.Cells->GetNumberOfCells();
-  for (vtkIdType cell = 0; cell < count; ++cell)
+  for (vtkIdType cell = 0; cell < mesh.Cells->GetNumberOfCells(); ++cell)
   {
     vtkIdType size = 0;
     const vtkIdType* ids = nullptr;
     mesh.Cells->GetCellAtId(cell, size, ids);
-    isodiamond::Point inGrid{};
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      double sum = 0.0;
-      for (vtkIdType i = 0; i < size; ++i)
-      {
-        sum += positions[ids[i]][axis];
-      }
-      inGrid[axis] = static_cast<int>(std::floor(sum / static_cast<double>(size)));
-    }
-    if (hidden(inGrid))
+    if (hidden(CellOfGrid(positions, ids, size)))
     {
       continue;
     }
@@ -183,32 +203,28 @@ void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells&
     for (vtkIdType i = 0; i < size; ++i)
     {
       vtkIdType& id = newIds[ids[i]];
-      if (id < 0)
-      {
-        id = keptPoints->InsertNextId(ids[i]);
-      }
+      id = id < 0 ? keptPoints->InsertNextId(ids[i]) : id;
       cells->InsertCellPoint(id);
     }
   }
   vtkNew<vtkPoints> points;
   points->SetDataType(mesh.Points->GetDataType());
   mesh.Points->GetPoints(keptPoints, points);
-  const auto keep = [](vtkDataSetAttributes* data, vtkIdList* ids)
-  {
-    vtkNew<vtkPointData> all;
-    all->ShallowCopy(data);
-    vtkNew<vtkIdList> places; // VTK 9.1 has no CopyData without
-    places->SetNumberOfIds(ids->GetNumberOfIds());
-    std::iota(places->begin(), places->end(), vtkIdType(0));
-    data->Initialize();
-    data->CopyAllOn();
-    data->CopyAllocate(all, ids->GetNumberOfIds());
-    data->CopyData(all, ids, places);
-  };
-  keep(mesh.PointData, keptPoints);
-  keep(mesh.CellData, keptCells);
+  KeepTuples(mesh.PointData, keptPoints);
+  KeepTuples(mesh.CellData, keptCells);
   mesh.Points = points;
   mesh.Cells = cells;
+}
+
+/** What comes after points, cells and values. */
+template <typename Extraction>
+void Complete(const Extraction& extraction, const MeshWishes& wishes, Mesh& mesh)
+{
+  AddMorePointData(extraction, wishes, mesh);
+  if (wishes.Hidden != nullptr && wishes.Hidden->Any())
+  {
+    LeaveOutHidden(extraction, *wishes.Hidden, mesh);
+  }
 }
 
 void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshWishes& wishes,
@@ -229,11 +245,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshWishes& wish
   {
     AddValues<vtkFloatArray>(extraction, wishes.ArrayName, mesh);
   }
-  AddMorePointData(extraction, wishes, mesh);
-  if (wishes.Hidden != nullptr && wishes.Hidden->Any())
-  {
-    LeaveOutHidden(extraction, *wishes.Hidden, mesh);
-  }
+  Complete(extraction, wishes, mesh);
 }
 
 void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshWishes& wishes,
@@ -254,11 +266,7 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshWishes& wis
     values->Fill(refined.Hierarchy().Region().Isovalue());
     mesh.PointData->SetScalars(values);
   }
-  AddMorePointData(extraction, wishes, mesh);
-  if (wishes.Hidden != nullptr && wishes.Hidden->Any())
-  {
-    LeaveOutHidden(extraction, *wishes.Hidden, mesh);
-  }
+  Complete(extraction, wishes, mesh);
 }
 
 }

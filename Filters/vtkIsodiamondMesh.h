@@ -39,8 +39,8 @@ struct Mesh
 struct MeshWishes
 {
   const isodiamond::GridGeometry& World;
-  std::string ArrayName;   ///< the field's values get it
-  bool WithValues = true;  ///< whether a surface's points have them
+  std::string ArrayName;  ///< the field's values get it
+  bool WithValues = true; ///< whether a surface's points have them
   /** A vtkAlgorithm::DesiredOutputPrecision; by default floats for triangles, doubles for
    *  tetrahedra: rounded to floats, the thinnest would turn over. */
   int PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;

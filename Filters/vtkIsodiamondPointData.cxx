@@ -159,8 +159,9 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
     {
       output->SetActiveNormals(NormalsName);
     }
-    return { [&hierarchy, arrays](const isodiamond::MeshPoint& point)
-      { arrays->Copy(vtkIdType{ isodiamond::StoredNumber(hierarchy, point) }, vtkIdType{ point.Id }); } };
+    return { [&hierarchy, arrays](const isodiamond::MeshPoint& point) {
+      arrays->Copy(vtkIdType{ isodiamond::StoredNumber(hierarchy, point) }, vtkIdType{ point.Id });
+    } };
   };
 }
 

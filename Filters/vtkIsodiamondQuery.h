@@ -140,9 +140,10 @@ void RefineState(const State& state, const Query& query, int numberOfThreads,
           *state.Isodiamonds, CoreQuery(query, grid, state.World), parallelFor));
         return;
       }
-      const isodiamond::Encoding answer = isodiamond::EncodeQuery(*state.Scalars,
-        query.Override(state.Chosen).Region(),
-        CoreQuery(query, state.Scalars->Domain(), state.World), state.ExactIsovertices, parallelFor);
+      const isodiamond::Encoding answer =
+        isodiamond::EncodeQuery(*state.Scalars, query.Override(state.Chosen).Region(),
+          CoreQuery(query, state.Scalars->Domain(), state.World), state.ExactIsovertices,
+          parallelFor);
       const isodiamond::IsodiamondHierarchy hierarchy(answer, parallelFor);
       use(isodiamond::RefinedSet(hierarchy, {}, parallelFor));
     });

@@ -2,125 +2,25 @@
 #include "vtkIsodiamondState.h"
 
 #include "MeshPoints.h"
+#include "vtkIsodiamondFormat.h"
 #include "vtkIsodiamondThreads.h"
 
-#include "vtkCellArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkNew.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkStringArray.h"
-#include "vtkTypeInt64Array.h"
-#include "vtkTypeUInt16Array.h"
-#include "vtkTypeUInt32Array.h"
-#include "vtkTypeUInt64Array.h"
-#include "vtkTypeUInt8Array.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
 namespace vtkIsodiamond
 {
+
+using namespace format;
+
 namespace
 {
-
-constexpr int FormatVersion = 2;
-constexpr int HeaderCount = 9;
-constexpr int ParameterCount = 17;
-const std::string PointArrayPrefix = "IsodiamondPointData:";
-constexpr const char* HeaderName = "IsodiamondHeader";
-constexpr const char* ParametersName = "IsodiamondParameters";
-constexpr int ErrorScaleAt = 3; ///< among the parameters
-constexpr int FieldScaleAt = 4;
-constexpr int WorldAt = 5;
-constexpr int MetricAt = 7; ///< in the header
-constexpr int ExactAt = 8;
-
-template <typename Array, typename T>
-void AddArray(vtkFieldData* fieldData, const char* name, const std::vector<T>& values)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  fieldData->AddArray(array);
-}
-
-/** Samples of a VTK type. */
-void AddSamples(
-  vtkFieldData* fieldData, const char* name, int type, const void* values, std::int64_t count)
-{
-  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
-  array->SetName(name);
-  array->SetNumberOfTuples(count);
-  const char* bytes = static_cast<const char*>(values);
-  std::copy(
-    bytes, bytes + count * array->GetDataTypeSize(), static_cast<char*>(array->GetVoidPointer(0)));
-  fieldData->AddArray(array);
-}
-
-void AddSamples(vtkFieldData* fieldData, const char* name, const isodiamond::AnyValues& values)
-{
-  // In the order of the alternatives.
-  constexpr std::array<int, 10> types = { VTK_FLOAT, VTK_DOUBLE, VTK_TYPE_INT8, VTK_TYPE_UINT8,
-    VTK_TYPE_INT16, VTK_TYPE_UINT16, VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_TYPE_INT64,
-    VTK_TYPE_UINT64 };
-  static_assert(types.size() == std::variant_size_v<isodiamond::AnyValues>);
-  std::visit(
-    [&](const auto& array)
-    {
-      AddSamples(fieldData, name, types[values.index()], array.data(),
-        static_cast<std::int64_t>(array.size()));
-    },
-    values);
-}
-
-/** The outline box of the grid: 8 corners and 12 edges. */
-void WriteOutline(
-  const std::array<int, 3>& dimensions, const isodiamond::AffineMap& world, vtkPolyData* output)
-{
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> lines;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const std::array<double, 3> point = world((corner & 1) != 0 ? dimensions[0] - 1 : 0,
-      (corner & 2) != 0 ? dimensions[1] - 1 : 0, (corner & 4) != 0 ? dimensions[2] - 1 : 0);
-    points->InsertNextPoint(point.data());
-    for (int axis = 1; axis < 8; axis *= 2)
-    {
-      if ((corner & axis) == 0)
-      {
-        const vtkIdType ends[2] = { corner, corner + axis };
-        lines->InsertNextCell(2, ends);
-      }
-    }
-  }
-  output->SetPoints(points);
-  output->SetLines(lines);
-}
-
-void WriteHeader(const isodiamond::EncodingHeader& header, const Choice& choice,
-  const isodiamond::AffineMap& world, const std::string& arrayName, vtkFieldData* fieldData)
-{
-  AddArray<vtkTypeInt64Array>(fieldData, HeaderName,
-    std::vector<std::int64_t>{ FormatVersion, static_cast<int>(header.Kind),
-      static_cast<int>(choice.Shape), header.Dimensions[0], header.Dimensions[1],
-      header.Dimensions[2], header.RelevantCount, static_cast<int>(header.Metric),
-      header.ExactIsovertices ? 1 : 0 });
-  std::vector<double> parameters = { choice.Isovalue, choice.Isorange[0], choice.Isorange[1],
-    header.ErrorScale, header.FieldScale };
-  for (const std::array<double, 4>& row : world.Rows)
-  {
-    parameters.insert(parameters.end(), row.begin(), row.end());
-  }
-  AddArray<vtkDoubleArray>(fieldData, ParametersName, parameters);
-  vtkNew<vtkStringArray> name;
-  name->SetName("IsodiamondArrayName");
-  name->InsertNextValue(arrayName.c_str());
-  fieldData->AddArray(name);
-}
 
 /** Reads arrays by name, checks their types and keeps them alive. */
 class Reader
@@ -227,7 +127,7 @@ void ReadPointArrays(vtkFieldData* fieldData, State& state)
   {
     vtkAbstractArray* found = fieldData->GetAbstractArray(i);
     const std::string name = found->GetName() ? found->GetName() : "";
-    if (name.compare(0, PointArrayPrefix.size(), PointArrayPrefix) != 0)
+    if (name.rfind(PointArrayPrefix, 0) != 0)
     {
       continue;
     }
@@ -241,7 +141,7 @@ void ReadPointArrays(vtkFieldData* fieldData, State& state)
     state.StorageSize += array->GetNumberOfValues() * array->GetDataTypeSize();
     auto own = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
     own->ShallowCopy(array);
-    own->SetName(name.substr(PointArrayPrefix.size()).c_str());
+    own->SetName(name.substr(std::strlen(PointArrayPrefix)).c_str());
     state.PointArrays.push_back(own);
   }
 }
@@ -378,58 +278,6 @@ bool IsCurrent(const State& state, vtkFieldData* fieldData)
   return std::all_of(state.Arrays.begin(), state.Arrays.end(),
     [&](const vtkSmartPointer<vtkAbstractArray>& array)
     { return fieldData->GetAbstractArray(array->GetName()) == array; });
-}
-
-void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
-  const isodiamond::AffineMap& world, const std::string& arrayName,
-  const std::vector<vtkSmartPointer<vtkDataArray>>& pointArrays, vtkPolyData* output)
-{
-  WriteOutline(encoding.Header.Dimensions, world, output);
-  vtkFieldData* fieldData = output->GetFieldData();
-  WriteHeader(encoding.Header, choice, world, arrayName, fieldData);
-  AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickCounts", encoding.Arrays.BrickCounts);
-  AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickIndices", encoding.Arrays.BrickIndices);
-  AddArray<vtkTypeUInt64Array>(fieldData, "IsodiamondBrickMasks", encoding.Arrays.BrickMasks);
-  AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondRecords", encoding.Arrays.Records);
-  AddArray<vtkTypeUInt8Array>(fieldData, "IsodiamondIsovertices", encoding.Arrays.Isovertices);
-  if (encoding.Header.Region.IsVolume())
-  {
-    AddSamples(fieldData, "IsodiamondInsideValues", encoding.InsideValues);
-  }
-  if (!encoding.Arrays.InteriorCodes.empty())
-  {
-    AddArray<vtkTypeUInt16Array>(
-      fieldData, "IsodiamondInteriorCodes", encoding.Arrays.InteriorCodes);
-  }
-  for (vtkDataArray* array : pointArrays)
-  {
-    array->SetName((PointArrayPrefix + array->GetName()).c_str());
-    fieldData->AddArray(array);
-  }
-}
-
-void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choice,
-  bool exactIsovertices, const Volume& volume, vtkPolyData* output)
-{
-  const std::array<int, 3> dimensions =
-    std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
-  const isodiamond::AffineMap& world = *volume.Place.World.Affine();
-  WriteOutline(dimensions, world, output);
-  vtkFieldData* fieldData = output->GetFieldData();
-  isodiamond::EncodingHeader header;
-  header.Kind = isodiamond::Model::HierarchyOfDiamonds;
-  header.Dimensions = dimensions;
-  header.Region = choice.Region();
-  header.ErrorScale = encoding.ErrorScale;
-  header.FieldScale = encoding.ErrorScale;
-  header.ExactIsovertices = exactIsovertices;
-  WriteHeader(header, choice, world, volume.ArrayName, fieldData);
-  // The input's own array under another name: shared memory would rename it for the input too.
-  AddSamples(fieldData, "IsodiamondSamples", volume.Array->GetDataType(),
-    volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());
-  AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondErrors", encoding.Codes);
-  AddSamples(fieldData, "IsodiamondMinima", encoding.Minima);
-  AddSamples(fieldData, "IsodiamondMaxima", encoding.Maxima);
 }
 
 }

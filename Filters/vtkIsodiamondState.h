@@ -35,11 +35,11 @@ class vtkPolyData;
  * | IsodiamondIsovertices | uint8 |
  * | IsodiamondInsideValues (interval volumes only) | of the samples' type |
  * | IsodiamondInteriorCodes (where the interior can be refined) | uint16 |
- * | IsodiamondPointData:NAME (where wanted) | of any type: other arrays at the stored points, that |
- * | | is, the isovertices, then the inside values; "Normals" are normals |
- * | IsodiamondSamples (HD only) | the input's samples |
- * | IsodiamondErrors (HD only) | uint16, see isodiamond::ScalarHierarchy |
- * | IsodiamondMinima, IsodiamondMaxima (HD only) | of the samples' type |
+ * | IsodiamondPointData:NAME (where wanted) | of any type: other arrays at the stored points, that
+ * | | | is, the isovertices, then the inside values; "Normals" are normals | | IsodiamondSamples
+ * (HD only) | the input's samples | | IsodiamondErrors (HD only) | uint16, see
+ * isodiamond::ScalarHierarchy | | IsodiamondMinima, IsodiamondMaxima (HD only) | of the samples'
+ * type |
  */
 namespace vtkIsodiamond
 {

@@ -15,8 +15,8 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr double BatchSeconds = 0.03;
-/** The first batch: a batch has to wait for all threads, and most loops are short; but where a single
- *  step is worth a thread, few are long enough. */
+/** The first batch: a batch has to wait for all threads, and most loops are short; but where a
+ * single step is worth a thread, few are long enough. */
 std::int64_t FirstBatch(std::int64_t grain)
 {
   return grain > 1 ? 64 * grain : 4;
@@ -93,8 +93,8 @@ isodiamond::ParallelFor Task::For()
         this->Tell();
       }
       const double factor = BatchSeconds / std::max(SecondsSince(start), 1e-6);
-      batch = std::max(
-        grain, static_cast<std::int64_t>(std::clamp(factor, 0.25, 2.0) * static_cast<double>(batch)));
+      batch = std::max(grain,
+        static_cast<std::int64_t>(std::clamp(factor, 0.25, 2.0) * static_cast<double>(batch)));
     }
   };
 }

@@ -57,8 +57,8 @@ double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
   for (vtkDataSet* grid : vtkIsodiamond::LeavesOf(this->GetInput()))
   {
     largest = std::max(largest,
-      vtkIsodiamond::LargestTolerance(static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), grid,
-        this->FindInputArray(grid)));
+      vtkIsodiamond::LargestTolerance(
+        static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), grid, this->FindInputArray(grid)));
   }
   this->ErrorToleranceRange[1] = largest > 0.0 ? largest : 1.0;
   return this->ErrorToleranceRange;

@@ -1,6 +1,6 @@
 # The VTK module IsodiamondFilters, on ParaView's VTK or on a plain one.
 if(ISODIAMONDS_BUILD_PARAVIEW_PLUGIN)
-  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore)
+  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingServerManager)
 else()
   find_package(VTK 9.1 REQUIRED
     COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc FiltersCore)

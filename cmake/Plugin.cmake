@@ -8,6 +8,23 @@ set(no_xml_documentation ON)
 if(ISODIAMONDS_QHELPGENERATOR AND ISODIAMONDS_XMLPATTERNS)
   set(no_xml_documentation OFF) # the "?" button of the property panel
 endif()
+# The plugin's own VTK module: what ParaView asks of properties.
+vtk_module_scan(
+  MODULE_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/ServerManager/vtk.module"
+  REQUEST_MODULES IsodiamondServerManager
+  PROVIDES_MODULES isodiamond_plugin_modules
+  REQUIRES_MODULES isodiamond_plugin_required
+  WANT_BY_DEFAULT ON
+  HIDE_MODULES_FROM_CACHE ON
+  ENABLE_TESTS OFF)
+vtk_module_build(
+  MODULES ${isodiamond_plugin_modules}
+  PACKAGE IsodiamondsPlugin
+  INSTALL_EXPORT IsodiamondsPlugin
+  CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/IsodiamondsPlugin"
+  HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/isodiamonds"
+  INSTALL_HEADERS OFF
+  TEST_DIRECTORY_NAME "NONE")
 paraview_plugin_scan(
   PLUGIN_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/paraview.plugin"
   PROVIDES_PLUGINS plugins

@@ -63,7 +63,7 @@ export root output settings
 mkdir -p "$output"
 for filter in "${filters[@]}"; do
   rm -f "$ISODIAMONDS_READY"
-  ISODIAMONDS_PANEL=$filter xvfb-run -a -s "-screen 0 1200x1050x24" bash -euc "$(declare -f drag take_picture); take_picture"
+  ISODIAMONDS_PANEL=$filter xvfb-run -a -s "-screen 0 1200x1050x24 -noreset" bash -euc "$(declare -f drag take_picture); take_picture"
   echo "$output/panel-${filter//_/-}.jpg"
 done
 rm -r "$settings"

@@ -78,5 +78,5 @@ fi
 install_packages $build_packages $render_packages $demo_packages
 configure_and_build release
 
-PYTHONPATH=$build/lib/python3/dist-packages xvfb-run -a -s "-screen 0 1600x1000x24" \
+PYTHONPATH=$build/lib/python3/dist-packages xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" \
   pvpython "$root/scripts/demo.py" "${arguments[@]}" "--output=$output" "${files[@]}"

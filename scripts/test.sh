@@ -9,4 +9,4 @@ configure_and_build release -DISODIAMONDS_BUILD_BENCHMARKS=ON
 
 # One display for all tests: several xvfb-run at once get into each other's way.
 cd "$build"
-exec xvfb-run -a -s "-screen 0 1600x1000x24" ctest --output-on-failure "$@"
+exec xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" ctest --output-on-failure "$@"

@@ -229,7 +229,9 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
     ? source.FieldScale
     : DistanceErrorScale(grid, options.World);
   header.ExactIsovertices = options.ExactIsovertices;
-  header.RelevantCount = members.Size() - 8 - kinds.Active.Size();
+  header.ActiveCount = kinds.Active.Size();
+  header.CreationCount = kinds.Creation.Size();
+  header.RelevantCount = members.Size() - 8 - header.ActiveCount;
   header.Kind = Model::Relevant;
   const auto encode = [&]
   { return Encode(header, grid, source.Samples, members, ErrorCode::Always, parallelFor); };

@@ -65,7 +65,7 @@ public:
   /**
    * Counts. The refined set must outlive the passes.
    *
-   * @param cellsOf(leafParent) the number of cells in a diamond's leaves
+   * @param cellsOf (leafParent) -> the number of cells in a diamond's leaves
    * @throws std::length_error beyond 2^32 - 1 points
    */
   template <typename CellsOf>

@@ -29,7 +29,8 @@ Vector GridGeometry::SampleAt(const Point& sample) const
   const std::int64_t at =
     3 * ((std::int64_t{ sample[2] } * size[1] + sample[1]) * size[0] + sample[0]);
   return std::visit(
-    [at](const auto* coordinates) -> Vector {
+    [at](const auto* coordinates) -> Vector
+    {
       return { static_cast<double>(coordinates[at]), static_cast<double>(coordinates[at + 1]),
         static_cast<double>(coordinates[at + 2]) };
     },

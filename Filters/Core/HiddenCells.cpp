@@ -23,8 +23,7 @@ HiddenCells::HiddenCells(std::vector<std::uint8_t> hidden, const std::array<int,
     return;
   }
   this->Levels.push_back({ std::move(hidden), cells });
-  while (*std::max_element(
-           this->Levels.back().Size.begin(), this->Levels.back().Size.end()) > 1)
+  while (*std::max_element(this->Levels.back().Size.begin(), this->Levels.back().Size.end()) > 1)
   {
     const Level& fine = this->Levels.back();
     Level coarse;

@@ -99,6 +99,9 @@ struct EncodingHeader
   bool IsAnswer = false;
   /** m_r: the relevant isodiamonds that there are, creation ones included, stored or not. */
   std::int64_t RelevantCount = 0;
+  /** m_a and m_c, known to whoever builds; a hierarchy counts what it stores. */
+  std::int64_t ActiveCount = 0;
+  std::int64_t CreationCount = 0;
 };
 
 /**
@@ -220,7 +223,10 @@ public:
   /** The number of isovertices of diamonds before that of a rank, and the coefficient of one by
    *  its number. */
   std::int64_t FirstIsovertexOf(std::int64_t rank) const { return this->FirstIsovertex[rank]; }
-  std::uint8_t Isovertex(std::int64_t number) const { return this->View.Arrays.Isovertices[number]; }
+  std::uint8_t Isovertex(std::int64_t number) const
+  {
+    return this->View.Arrays.Isovertices[number];
+  }
 
   /** The samples inside the interval volume, by rank of the centres, as a row. */
   const AnySamples& InsideValues() const { return this->View.InsideValues; }

@@ -169,7 +169,7 @@ struct Leaf
  * Calls body(leaf) for the leaves of one brick's refined diamonds.
  *
  * @param place of a brick of refined.Diamonds()
- * @param crossed(rank) mask of the subdivision edges that make a half-tetrahedron wanted: it is
+ * @param crossed (rank) -> mask of the subdivision edges that make a half-tetrahedron wanted: it is
  *        visited if it has one of them
  */
 template <typename Crossed, typename Body>

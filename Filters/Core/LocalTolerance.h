@@ -57,7 +57,10 @@ public:
   }
 
 private:
-  Tolerances Inside() const { return { this->TheQuery.Tolerance, this->TheQuery.InteriorTolerance }; }
+  Tolerances Inside() const
+  {
+    return { this->TheQuery.Tolerance, this->TheQuery.InteriorTolerance };
+  }
   Tolerances Outside() const { return { this->TheQuery.OutsideTolerance, HUGE_VAL }; }
 
   static Tolerances Seen(Tolerances tolerances, double fromViewpoint)

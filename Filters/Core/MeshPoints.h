@@ -53,8 +53,9 @@ void ForEachPointOf(const IsodiamondHierarchy& hierarchy, const Place& place, st
       [&](int edge)
       {
         point.Stored = first + PopCount(edges & ((1U << edge) - 1U));
-        point.Index = IsovertexPosition(place, tables::Parities[Parity(place.Position)].Offsets[edge],
-          hierarchy.Isovertex(point.Stored));
+        point.Index =
+          IsovertexPosition(place, tables::Parities[Parity(place.Position)].Offsets[edge],
+            hierarchy.Isovertex(point.Stored));
         body(point);
         ++point.Id;
       });

@@ -60,7 +60,8 @@ BrickMask ExceedingIn(const Brick& brick, const Exceeds& exceeds)
   return mask;
 }
 
-/** Of a brick's candidates those that exceed what is tolerated of them, and are no relevant ones. */
+/** Of a brick's candidates those that exceed what is tolerated of them, and are no relevant ones.
+ */
 BrickMask ExceedingLocally(const IsodiamondHierarchy& hierarchy, const BrickPlace& place,
   const Brick& brick, const BrickMask& candidates, const LocalTolerance& tolerance)
 {

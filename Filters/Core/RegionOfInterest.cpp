@@ -77,8 +77,8 @@ Box IndexBoxOf(const Box& box, const GridGeometry& world)
         above[i] = SidesBeyond(box, world.SampleAt({ x, y, z }));
         // The cell that ends here.
         if (x == 0 || y == 0 || z == 0 ||
-          (above[i] & above[i - 1] & above[i - row] & above[i - row - 1] & below[i] &
-            below[i - 1] & below[i - row] & below[i - row - 1]) != 0)
+          (above[i] & above[i - 1] & above[i - row] & above[i - row - 1] & below[i] & below[i - 1] &
+            below[i - row] & below[i - row - 1]) != 0)
         {
           continue;
         }

@@ -13,7 +13,8 @@
 namespace isodiamond
 {
 
-/** Where a position in index space lies among the samples of a grid: a cell, and how far into it. */
+/** Where a position in index space lies among the samples of a grid: a cell, and how far into it.
+ */
 struct CellPosition
 {
   Point Cell{}; ///< its first sample

@@ -55,8 +55,8 @@ public:
   double LeastIn(int scale, const Point& brickOrigin) const
   {
     const double h = 1 << scale;
-    return this->NearestIn({ h * (brickOrigin[0] + 3.5), h * (brickOrigin[1] + 3.5),
-                             h * (brickOrigin[2] + 3.5) },
+    return this->NearestIn(
+      { h * (brickOrigin[0] + 3.5), h * (brickOrigin[1] + 3.5), h * (brickOrigin[2] + 3.5) },
       4.5 * h);
   }
 
@@ -68,7 +68,8 @@ public:
     for (int corner = 0; corner < 8; ++corner)
     {
       greatest = std::max(greatest,
-        this->DistanceOf({ (corner & 1) * last, ((corner >> 1) & 1) * last, (corner >> 2) * last }));
+        this->DistanceOf(
+          { (corner & 1) * last, ((corner >> 1) & 1) * last, (corner >> 2) * last }));
     }
     return greatest * this->TolerancePerDistance;
   }

@@ -4,6 +4,8 @@
 #include "DistanceError.h"
 #include "IntervalTestTools.h"
 #include "Leaves.h"
+#include "PatchBound.h"
+#include "PatchDistance.h"
 #include "SurfacePatch.h"
 
 #include "ReferenceDistance.h"
@@ -12,6 +14,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 using namespace isodiamond;
 
@@ -323,4 +326,69 @@ TEST(DistanceError, KeepsIntervalVolumesFitForASolver)
       }
     }
   }
+}
+
+TEST(PatchBound, IsNeverLessThanTheDistanceAndNearToItMostly)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  std::int64_t near = 0;
+  std::int64_t all = 0;
+  for (int i = 0; i < 4000; ++i)
+  {
+    // Sheared and stretched worlds, of any size; patches of any scale, flat ones too.
+    AffineMap map;
+    const double size = std::pow(10.0, 12.0 * part(random));
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 3; ++column)
+      {
+        map.Rows[row][column] =
+          size * (row == column ? 1.0 + 0.9 * part(random) : 0.4 * part(random));
+      }
+    }
+    const WorldMetric metric(map);
+    const int scale = static_cast<int>(random() % 12);
+    const double length = FineUnits << scale;
+    const FinePosition middle = { static_cast<int>(random() % 100000),
+      static_cast<int>(random() % 100000), static_cast<int>(random() % 100000) };
+    const auto anywhere = [&](double most)
+    {
+      FinePosition position = middle;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        position[axis] += static_cast<int>(most * part(random));
+      }
+      return position;
+    };
+    std::array<FinePosition, 6> corners{};
+    for (FinePosition& corner : corners)
+    {
+      corner = i % 7 == 0 ? middle : anywhere(i % 5 == 0 ? 2.0 : length);
+    }
+    const SurfacePatch& patch = tables::IsosurfacePatches[1 + random() % 7];
+    PatchDistance exact;
+    exact.Reset(patch, [&](int edge) { return metric(corners[edge]); });
+    const BoundMetric boundMetric(metric);
+    PatchBound bound;
+    bound.Reset(boundMetric, patch, [&](int edge) { return corners[edge]; });
+    std::array<FinePosition, PatchBound::Width> positions{};
+    for (FinePosition& position : positions)
+    {
+      position = anywhere(length);
+    }
+    const int count = 1 + static_cast<int>(random() % PatchBound::Width);
+    const std::array<float, PatchBound::Width> squared = bound.Squared(positions.data(), count);
+    for (int j = 0; j < count; ++j)
+    {
+      const double truth = boundMetric.Squared(exact.Squared(metric(positions[j])));
+      ++all;
+      if (!std::isnan(squared[j]))
+      {
+        EXPECT_GE(squared[j], truth * (1.0 - 1e-6));
+        near += squared[j] <= 1.3 * truth + 1.0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(near, all / 2);
 }

@@ -28,7 +28,8 @@
 namespace
 {
 
-/** The ball with a vector array "flow" (active vectors), a wild short array "count" and point ids. */
+/** The ball with a vector array "flow" (active vectors), a wild short array "count" and point ids.
+ */
 vtkSmartPointer<vtkImageData> ImageWithArrays()
 {
   const auto image = test::BallImage({ 25, 21, 23 });
@@ -143,7 +144,8 @@ TEST(Attributes, CapsHaveTheValuesOfTheBoundary)
 TEST(Attributes, GradientsAreTheFieldsAndNormalsPointAgainstThem)
 {
   // Central differences of a quadratic function are exact, and linear between samples.
-  const auto image = test::MakeImage({ 17, 17, 17 }, [](double x, double y, double z)
+  const auto image = test::MakeImage({ 17, 17, 17 },
+    [](double x, double y, double z)
     { return (x - 8) * (x - 8) + 2 * (y - 7) * (y - 7) + z * 3.0; });
   image->SetSpacing(0.5, 1.0, 2.0);
   vtkNew<vtkIsodiamondContour> contour;

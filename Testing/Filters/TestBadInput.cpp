@@ -220,15 +220,15 @@ TEST(BadInput, DamagedHierarchies)
     vtkFieldData* good = builder->GetOutput()->GetFieldData();
     for (int i = 0; i < good->GetNumberOfArrays(); ++i)
     {
-      if (std::string(good->GetArrayName(i)) == "IsodiamondArrayName")
+      const std::string name = good->GetArrayName(i);
+      if (name.rfind("Isodiamond", 0) != 0 || name == "IsodiamondArrayName")
       {
-        continue; // only a name
+        continue; // numbers for who looks at them, and only a name
       }
       for (int damage = 0; damage < 3; ++damage)
       {
         vtkNew<vtkPolyData> bad;
         bad->DeepCopy(builder->GetOutput());
-        const std::string name = good->GetArrayName(i);
         if (damage == 0)
         {
           bad->GetFieldData()->RemoveArray(name.c_str());

@@ -55,7 +55,7 @@ vtkSmartPointer<vtkRectilinearGrid> Rectilinear(vtkImageData* image, const Place
     {
       coordinates->InsertNextValue(place(axis, i));
     }
-    (axis == 0       ? grid->SetXCoordinates(coordinates)
+    (axis == 0      ? grid->SetXCoordinates(coordinates)
         : axis == 1 ? grid->SetYCoordinates(coordinates)
                     : grid->SetZCoordinates(coordinates));
   }
@@ -113,8 +113,8 @@ void ExpectSameAsContourFilter(vtkDataSet* grid, double voxel)
   EXPECT_EQ(test::BoundaryEdges(ours), 0);
   EXPECT_NEAR(test::Area(ours), test::Area(theirs), 0.05 * test::Area(theirs));
   // VTK's own has normals to lower values unless the grid mirrors; ours always, and it is a ball.
-  EXPECT_NEAR(test::SixVolume(ours), std::fabs(test::SixVolume(theirs)),
-    0.05 * test::SixVolume(ours));
+  EXPECT_NEAR(
+    test::SixVolume(ours), std::fabs(test::SixVolume(theirs)), 0.05 * test::SixVolume(ours));
   for (const double tolerance : { 0.05, 0.2, 1e9 })
   {
     EXPECT_EQ(test::BoundaryEdges(Contour(grid, 0.0, tolerance)), 0) << tolerance;
@@ -177,8 +177,8 @@ TEST(Grids, EvenRectilinearGridsAreImages)
 TEST(Grids, UnevenRectilinearGridsHaveTheSurfaceOfTheContourFilter)
 {
   const auto image = test::BallImage({ 25, 21, 23 });
-  const auto grid = Rectilinear(image,
-    [](int axis, int i) { return axis == 1 ? -0.8 * i : i + 0.02 * i * i; }); // y mirrors
+  const auto grid = Rectilinear(
+    image, [](int axis, int i) { return axis == 1 ? -0.8 * i : i + 0.02 * i * i; }); // y mirrors
   ExpectSameAsContourFilter(grid, 2.0);
 }
 
@@ -203,8 +203,10 @@ TEST(Grids, StructuredGridsHaveTheSurfaceOfTheContourFilter)
 TEST(Grids, StraightStructuredGridsHaveNormalsAndVolumesOfTheImage)
 {
   const auto image = test::BallImage({ 17, 19, 21 });
-  const auto grid = Structured(
-    image, [](double x, double y, double z) { return std::array<double, 3>{ x, y, z }; });
+  const auto grid = Structured(image,
+    [](double x, double y, double z) {
+      return std::array<double, 3>{ x, y, z };
+    });
   const auto expected = Contour(image, 0.0, 0.05, true);
   const auto surface = Contour(grid, 0.0, 0.05, true);
   ASSERT_EQ(surface->GetNumberOfPoints(), expected->GetNumberOfPoints());
@@ -277,8 +279,7 @@ TEST(Grids, RegionsOfInterestOfBentGridsAreOfTheWorld)
     contour->UseRegionOfInterestOn();
     const double middle[3] = { 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
       0.5 * (bounds[4] + bounds[5]) };
-    contour->SetRegionOfInterest(
-      bounds[0], middle[0], bounds[2], middle[1], bounds[4], middle[2]);
+    contour->SetRegionOfInterest(bounds[0], middle[0], bounds[2], middle[1], bounds[4], middle[2]);
     contour->Update();
     vtkPolyData* part = contour->GetOutput();
     EXPECT_EQ(test::BoundaryEdges(part), 0);
@@ -352,8 +353,8 @@ TEST(Grids, BlankedAndGhostCellsHaveNoSurface)
         u[axis] = triangle[1][axis] - triangle[0][axis];
         v[axis] = triangle[2][axis] - triangle[0][axis];
       }
-      area += 0.5 * std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                      u[0] * v[1] - u[1] * v[0]);
+      area += 0.5 *
+        std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
     }
   }
   for (vtkDataSet* grid : { static_cast<vtkDataSet*>(blankedCells.Get()),
@@ -364,8 +365,8 @@ TEST(Grids, BlankedAndGhostCellsHaveNoSurface)
       const auto surface = Contour(grid, 0.0, tolerance);
       const double rest = AreaOutside(surface, box);
       EXPECT_GT(surface->GetNumberOfCells(), 0);
-      EXPECT_EQ(surface->GetPointData()->GetNormals()->GetNumberOfTuples(),
-        surface->GetNumberOfPoints());
+      EXPECT_EQ(
+        surface->GetPointData()->GetNormals()->GetNumberOfTuples(), surface->GetNumberOfPoints());
       if (tolerance == 0.0)
       {
         EXPECT_NEAR(rest, area, 1e-6 * area);
@@ -390,8 +391,7 @@ TEST(Grids, BlankedAndGhostCellsHaveNoSurface)
       {
         tetrahedron->GetPoints()->GetPoint(corner, p[corner]);
       }
-      const double six = std::fabs(
-        (p[1][0] - p[0][0]) *
+      const double six = std::fabs((p[1][0] - p[0][0]) *
           ((p[2][1] - p[0][1]) * (p[3][2] - p[0][2]) - (p[2][2] - p[0][2]) * (p[3][1] - p[0][1])) -
         (p[1][1] - p[0][1]) *
           ((p[2][0] - p[0][0]) * (p[3][2] - p[0][2]) - (p[2][2] - p[0][2]) * (p[3][0] - p[0][0])) +

@@ -61,6 +61,13 @@ TEST(Hierarchy, KnowsWhatItHolds)
   EXPECT_GT(ri->GetNumberOfRelevantIsodiamonds(), ri->GetNumberOfCreationIsodiamonds());
   EXPECT_EQ(mi->GetNumberOfRelevantIsodiamonds(), ri->GetNumberOfRelevantIsodiamonds());
   EXPECT_GT(ri->GetStorageSize(), mi->GetStorageSize());
+  const auto number = [&](const char* name)
+  { return static_cast<vtkIdType>(mi->GetFieldData()->GetArray(name)->GetTuple1(0)); };
+  EXPECT_EQ(number("NumberOfActiveIsodiamonds"), mi->GetNumberOfActiveIsodiamonds());
+  EXPECT_EQ(number("NumberOfRelevantIsodiamonds"), mi->GetNumberOfRelevantIsodiamonds());
+  EXPECT_EQ(number("NumberOfCreationIsodiamonds"), mi->GetNumberOfCreationIsodiamonds());
+  EXPECT_EQ(number("NumberOfIsovertices"), mi->GetNumberOfIsovertices());
+  EXPECT_EQ(number("StorageSize"), mi->GetStorageSize());
   const auto scalars = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
   scalars->Update();
   vtkIsodiamondHierarchy* hd = scalars->GetHierarchy();

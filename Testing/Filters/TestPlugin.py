@@ -49,9 +49,13 @@ contour.ErrorMetric = "Field"
 contour.ErrorTolerance = 40
 contour.UpdatePipeline()
 assert 0 < contour.GetDataInformation().GetNumberOfCells() < full / 2
-contour.UpdatePropertyInformation()
-domain = contour.GetProperty("ErrorTolerance").GetDomain("range")
-assert abs(domain.GetMaximum(0) - extent) < 1e-3
+assert abs(domain.GetMaximum(0) - extent) < 1e-3, "the slider adapts to the metric"
+larger = Wavelet(WholeExtent=[-20, 20] * 3)
+larger.UpdatePipeline()
+contour.Input = larger
+contour.ErrorMetric = "Distance"
+assert abs(domain.GetMaximum(0) - 0.02 * 40 * 3**0.5) < 1e-3, "and to the data"
+contour.Input = wavelet
 
 # Two steps.
 hierarchy = IsodiamondHierarchy(wavelet)

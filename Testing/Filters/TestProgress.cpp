@@ -173,8 +173,8 @@ TEST(Progress, AllFiltersCanBeAborted)
     vtkNew<vtkIsodiamondBuilder> aborted;
     aborted->SetInputData(image);
     aborted->SetIsovalue(50.0);
-    aborted->SetModel(isScalars ? vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS
-                                : vtkIsodiamondHierarchy::MINIMAL);
+    aborted->SetModel(
+      isScalars ? vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS : vtkIsodiamondHierarchy::MINIMAL);
     vtkNew<Listener> listener;
     aborted->AddObserver(vtkCommand::ProgressEvent, listener);
     listener->Start(1);

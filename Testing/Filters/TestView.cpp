@@ -2,8 +2,8 @@
 // View-dependent meshes: the promise in pixels, no cracks, one mesh from all models.
 #include "FilterTestTools.h"
 
-#include "vtkCellLocator.h"
 #include "vtkCell.h"
+#include "vtkCellLocator.h"
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondExtractor.h"
@@ -42,7 +42,8 @@ double LargestErrorInPixels(
     double squared = 0.0;
     locator->FindClosestPoint(vertex, nearest, cell, sub, squared);
     const double distance = std::sqrt(vtkMath::Distance2BetweenPoints(vertex, eye));
-    const double pixel = 2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(angle)) * distance / height;
+    const double pixel =
+      2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(angle)) * distance / height;
     largest = std::max(largest, std::sqrt(squared) / pixel);
   }
   return largest;
@@ -127,8 +128,7 @@ TEST(View, IsFinerNearTheEyeThanAnEqualToleranceNeeds)
   const vtkIdType seen = contour->GetOutput()->GetNumberOfCells();
   contour->ViewDependentOff();
   // What the nearest vertex is granted, for all.
-  contour->SetErrorTolerance(
-    2.0 * std::tan(vtkMath::RadiansFromDegrees(20.0)) * 20.0 / 100.0);
+  contour->SetErrorTolerance(2.0 * std::tan(vtkMath::RadiansFromDegrees(20.0)) * 20.0 / 100.0);
   contour->Update();
   EXPECT_LT(1.3 * seen, contour->GetOutput()->GetNumberOfCells());
 }

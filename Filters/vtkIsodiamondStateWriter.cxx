@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondFormat.h"
+#include "vtkIsodiamondState.h"
+
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkTypeUInt16Array.h"
+#include "vtkTypeUInt32Array.h"
+#include "vtkTypeUInt64Array.h"
+#include "vtkTypeUInt8Array.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace vtkIsodiamond
+{
+namespace
+{
+
+using namespace format;
+
+template <typename Array, typename T>
+void AddArray(vtkFieldData* fieldData, const char* name, const std::vector<T>& values)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  fieldData->AddArray(array);
+}
+
+/** Samples of a VTK type. */
+void AddSamples(
+  vtkFieldData* fieldData, const char* name, int type, const void* values, std::int64_t count)
+{
+  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  array->SetName(name);
+  array->SetNumberOfTuples(count);
+  const char* bytes = static_cast<const char*>(values);
+  std::copy(
+    bytes, bytes + count * array->GetDataTypeSize(), static_cast<char*>(array->GetVoidPointer(0)));
+  fieldData->AddArray(array);
+}
+
+void AddSamples(vtkFieldData* fieldData, const char* name, const isodiamond::AnyValues& values)
+{
+  // In the order of the alternatives.
+  constexpr std::array<int, 10> types = { VTK_FLOAT, VTK_DOUBLE, VTK_TYPE_INT8, VTK_TYPE_UINT8,
+    VTK_TYPE_INT16, VTK_TYPE_UINT16, VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_TYPE_INT64,
+    VTK_TYPE_UINT64 };
+  static_assert(types.size() == std::variant_size_v<isodiamond::AnyValues>);
+  std::visit(
+    [&](const auto& array)
+    {
+      AddSamples(fieldData, name, types[values.index()], array.data(),
+        static_cast<std::int64_t>(array.size()));
+    },
+    values);
+}
+
+/** The outline box of the grid: 8 corners and 12 edges. */
+void WriteOutline(
+  const std::array<int, 3>& dimensions, const isodiamond::AffineMap& world, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const std::array<double, 3> point = world((corner & 1) != 0 ? dimensions[0] - 1 : 0,
+      (corner & 2) != 0 ? dimensions[1] - 1 : 0, (corner & 4) != 0 ? dimensions[2] - 1 : 0);
+    points->InsertNextPoint(point.data());
+    for (int axis = 1; axis < 8; axis *= 2)
+    {
+      if ((corner & axis) == 0)
+      {
+        const vtkIdType ends[2] = { corner, corner + axis };
+        lines->InsertNextCell(2, ends);
+      }
+    }
+  }
+  output->SetPoints(points);
+  output->SetLines(lines);
+}
+
+void WriteHeader(const isodiamond::EncodingHeader& header, const Choice& choice,
+  const isodiamond::AffineMap& world, const std::string& arrayName, vtkFieldData* fieldData)
+{
+  AddArray<vtkTypeInt64Array>(fieldData, HeaderName,
+    std::vector<std::int64_t>{ FormatVersion, static_cast<int>(header.Kind),
+      static_cast<int>(choice.Shape), header.Dimensions[0], header.Dimensions[1],
+      header.Dimensions[2], header.RelevantCount, static_cast<int>(header.Metric),
+      header.ExactIsovertices ? 1 : 0 });
+  std::vector<double> parameters = { choice.Isovalue, choice.Isorange[0], choice.Isorange[1],
+    header.ErrorScale, header.FieldScale };
+  for (const std::array<double, 4>& row : world.Rows)
+  {
+    parameters.insert(parameters.end(), row.begin(), row.end());
+  }
+  AddArray<vtkDoubleArray>(fieldData, ParametersName, parameters);
+  vtkNew<vtkStringArray> name;
+  name->SetName("IsodiamondArrayName");
+  name->InsertNextValue(arrayName.c_str());
+  fieldData->AddArray(name);
+}
+
+/** Numbers for who looks at the field data, in ParaView's Information for instance. Nothing reads
+ *  them. */
+void WriteNumbers(const isodiamond::Encoding& encoding, vtkFieldData* fieldData)
+{
+  const isodiamond::EncodingHeader& header = encoding.Header;
+  const std::array<std::pair<const char*, std::int64_t>, 5> numbers = { {
+    { "NumberOfActiveIsodiamonds", header.ActiveCount },
+    { "NumberOfRelevantIsodiamonds", header.RelevantCount },
+    { "NumberOfCreationIsodiamonds", header.CreationCount },
+    { "NumberOfIsovertices", static_cast<std::int64_t>(encoding.Arrays.Isovertices.size()) },
+    { "StorageSize", isodiamond::EncodingView(encoding).StorageSize() },
+  } };
+  for (const auto& [name, number] : numbers)
+  {
+    AddArray<vtkTypeInt64Array>(fieldData, name, std::vector<std::int64_t>{ number });
+  }
+}
+
+/** The same for the slider of ParaView's extractor. */
+void WriteLargestTolerance(vtkFieldData* fieldData)
+{
+  AddArray<vtkDoubleArray>(
+    fieldData, "LargestErrorTolerance", std::vector<double>{ LargestTolerance(fieldData) });
+}
+
+}
+
+void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
+  const isodiamond::AffineMap& world, const std::string& arrayName,
+  const std::vector<vtkSmartPointer<vtkDataArray>>& pointArrays, vtkPolyData* output)
+{
+  WriteOutline(encoding.Header.Dimensions, world, output);
+  vtkFieldData* fieldData = output->GetFieldData();
+  WriteHeader(encoding.Header, choice, world, arrayName, fieldData);
+  AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickCounts", encoding.Arrays.BrickCounts);
+  AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickIndices", encoding.Arrays.BrickIndices);
+  AddArray<vtkTypeUInt64Array>(fieldData, "IsodiamondBrickMasks", encoding.Arrays.BrickMasks);
+  AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondRecords", encoding.Arrays.Records);
+  AddArray<vtkTypeUInt8Array>(fieldData, "IsodiamondIsovertices", encoding.Arrays.Isovertices);
+  if (encoding.Header.Region.IsVolume())
+  {
+    AddSamples(fieldData, "IsodiamondInsideValues", encoding.InsideValues);
+  }
+  if (!encoding.Arrays.InteriorCodes.empty())
+  {
+    AddArray<vtkTypeUInt16Array>(
+      fieldData, "IsodiamondInteriorCodes", encoding.Arrays.InteriorCodes);
+  }
+  WriteNumbers(encoding, fieldData);
+  WriteLargestTolerance(fieldData);
+  for (vtkDataArray* array : pointArrays)
+  {
+    array->SetName((std::string(PointArrayPrefix) + array->GetName()).c_str());
+    fieldData->AddArray(array);
+  }
+}
+
+void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choice,
+  bool exactIsovertices, const Volume& volume, vtkPolyData* output)
+{
+  const std::array<int, 3> dimensions =
+    std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
+  const isodiamond::AffineMap& world = *volume.Place.World.Affine();
+  WriteOutline(dimensions, world, output);
+  vtkFieldData* fieldData = output->GetFieldData();
+  isodiamond::EncodingHeader header;
+  header.Kind = isodiamond::Model::HierarchyOfDiamonds;
+  header.Dimensions = dimensions;
+  header.Region = choice.Region();
+  header.ErrorScale = encoding.ErrorScale;
+  header.FieldScale = encoding.ErrorScale;
+  header.ExactIsovertices = exactIsovertices;
+  WriteHeader(header, choice, world, volume.ArrayName, fieldData);
+  // The input's own array under another name: shared memory would rename it for the input too.
+  AddSamples(fieldData, "IsodiamondSamples", volume.Array->GetDataType(),
+    volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());
+  AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondErrors", encoding.Codes);
+  AddSamples(fieldData, "IsodiamondMinima", encoding.Minima);
+  AddSamples(fieldData, "IsodiamondMaxima", encoding.Maxima);
+  WriteLargestTolerance(fieldData);
+}
+
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSMErrorToleranceDomain.h"
+
+#include "vtkDataObject.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMUncheckedPropertyHelper.h"
+
+#include <cmath>
+#include <vector>
+
+vtkStandardNewMacro(vtkSMErrorToleranceDomain);
+
+//------------------------------------------------------------------------------
+vtkSMErrorToleranceDomain::vtkSMErrorToleranceDomain() = default;
+
+//------------------------------------------------------------------------------
+vtkSMErrorToleranceDomain::~vtkSMErrorToleranceDomain() = default;
+
+//------------------------------------------------------------------------------
+void vtkSMErrorToleranceDomain::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
+
+//------------------------------------------------------------------------------
+void vtkSMErrorToleranceDomain::Update(vtkSMProperty*)
+{
+  this->SetEntries(std::vector<vtkEntry>{ vtkEntry(0.0, this->FindLargest()) });
+}
+
+//------------------------------------------------------------------------------
+double vtkSMErrorToleranceDomain::FindLargest()
+{
+  vtkPVDataInformation* input = this->GetInputDataInformation("Input");
+  vtkSMProperty* metric = this->GetRequiredProperty("Metric");
+  vtkSMProperty* array = this->GetRequiredProperty("ArraySelection");
+  double largest = 0.0;
+  if (input && !metric)
+  {
+    // vtkIsodiamondBuilder writes it beside the hierarchy.
+    vtkPVArrayInformation* own =
+      input->GetArrayInformation("LargestErrorTolerance", vtkDataObject::FIELD);
+    largest = own ? own->GetComponentRange(0)[1] : 0.0;
+  }
+  else if (input && vtkSMUncheckedPropertyHelper(metric).GetAsInt() == 1) // distance
+  {
+    const double* bounds = input->GetBounds();
+    largest =
+      0.02 * std::hypot(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]);
+  }
+  else if (input && array)
+  {
+    const vtkSMUncheckedPropertyHelper selection(array);
+    const char* name = selection.GetAsString(4);
+    vtkPVArrayInformation* values =
+      name ? input->GetArrayInformation(name, selection.GetAsInt(3)) : nullptr;
+    largest =
+      values ? values->GetComponentFiniteRange(0)[1] - values->GetComponentFiniteRange(0)[0] : 0.0;
+  }
+  return std::isfinite(largest) && largest > 0.0 ? largest : 1.0;
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSMErrorToleranceDomain
+ * @brief   error tolerances that are worth trying, for the slider
+ *
+ * From 0 to what the input and the metric make of it: by the distance metric 2 % of the diagonal of
+ * the input's bounds, by the field metric the extent of the array's values; of a hierarchy what it
+ * says itself. Required properties: *Input*, and of filters that work on a volume *Metric* and
+ * *ArraySelection*.
+ */
+
+#ifndef vtkSMErrorToleranceDomain_h
+#define vtkSMErrorToleranceDomain_h
+
+#include "vtkIsodiamondServerManagerModule.h" // for export macro
+#include "vtkSMDoubleRangeDomain.h"
+
+class VTKISODIAMONDSERVERMANAGER_EXPORT vtkSMErrorToleranceDomain : public vtkSMDoubleRangeDomain
+{
+public:
+  static vtkSMErrorToleranceDomain* New();
+  vtkTypeMacro(vtkSMErrorToleranceDomain, vtkSMDoubleRangeDomain);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Looks at the required properties again. */
+  void Update(vtkSMProperty* changed) override;
+
+protected:
+  vtkSMErrorToleranceDomain();
+  ~vtkSMErrorToleranceDomain() override;
+
+private:
+  vtkSMErrorToleranceDomain(const vtkSMErrorToleranceDomain&) = delete;
+  void operator=(const vtkSMErrorToleranceDomain&) = delete;
+
+  /** The end of the range; 1 while there is nothing to tell from. */
+  double FindLargest();
+};
+
+#endif

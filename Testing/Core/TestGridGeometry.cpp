@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where samples are in the world, what is hidden of them, and from where they are seen.
+#include "Gradients.h"
+#include "GridGeometry.h"
+#include "HiddenCells.h"
+#include "RegionOfInterest.h"
+#include "Viewpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+using namespace isodiamond;
+
+namespace
+{
+
+constexpr std::array<int, 3> Size = { 5, 4, 6 };
+
+/** A bent position for each sample. */
+std::vector<double> BentPositions()
+{
+  std::vector<double> positions;
+  for (int z = 0; z < Size[2]; ++z)
+  {
+    for (int y = 0; y < Size[1]; ++y)
+    {
+      for (int x = 0; x < Size[0]; ++x)
+      {
+        positions.push_back(x + 0.1 * y * z);
+        positions.push_back(2.0 * y - 0.2 * x * x);
+        positions.push_back(0.5 * z + 0.05 * x * y);
+      }
+    }
+  }
+  return positions;
+}
+
+Vector At(const std::vector<double>& positions, int x, int y, int z)
+{
+  const double* p = positions.data() + 3 * ((z * Size[1] + y) * Size[0] + x);
+  return { p[0], p[1], p[2] };
+}
+
+void ExpectNear(const Vector& a, const Vector& b, double tolerance = 1e-12)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_NEAR(a[axis], b[axis], tolerance);
+  }
+}
+
+}
+
+TEST(GridGeometry, IsTrilinearBetweenSamplesAndLinearBeyond)
+{
+  const std::vector<double> positions = BentPositions();
+  const GridGeometry bent(SamplePositions{ positions.data(), Size });
+  for (int z = 0; z < Size[2]; ++z)
+  {
+    for (int y = 0; y < Size[1]; ++y)
+    {
+      for (int x = 0; x < Size[0]; ++x)
+      {
+        ExpectNear(bent({ 1.0 * x, 1.0 * y, 1.0 * z }), At(positions, x, y, z));
+      }
+    }
+  }
+  // In the middle of a cell the mean of its corners; on an edge of two.
+  Vector mean{};
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vector p = At(positions, 1 + (corner & 1), 2 + ((corner >> 1) & 1), 3 + (corner >> 2));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      mean[axis] += p[axis] / 8.0;
+    }
+  }
+  ExpectNear(bent({ 1.5, 2.5, 3.5 }), mean);
+  const Vector a = At(positions, 1, 0, 0);
+  const Vector b = At(positions, 2, 0, 0);
+  ExpectNear(bent({ 1.25, 0.0, 0.0 }),
+    { 0.75 * a[0] + 0.25 * b[0], 0.75 * a[1] + 0.25 * b[1], 0.75 * a[2] + 0.25 * b[2] });
+  const Vector first = At(positions, 0, 0, 0);
+  const Vector next = At(positions, 1, 0, 0);
+  ExpectNear(bent({ -1.0, 0.0, 0.0 }), 2.0 * first - next);
+  // Behind a layer of padding indices are one more.
+  const GridGeometry padded(SamplePositions{ positions.data(), Size }, 1);
+  ExpectNear(padded({ 2.5, 3.5, 4.5 }), mean);
+}
+
+TEST(GridGeometry, OfAxesIsThatOfTheSamePositions)
+{
+  const AxisCoordinates axes = { std::vector<double>{ 0.0, 1.0, 3.0, 3.5, 9.0 },
+    { 5.0, 4.0, 2.0, 1.0 }, { -1.0, 0.0, 0.5, 0.75, 4.0, 8.0 } };
+  std::vector<float> positions;
+  for (const double z : axes[2])
+  {
+    for (const double y : axes[1])
+    {
+      for (const double x : axes[0])
+      {
+        positions.insert(
+          positions.end(), { static_cast<float>(x), static_cast<float>(y), static_cast<float>(z) });
+      }
+    }
+  }
+  const GridGeometry uneven(axes);
+  const GridGeometry same(SamplePositions{ positions.data(), Size });
+  EXPECT_TRUE(uneven.Mirrors()); // y falls
+  EXPECT_TRUE(same.Mirrors());
+  EXPECT_EQ(uneven.Affine(), nullptr);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> index(-1.0, 6.0);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Vector at = { index(random), index(random), index(random) };
+    ExpectNear(uneven(at), same(at), 1e-9);
+  }
+}
+
+TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
+{
+  // The same samples with the same positions, by a sheared map and one by one.
+  AffineMap map;
+  map.Rows = { { { 0.5, 0.2, 0.0, 3.0 }, { 0.0, 2.0, -0.3, 1.0 }, { 0.1, 0.0, 1.5, -2.0 } } };
+  std::vector<double> positions;
+  std::vector<float> field;
+  for (int z = 0; z < Size[2]; ++z)
+  {
+    for (int y = 0; y < Size[1]; ++y)
+    {
+      for (int x = 0; x < Size[0]; ++x)
+      {
+        const Vector p = map(x, y, z);
+        positions.insert(positions.end(), p.begin(), p.end());
+        field.push_back(static_cast<float>(std::sin(x) + y * y - x * z));
+      }
+    }
+  }
+  const AnySamples samples = SampleView<float>(field.data(), Size);
+  const GridGeometry affine(map);
+  const GridGeometry listed(SamplePositions{ positions.data(), Size });
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> index(-0.5, 5.5);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Vector at = { index(random), index(random), index(random) };
+    ExpectNear(Gradients(samples, affine)(at), Gradients(samples, listed)(at), 1e-9);
+  }
+  // Of a linear field its own, everywhere.
+  for (std::size_t i = 0; i < field.size(); ++i)
+  {
+    field[i] = static_cast<float>(
+      2.0 * positions[3 * i] - positions[3 * i + 1] + 0.5 * positions[3 * i + 2]);
+  }
+  ExpectNear(Gradients(samples, listed)({ 1.3, 2.2, 4.1 }), { 2.0, -1.0, 0.5 }, 1e-5);
+  const Vector normal = NormalOf({ 0.0, 3.0, -4.0 });
+  ExpectNear(normal, { 0.0, -0.6, 0.8 });
+  ExpectNear(NormalOf({ 0.0, 0.0, 0.0 }), { 0.0, 0.0, 1.0 });
+  ExpectNear(NormalOf({ 0.0, std::nan(""), 0.0 }), { 0.0, 0.0, 1.0 });
+}
+
+TEST(GridGeometry, IndexBoxesHoldAllCellsThatTouch)
+{
+  const std::vector<double> positions = BentPositions();
+  for (const int padding : { 0, 1 })
+  {
+    const GridGeometry bent(SamplePositions{ positions.data(), Size }, padding);
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> world(-2.0, 8.0);
+    std::uniform_real_distribution<double> part(0.0, 1.0);
+    for (int i = 0; i < 200; ++i)
+    {
+      Box box{ { world(random), world(random), world(random) }, {} };
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        box.Maximum[axis] = box.Minimum[axis] + 2.0 * part(random);
+      }
+      const Box found = IndexBoxOf(box, bent);
+      for (int j = 0; j < 300; ++j) // no point of the grid in the box may be outside
+      {
+        Vector index{};
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          index[axis] = part(random) * (Size[axis] - 1 + 2 * padding);
+        }
+        const Vector p = bent(index);
+        bool inside = true;
+        bool isFound = true;
+        bool isOwn = true; // padding is extrapolated: what is there may come from far
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          inside = inside && p[axis] >= box.Minimum[axis] && p[axis] <= box.Maximum[axis];
+          isFound =
+            isFound && index[axis] >= found.Minimum[axis] && index[axis] <= found.Maximum[axis];
+          isOwn = isOwn && index[axis] >= padding && index[axis] <= Size[axis] - 1 + padding;
+        }
+        EXPECT_TRUE(!inside || !isOwn || isFound);
+      }
+    }
+  }
+}
+
+TEST(HiddenCells, TouchesAreThoseOfTheBoxAroundADiamond)
+{
+  const std::array<int, 3> cells = { 13, 9, 16 };
+  std::mt19937 random(7);
+  std::vector<std::uint8_t> hidden(13 * 9 * 16);
+  for (int i = 0; i < 12; ++i)
+  {
+    hidden[random() % hidden.size()] = 1;
+  }
+  const HiddenCells some(hidden, cells);
+  ASSERT_TRUE(some.Any());
+  EXPECT_FALSE(HiddenCells(std::vector<std::uint8_t>(hidden.size()), cells).Any());
+  const Grid grid({ 14, 10, 17 });
+  for (int scale = 0; scale <= grid.Depth(); ++scale)
+  {
+    const std::array<int, 3> count = grid.Positions(scale);
+    for (int i = 0; i < 300; ++i)
+    {
+      const Place place{ scale,
+        { static_cast<int>(random() % count[0]), static_cast<int>(random() % count[1]),
+          static_cast<int>(random() % count[2]) } };
+      const int h = 1 << scale;
+      bool expected = false;
+      for (int z = 0; z < cells[2]; ++z)
+      {
+        for (int y = 0; y < cells[1]; ++y)
+        {
+          for (int x = 0; x < cells[0]; ++x)
+          {
+            const Point cell = { x, y, z };
+            bool touches = hidden[(z * cells[1] + y) * cells[0] + x] != 0;
+            for (int axis = 0; axis < 3; ++axis)
+            {
+              const int centre = h * place.Position[axis];
+              touches = touches && cell[axis] < centre + h && cell[axis] + 1 > centre - h;
+            }
+            expected = expected || touches;
+          }
+        }
+      }
+      // Blocks at the grid's end reach beyond it, never short of it.
+      EXPECT_EQ(some.Touch(place), expected) << scale;
+    }
+  }
+}
+
+TEST(Viewpoint, TolerancesAreThoseOfTheNearestPointOrLess)
+{
+  AffineMap map;
+  map.Rows = { { { 0.5, 0.2, 0.0, 3.0 }, { 0.0, 2.0, -0.3, 1.0 }, { 0.1, 0.0, 1.5, -2.0 } } };
+  const Grid grid({ 33, 20, 30 });
+  const Vector eye = { 30.0, -5.0, 12.0 };
+  const Viewpoint view(eye, 0.01, map);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  double greatest = 0.0;
+  for (int scale = 0; scale < grid.Depth(); ++scale)
+  {
+    const std::array<int, 3> count = grid.Positions(scale);
+    for (int i = 0; i < 200; ++i)
+    {
+      const Place place{ scale,
+        { static_cast<int>(random() % count[0]), static_cast<int>(random() % count[1]),
+          static_cast<int>(random() % count[2]) } };
+      const double tolerance = view.ToleranceOf(place);
+      greatest = std::max(greatest, tolerance);
+      EXPECT_GE(tolerance, 0.0);
+      const Point origin = { place.Position[0] & ~7, place.Position[1] & ~7,
+        place.Position[2] & ~7 };
+      EXPECT_LE(view.LeastIn(scale, origin), tolerance);
+      for (int j = 0; j < 20; ++j)
+      {
+        const double h = 1 << scale;
+        const Vector p = map(h * (place.Position[0] + part(random)),
+          h * (place.Position[1] + part(random)), h * (place.Position[2] + part(random)));
+        EXPECT_LE(
+          tolerance, 0.01 * std::hypot(p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]) + 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(greatest, 0.1);
+  EXPECT_GE(view.GreatestIn(grid), greatest);
+  EXPECT_THROW(Viewpoint({ std::nan(""), 0.0, 0.0 }, 1.0, map), std::invalid_argument);
+  EXPECT_THROW(Viewpoint(eye, HUGE_VAL, map), std::invalid_argument);
+}

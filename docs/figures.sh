@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Makes the figures of docs/algorithm.md. Usage: docs/figures.sh [OUTPUT-FOLDER]
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../scripts/common.sh"
+
+output=${1:-$root/docs/pictures}
+# shellcheck disable=SC2086 # lists of words
+install_packages $build_packages $render_packages
+configure_and_build release >/dev/null
+mkdir -p "$output"
+PYTHONPATH=$build/lib/python3/dist-packages xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" \
+  pvpython "$root/docs/figures.py" "$output"
