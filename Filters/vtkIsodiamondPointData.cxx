@@ -183,10 +183,10 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Volume& vol
   {
     isodiamond::ForEachStoredPoint(hierarchy, parallelFor, write);
   }
-  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays(made->GetNumberOfArrays());
   for (int i = 0; i < made->GetNumberOfArrays(); ++i)
   {
-    arrays.emplace_back(made->GetArray(i));
+    arrays[i] = made->GetArray(i);
   }
   return arrays;
 }

@@ -4,6 +4,9 @@ the data named in $ISODIAMONDS_DATA. docs/panels.sh starts it and takes the pict
 import os
 
 from paraview.simple import *
+from vtkmodules.vtkImagingCore import vtkImageShiftScale, vtkRTAnalyticSource
+from vtkmodules.vtkIOImage import vtkNIFTIImageReader
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
 LoadPalette("WhiteBackground")
@@ -13,20 +16,35 @@ def wavelet():
     return Wavelet(WholeExtent=[-16, 16] * 3)
 
 
+def image(data, name):
+    """A VTK image as a source, through a file: what a user opens."""
+    path = os.path.join(os.path.dirname(os.environ["ISODIAMONDS_READY"]), name + ".vti")
+    writer = vtkXMLImageDataWriter()
+    writer.SetInputData(data)
+    writer.SetDataModeToBinary()
+    writer.SetFileName(path)
+    writer.Write()
+    return OpenDataFile(path)
+
+
 def head():
-    return OpenDataFile(os.environ["ISODIAMONDS_HEAD"])
+    reader = vtkNIFTIImageReader()
+    reader.SetFileName(os.environ["ISODIAMONDS_HEAD"])
+    reader.Update()
+    return image(reader.GetOutput(), "head")
 
 
 def bytes_volume():
-    """An unsigned char volume: values 0 to 255."""
-    scaled = Calculator(wavelet(), ResultArrayName="density", Function="(RTData - 37) * 1.04")
-    typed = ProgrammableFilter(scaled)
-    typed.Script = """
-import numpy
-values = inputs[0].PointData["density"]
-output.PointData.append(numpy.asarray(values).clip(0, 255).astype(numpy.uint8), "bytes")
-"""
-    return typed
+    """An unsigned char volume."""
+    source = vtkRTAnalyticSource()
+    source.SetWholeExtent(-16, 16, -16, 16, -16, 16)
+    cast = vtkImageShiftScale()
+    cast.SetInputConnection(source.GetOutputPort())
+    cast.SetShift(-37)
+    cast.SetOutputScalarTypeToUnsignedChar()
+    cast.ClampOverflowOn()
+    cast.Update()
+    return image(cast.GetOutput(), "bytes")
 
 
 volume = {"wavelet": wavelet, "head": head, "bytes": bytes_volume}[

@@ -48,11 +48,11 @@ take_picture() {
   while [ ! -e "$ISODIAMONDS_READY" ] && [ $((seconds++)) -lt 120 ]; do sleep 1; done
   [ -e "$ISODIAMONDS_READY" ] || { cat "$settings/log" >&2; exit 1; }
   window=$(xdotool search --onlyvisible --name ParaView | tail -1)
-  xdotool windowsize "$window" 1200 1050 windowmove "$window" 0 0
+  xdotool windowsize "$window" 1200 1130 windowmove "$window" 0 0
   sleep 2
   # Room for the properties: the borders to the view and to the pipeline browser.
   drag 297 700 460 700
-  drag 200 439 200 240
+  drag 200 483 200 240
   sleep 4
   import -window root -quality 85 "$output/panel-${ISODIAMONDS_PANEL//_/-}.jpg"
   kill $paraview
@@ -63,7 +63,7 @@ export root output settings
 mkdir -p "$output"
 for filter in "${filters[@]}"; do
   rm -f "$ISODIAMONDS_READY"
-  ISODIAMONDS_PANEL=$filter xvfb-run -a -s "-screen 0 1200x1050x24 -noreset" bash -euc "$(declare -f drag take_picture); take_picture"
+  ISODIAMONDS_PANEL=$filter xvfb-run -a -s "-screen 0 1200x1130x24 -noreset" bash -euc "$(declare -f drag take_picture); take_picture"
   echo "$output/panel-${filter//_/-}.jpg"
 done
 rm -r "$settings"
