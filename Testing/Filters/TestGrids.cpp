@@ -11,6 +11,8 @@
 #include "vtkIsodiamondIntervalVolume.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -433,6 +435,32 @@ TEST(Grids, BlocksOfACompositeAreWorkedOnOneByOneAndKept)
     }
   }
   EXPECT_EQ(contour->GetNumberOfBuilds(), 3); // not again for the second tolerance
+}
+
+TEST(Grids, PartitionsAreWorkedOnOneByOne)
+{
+  vtkNew<vtkPartitionedDataSet> partitions;
+  vtkIdType expected = 0;
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    const auto image = test::BallImage({ 15 + static_cast<int>(i), 15, 15 });
+    partitions->SetPartition(i, image);
+    expected += Contour(image, 0.0)->GetNumberOfCells();
+  }
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  collection->SetPartitionedDataSet(0, partitions);
+  for (vtkDataObject* input :
+    { static_cast<vtkDataObject*>(partitions), static_cast<vtkDataObject*>(collection) })
+  {
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputData(input);
+    contour->SetValue(0, 0.0);
+    contour->Update();
+    auto* output = vtkCompositeDataSet::SafeDownCast(contour->GetOutputDataObject(0));
+    ASSERT_NE(output, nullptr);
+    EXPECT_EQ(output->GetNumberOfCells(), expected);
+    EXPECT_EQ(contour->GetNumberOfBuilds(), 2);
+  }
 }
 
 TEST(Grids, HierarchiesAreKnownByContentAndKeptWithinTheCache)
