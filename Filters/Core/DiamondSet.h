@@ -199,6 +199,9 @@ private:
     std::vector<BrickMask> Masks;
   };
 
+  void AddParentsOfScale(const Grid& grid, int scale, int diamondClass);
+  void AddParentsOfCoarserScale(const Grid& grid, int scale);
+
   /** @param bits those of a word that count, by parity of z */
   template <typename Body>
   void ForEachWithBits(int scale, const std::array<std::uint64_t, 2>& bits, const Body& body) const

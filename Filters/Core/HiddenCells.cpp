@@ -59,7 +59,7 @@ bool HiddenCells::At(int scale, const Point& block) const
   Point at{};
   for (int axis = 0; axis < 3; ++axis)
   {
-    at[axis] = block[axis] << std::max(scale - last, 0);
+    at[axis] = block[axis] * (1 << std::max(scale - last, 0));
     if (at[axis] < 0 || at[axis] >= level.Size[axis])
     {
       return false;
