@@ -5,6 +5,7 @@
 #include "vtkCell.h"
 #include "vtkFeatureEdges.h"
 #include "vtkFloatArray.h"
+#include "vtkImplicitPolyDataDistance.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -154,6 +155,18 @@ Triangles SortedTriangles(vtkPointSet* mesh)
     });
   std::sort(triangles.begin(), triangles.end());
   return triangles;
+}
+
+double LargestDistance(vtkPolyData* from, vtkPolyData* to)
+{
+  vtkNew<vtkImplicitPolyDataDistance> distance;
+  distance->SetInput(to);
+  double largest = 0.0;
+  for (vtkIdType i = 0; i < from->GetNumberOfPoints(); ++i)
+  {
+    largest = std::max(largest, std::fabs(distance->EvaluateFunction(from->GetPoint(i))));
+  }
+  return largest;
 }
 
 vtkIdType BoundaryEdges(vtkPolyData* mesh)

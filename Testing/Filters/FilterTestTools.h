@@ -55,6 +55,9 @@ double Area(vtkPointSet* mesh);
 using Triangles = std::vector<std::array<std::array<double, 3>, 3>>;
 Triangles SortedTriangles(vtkPointSet* mesh);
 
+/** Largest distance of a mesh's points to another mesh. */
+double LargestDistance(vtkPolyData* from, vtkPolyData* to);
+
 /** Number of edges with one triangle. */
 vtkIdType BoundaryEdges(vtkPolyData* mesh);
 

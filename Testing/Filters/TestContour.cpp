@@ -4,7 +4,6 @@
 
 #include "vtkCellData.h"
 #include "vtkFlyingEdges3D.h"
-#include "vtkImplicitPolyDataDistance.h"
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondExtractor.h"
@@ -42,26 +41,13 @@ vtkSmartPointer<vtkPolyData> FlyingEdges(vtkImageData* image, double isovalue)
   return contour->GetOutput();
 }
 
-/** Largest distance of a mesh's points to another mesh. */
-double Distance(vtkPolyData* from, vtkPolyData* to)
-{
-  vtkNew<vtkImplicitPolyDataDistance> distance;
-  distance->SetInput(to);
-  double largest = 0.0;
-  for (vtkIdType i = 0; i < from->GetNumberOfPoints(); ++i)
-  {
-    largest = std::max(largest, std::fabs(distance->EvaluateFunction(from->GetPoint(i))));
-  }
-  return largest;
-}
-
 void ExpectSameSurfaceAsFlyingEdges(vtkImageData* image, double voxel)
 {
   const vtkSmartPointer<vtkPolyData> ours = Contour(image, 0.0);
   const vtkSmartPointer<vtkPolyData> theirs = FlyingEdges(image, 0.0);
   EXPECT_EQ(test::BoundaryEdges(ours), 0);
-  EXPECT_LT(Distance(theirs, ours), 0.3 * voxel);
-  EXPECT_LT(Distance(ours, theirs), 0.3 * voxel);
+  EXPECT_LT(test::LargestDistance(theirs, ours), 0.3 * voxel);
+  EXPECT_LT(test::LargestDistance(ours, theirs), 0.3 * voxel);
   EXPECT_NEAR(test::Area(ours), test::Area(theirs), 0.05 * test::Area(theirs));
   const double volume = test::SixVolume(theirs);
   EXPECT_NEAR(test::SixVolume(ours), volume, 0.02 * std::fabs(volume));

@@ -6,7 +6,6 @@
 #include "vtkContourFilter.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
-#include "vtkImplicitPolyDataDistance.h"
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondIntervalVolume.h"
 #include "vtkMultiBlockDataSet.h"
@@ -88,18 +87,6 @@ vtkSmartPointer<vtkStructuredGrid> Structured(vtkImageData* image, const Place& 
   return grid;
 }
 
-double Distance(vtkPolyData* from, vtkPolyData* to)
-{
-  vtkNew<vtkImplicitPolyDataDistance> distance;
-  distance->SetInput(to);
-  double largest = 0.0;
-  for (vtkIdType i = 0; i < from->GetNumberOfPoints(); ++i)
-  {
-    largest = std::max(largest, std::fabs(distance->EvaluateFunction(from->GetPoint(i))));
-  }
-  return largest;
-}
-
 /** Expects our surface of a grid to be VTK's of the same grid, to a part of a voxel. */
 void ExpectSameAsContourFilter(vtkDataSet* grid, double voxel)
 {
@@ -110,8 +97,8 @@ void ExpectSameAsContourFilter(vtkDataSet* grid, double voxel)
   vtkPolyData* theirs = filter->GetOutput();
   const auto ours = Contour(grid, 0.0);
   ASSERT_GT(theirs->GetNumberOfCells(), 100);
-  EXPECT_LT(Distance(theirs, ours), 0.3 * voxel);
-  EXPECT_LT(Distance(ours, theirs), 0.3 * voxel);
+  EXPECT_LT(test::LargestDistance(theirs, ours), 0.3 * voxel);
+  EXPECT_LT(test::LargestDistance(ours, theirs), 0.3 * voxel);
   EXPECT_EQ(test::BoundaryEdges(ours), 0);
   EXPECT_NEAR(test::Area(ours), test::Area(theirs), 0.05 * test::Area(theirs));
   // VTK's own has normals to lower values unless the grid mirrors; ours always, and it is a ball.
