@@ -6,6 +6,7 @@
 #include "vtkVersion.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace vtkIsodiamond
 {
@@ -14,17 +15,35 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double BatchSeconds = 0.03;
-/** The first batch: a batch has to wait for all threads, and most loops are short; but where a
- * single step is worth a thread, few are long enough. */
-std::int64_t FirstBatch(std::int64_t grain)
-{
-  return grain > 1 ? 64 * grain : 4;
-}
+/** All threads stop together for progress and an abort. */
+constexpr std::chrono::milliseconds BatchLength(30);
+/** A step: long beside a look at the clock, short beside a batch. */
+constexpr std::chrono::milliseconds StepLength(1);
 
-double SecondsSince(Clock::time_point start)
+/** Takes step after step of what is left of a loop, until a time. */
+void WorkUntil(Clock::time_point end, std::int64_t count, std::int64_t grain,
+  std::atomic<std::int64_t>& next, const std::function<void(std::int64_t, std::int64_t)>& body)
 {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  std::int64_t step = grain;
+  for (Clock::time_point start = Clock::now(); start < end;)
+  {
+    const std::int64_t first = next.fetch_add(step);
+    if (first >= count)
+    {
+      return;
+    }
+    body(first, std::min(first + step, count));
+    const Clock::time_point now = Clock::now();
+    if (now - start < StepLength)
+    {
+      step = std::min(2 * step, 8 * grain); // no more: those that follow may be longer
+    }
+    else if (now - start > 2 * StepLength)
+    {
+      step = std::max(grain, step / 2);
+    }
+    start = now;
+  }
 }
 
 bool IsAborted(vtkAlgorithm* filter)
@@ -78,23 +97,27 @@ isodiamond::ParallelFor Task::For()
   return [this, run = SMPFor()](std::int64_t count, std::int64_t grain,
            const std::function<void(std::int64_t, std::int64_t)>& body)
   {
-    std::int64_t batch = FirstBatch(grain);
-    for (std::int64_t begin = 0; begin < count;)
+    const int workers = vtkSMPTools::GetEstimatedNumberOfThreads();
+    std::atomic<std::int64_t> next(0);
+    for (std::int64_t done = 0; done < count;)
     {
-      const std::int64_t size = std::min(batch, count - begin);
-      const Clock::time_point start = Clock::now();
-      run(size, grain,
-        [&](std::int64_t first, std::int64_t last) { body(begin + first, begin + last); });
-      begin += size;
+      const Clock::time_point end = Clock::now() + BatchLength;
+      run(count - done > grain ? workers : 1, 1,
+        [&](std::int64_t first, std::int64_t last)
+        {
+          for (std::int64_t worker = first; worker < last; ++worker)
+          {
+            WorkUntil(end, count, grain, next, body);
+          }
+        });
+      const std::int64_t before = done;
+      done = std::min(next.load(), count);
       // How many loops a phase has is not known: each takes half of what is left.
-      this->Done += 0.5 * (this->End - this->Done) * static_cast<double>(size) / count;
-      if (SecondsSince(this->Told) > BatchSeconds)
+      this->Done += 0.5 * (this->End - this->Done) * static_cast<double>(done - before) / count;
+      if (Clock::now() - this->Told > BatchLength)
       {
         this->Tell();
       }
-      const double factor = BatchSeconds / std::max(SecondsSince(start), 1e-6);
-      batch = std::max(grain,
-        static_cast<std::int64_t>(std::clamp(factor, 0.25, 2.0) * static_cast<double>(batch)));
     }
   };
 }

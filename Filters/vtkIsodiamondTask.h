@@ -22,9 +22,9 @@ struct Aborted : std::exception
 
 /**
  * Work of a filter that its user can watch and stop. Its phases have names, and a part of the whole
- * each; its loops run in batches of about 30 ms. After a batch progress is told and abortion asked
- * for, both in the thread that runs the filter: observers may touch what they like. How loops are
- * cut does not change results (see Parallel.h).
+ * each; its loops run in batches of about 30 ms, after which all threads wait. Progress is told
+ * then and abortion asked for, both in the thread that runs the filter: observers may touch what
+ * they like. How loops are cut does not change results (see Parallel.h).
  */
 class Task
 {

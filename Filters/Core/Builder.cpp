@@ -40,19 +40,20 @@ struct DiamondCodes
   }
 };
 
-/** Calls body(place, rank) for all diamonds but the corners of the base cube. */
+/** Calls body(place, rank) for all diamonds but the corners of the base cube. Goes by words: the
+ *  work of a whole brick of coarse diamonds is long for one step. */
 template <typename Body>
 void ForEachMember(const DiamondSet& members, const ParallelFor& parallelFor, const Body& body)
 {
   for (int scale = members.ScaleCount() - 2; scale >= 0; --scale)
   {
     const std::vector<Brick>& bricks = members.Level(scale).Bricks;
-    parallelFor(static_cast<std::int64_t>(bricks.size()), 1,
+    parallelFor(8 * static_cast<std::int64_t>(bricks.size()), 1,
       [&](std::int64_t begin, std::int64_t end)
       {
         for (std::int64_t i = begin; i < end; ++i)
         {
-          members.ForEachInBrick(scale, bricks[i], body);
+          members.ForEachInWord(scale, bricks[i / 8], static_cast<int>(i % 8), body);
         }
       });
   }

@@ -184,33 +184,92 @@ private:
   std::array<int, 3> Count;
 };
 
+/**
+ * Finds something in each brick of a scale: find(index, list) appends to the list. Rows of bricks
+ * are independent, each has its own list; the lists follow each other as the rows do.
+ */
+template <typename Found, typename Find>
+std::vector<std::vector<Found>> FindInRows(
+  const BrickBox& box, const ParallelFor& parallelFor, const Find& find)
+{
+  const std::int64_t rows = std::int64_t{ 1 } * box.Count[1] * box.Count[2];
+  std::vector<std::vector<Found>> found(rows);
+  parallelFor(rows, 4,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t index = begin * box.Count[0]; index < end * box.Count[0]; ++index)
+      {
+        find(index, found[index / box.Count[0]]);
+      }
+    });
+  return found;
+}
+
+/** Whether a diamond whose sampled vertices all have one sign lies inside. */
+bool IsInside(const Grid& grid, const SignLattice& signs, const Place& place)
+{
+  const ParityTable& shape = tables::Parities[Parity(place.Position)];
+  for (int i = 0; i < shape.VertexCount; ++i)
+  {
+    const Point vertex = place.Position + shape.Offsets[i];
+    if (grid.IsSampled((1 << place.Scale) * vertex))
+    {
+      return signs.Sign(place.Scale, vertex) == InsideSign;
+    }
+  }
+  return false;
+}
+
+struct InsideBrick
+{
+  std::int64_t Index = 0;
+  BrickMask Inside{};
+};
+
+/** The ancestors of one brick that have all vertices inside; all but isodiamonds have one sign. */
+InsideBrick FindInside(const Grid& grid, const SignLattice& signs, const Classification& all,
+  int scale, std::int64_t index)
+{
+  const BrickMask* members = all.Members.Find(scale, index);
+  const BrickMask* active = all.Active.Find(scale, index);
+  const BrickMask* creation = all.Creation.Find(scale, index);
+  const Point origin = all.Members.Box(scale).Origin(index);
+  InsideBrick brick{ index };
+  for (int z = 0; z < 8 && members != nullptr; ++z)
+  {
+    const std::uint64_t isodiamonds =
+      (active != nullptr ? (*active)[z] : 0) | (creation != nullptr ? (*creation)[z] : 0);
+    ForEachBit((*members)[z] & ~isodiamonds,
+      [&](int bit)
+      {
+        const bool inside = IsInside(grid, signs, { scale, PositionOf(origin, z, bit) });
+        brick.Inside[z] |= static_cast<std::uint64_t>(inside) << bit;
+      });
+  }
+  return brick;
+}
+
 /** Ancestors of isodiamonds that have all vertices inside are active: a surface passes below. */
-void ActivateInside(const Grid& grid, const SignLattice& signs, Classification& result)
+void ActivateInside(const Grid& grid, const SignLattice& signs, const ParallelFor& parallelFor,
+  Classification& result)
 {
   for (int scale = 0; scale < grid.Depth(); ++scale)
   {
-    result.Members.ForEachOfScale(scale,
-      [&](const Place& place)
+    const auto find = [&](std::int64_t index, std::vector<InsideBrick>& list)
+    {
+      const InsideBrick brick = FindInside(grid, signs, result, scale, index);
+      if (brick.Inside != BrickMask{})
       {
-        if (result.Active.Contains(place) || result.Creation.Contains(place))
-        {
-          return;
-        }
-        // All sampled vertices have one sign: any of them tells it.
-        const ParityTable& shape = tables::Parities[Parity(place.Position)];
-        for (int i = 0; i < shape.VertexCount; ++i)
-        {
-          const Point vertex = place.Position + shape.Offsets[i];
-          if (grid.IsSampled((1 << scale) * vertex))
-          {
-            if (signs.Sign(scale, vertex) == InsideSign)
-            {
-              result.Active.Insert(place);
-            }
-            return;
-          }
-        }
-      });
+        list.push_back(brick);
+      }
+    };
+    for (const auto& row : FindInRows<InsideBrick>(result.Members.Box(scale), parallelFor, find))
+    {
+      for (const InsideBrick& brick : row)
+      {
+        result.Active.Insert(scale, brick.Index, brick.Inside);
+      }
+    }
   }
 }
 
@@ -221,20 +280,11 @@ Classification ClassifyBySigns(
   Classification result{ DiamondMask(grid), DiamondMask(grid), DiamondMask(grid) };
   for (int scale = 0; scale < grid.Depth(); ++scale)
   {
-    // Rows of bricks are independent; each collects its own list.
     const BrickClassifier<Surfaces> classifier(grid, signs, scale, keepInside);
     const BrickBox& box = result.Active.Box(scale);
-    const std::int64_t rows = std::int64_t{ 1 } * box.Count[1] * box.Count[2];
-    std::vector<std::vector<ClassifiedBrick>> found(rows);
-    parallelFor(rows, 4,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t index = begin * box.Count[0]; index < end * box.Count[0]; ++index)
-        {
-          classifier.Classify(box, index, found[index / box.Count[0]]);
-        }
-      });
-    for (const std::vector<ClassifiedBrick>& row : found)
+    const auto classify = [&](std::int64_t index, std::vector<ClassifiedBrick>& list)
+    { classifier.Classify(box, index, list); };
+    for (const auto& row : FindInRows<ClassifiedBrick>(box, parallelFor, classify))
     {
       for (const ClassifiedBrick& brick : row)
       {
@@ -248,7 +298,7 @@ Classification ClassifyBySigns(
   result.Members.CloseOverParents(grid);
   if (Surfaces == 2)
   {
-    ActivateInside(grid, signs, result);
+    ActivateInside(grid, signs, parallelFor, result);
   }
   return result;
 }

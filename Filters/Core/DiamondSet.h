@@ -356,18 +356,25 @@ public:
 
   bool Contains(const Place& place) const { return this->Rank(place) != None; }
 
+  /** Calls body(place, rank) for every diamond of one brick's word z, in order. */
+  template <typename Body>
+  void ForEachInWord(int scale, const Brick& brick, int z, Body&& body) const
+  {
+    const Point origin = this->Levels[scale].Box.Origin(brick.BoxIndex);
+    std::uint32_t rank = brick.First + brick.Before[z];
+    ForEachBit(brick.Occupancy[z],
+      [&](int bit) {
+        body(Place{ scale, PositionOf(origin, z, bit) }, rank++);
+      });
+  }
+
   /** Calls body(place, rank) for every diamond of one brick, in order. */
   template <typename Body>
   void ForEachInBrick(int scale, const Brick& brick, Body&& body) const
   {
-    const Point origin = this->Levels[scale].Box.Origin(brick.BoxIndex);
-    std::uint32_t rank = brick.First;
     for (int z = 0; z < 8; ++z)
     {
-      ForEachBit(brick.Occupancy[z],
-        [&](int bit) {
-          body(Place{ scale, PositionOf(origin, z, bit) }, rank++);
-        });
+      this->ForEachInWord(scale, brick, z, body);
     }
   }
 

@@ -35,7 +35,7 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
       {
         continue; // there are none
       }
-      const IsovertexClusters clusters(relevant, errors.IsFinite(), surface, ends);
+      const IsovertexClusters clusters(relevant, errors.IsFinite(), surface, ends, parallelFor);
       MeasureCoarse(clusters, errors, parallelFor);
       MeasureFinest(clusters, errors, parallelFor);
     }

@@ -36,9 +36,9 @@ public:
 
   void Run(const ParallelFor& parallelFor)
   {
-    std::vector<Task> tasks = this->RootTasks();
+    std::vector<Task> tasks = this->RootTasks(parallelFor);
     // Generation by generation until there is work for many threads, then each subtree by itself.
-    constexpr std::size_t enough = 128;
+    constexpr std::size_t enough = 1024;
     while (!tasks.empty() && tasks.size() < enough && IsCoarse(tasks[0].Holders[0]))
     {
       std::vector<std::vector<Task>> halves(tasks.size());
@@ -74,30 +74,40 @@ private:
   static bool IsCoarse(const Holder& holder) { return holder.Diamond.Scale >= 4; }
 
   /** The six tetrahedra of the base cube. */
-  std::vector<Task> RootTasks() const
+  std::vector<Task> RootTasks(const ParallelFor& parallelFor) const
   {
-    std::vector<Task> tasks;
+    std::vector<HalfPlace> tetrahedra;
     const Place root{ this->Errors.Hierarchy().Domain().Depth() - 1, { 1, 1, 1 } };
     this->Neighbourhood.ForEachTetrahedron(root, false,
-      [&](int /*number*/, const HalfPlace& tetrahedron)
+      [&](int /*number*/, const HalfPlace& tetrahedron) { tetrahedra.push_back(tetrahedron); });
+    std::vector<Task> tasks(tetrahedra.size());
+    parallelFor(static_cast<std::int64_t>(tasks.size()), 1,
+      [&](std::int64_t begin, std::int64_t end)
       {
-        const ClosedTetrahedron closed(tetrahedron);
-        Task task;
-        for (std::uint32_t i = 0; i < this->Clusters.All().size(); ++i)
+        for (std::int64_t i = begin; i < end; ++i)
         {
-          const FineBox& box = this->Clusters.All()[i].Box;
-          if (closed.MayHold(box))
-          {
-            task.Add({ i, !closed.HoldsAll(box) });
-          }
-        }
-        this->Hold(tetrahedron, 0, task);
-        if (!task.Holders.empty())
-        {
-          tasks.push_back(std::move(task));
+          this->FindClusters(tetrahedra[i], tasks[i]);
         }
       });
+    tasks.erase(std::remove_if(tasks.begin(), tasks.end(),
+                  [](const Task& task) { return task.Holders.empty(); }),
+      tasks.end());
     return tasks;
+  }
+
+  /** Makes a task of a tetrahedron and all clusters that may reach into it. */
+  void FindClusters(const HalfPlace& tetrahedron, Task& task) const
+  {
+    const ClosedTetrahedron closed(tetrahedron);
+    for (std::uint32_t i = 0; i < this->Clusters.All().size(); ++i)
+    {
+      const FineBox& box = this->Clusters.All()[i].Box;
+      if (closed.MayHold(box))
+      {
+        task.Add({ i, !closed.HoldsAll(box) });
+      }
+    }
+    this->Hold(tetrahedron, 0, task);
   }
 
   /** Makes the items from a first one on those of a tetrahedron. Without any there is none, nor

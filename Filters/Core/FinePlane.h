@@ -21,6 +21,7 @@ struct FineBox
   FinePosition Low = { INT32_MAX, INT32_MAX, INT32_MAX };
   FinePosition High = { INT32_MIN, INT32_MIN, INT32_MIN };
 
+  bool IsEmpty() const { return this->Low[0] > this->High[0]; }
   void Add(const FinePosition& position)
   {
     for (int axis = 0; axis < 3; ++axis)

@@ -4,9 +4,14 @@
 
 #include "FinePlane.h"
 #include "IsodiamondHierarchy.h"
+#include "Parallel.h"
 #include "Samples.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace isodiamond
@@ -49,24 +54,32 @@ public:
   };
 
   /** Hierarchy and finiteness must outlive it. */
-  IsovertexClusters(
-    const IsodiamondHierarchy& hierarchy, const Finiteness& isFinite, int surface, Ends ends)
+  IsovertexClusters(const IsodiamondHierarchy& hierarchy, const Finiteness& isFinite, int surface,
+    Ends ends, const ParallelFor& parallelFor)
     : Hierarchy(hierarchy)
     , IsFinite(isFinite)
     , OnSurface(surface)
     , Wanted(ends)
   {
-    const std::vector<Brick>& bricks = hierarchy.Diamonds().Level(0).Bricks;
-    for (std::uint32_t brick = 0; brick < bricks.size(); ++brick)
+    // Some bricks at once: of most eighths there is nothing to keep.
+    constexpr std::size_t some = 4096;
+    std::vector<std::array<IsovertexCluster, 8>> found;
+    const std::size_t bricks = hierarchy.Diamonds().Level(0).Bricks.size();
+    for (std::size_t first = 0; first < bricks; first += some)
     {
-      for (int octant = 0; octant < 8; ++octant)
-      {
-        IsovertexCluster cluster{ brick, octant, {} };
-        this->ForEach(cluster, [&](const FinePosition& position) { cluster.Box.Add(position); });
-        if (cluster.Box.Low[0] <= cluster.Box.High[0])
+      found.assign(std::min(some, bricks - first), {});
+      parallelFor(static_cast<std::int64_t>(found.size()), 16,
+        [&](std::int64_t begin, std::int64_t end)
         {
-          this->Clusters.push_back(cluster);
-        }
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            this->Find(static_cast<std::uint32_t>(first + i), found[i]);
+          }
+        });
+      for (const std::array<IsovertexCluster, 8>& eighths : found)
+      {
+        std::copy_if(eighths.begin(), eighths.end(), std::back_inserter(this->Clusters),
+          [](const IsovertexCluster& cluster) { return !cluster.Box.IsEmpty(); });
       }
     }
   }
@@ -114,6 +127,18 @@ public:
   }
 
 private:
+  /** Finds the clusters of a brick, some of them empty. */
+  void Find(std::uint32_t brick, std::array<IsovertexCluster, 8>& eighths) const
+  {
+    for (int octant = 0; octant < 8; ++octant)
+    {
+      IsovertexCluster& cluster = eighths[octant];
+      cluster.Brick = brick;
+      cluster.Octant = octant;
+      this->ForEach(cluster, [&](const FinePosition& position) { cluster.Box.Add(position); });
+    }
+  }
+
   const IsodiamondHierarchy& Hierarchy;
   const Finiteness& IsFinite;
   int OnSurface;

@@ -41,7 +41,7 @@ assert alone[0] == alone[3], alone
 Disconnect()
 
 with socket.socket() as free:
-    free.bind(("localhost", 0))
+    free.bind(("127.0.0.1", 0))
     port = free.getsockname()[1]
 # This process may be one of MPI's itself; what it knows of that is not for the server's.
 environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_"))}
@@ -51,7 +51,7 @@ server = subprocess.Popen(
 try:
     while "Accepting connection" not in server.stdout.readline():
         assert server.poll() is None, "the server ended"
-    assert Connect("localhost", port)
+    assert Connect("127.0.0.1", port)
     LoadPlugin(PLUGIN, remote=True)
     LoadPlugin(PLUGIN, remote=False, ns=globals())
     served = counts()
