@@ -16,7 +16,7 @@ namespace
 {
 
 template <typename From, typename To>
-isodiamond::AnySamples View(vtkDataArray* array, const std::array<int, 3>& dimensions)
+isodiamond::AnySamples SamplesAs(vtkDataArray* array, const std::array<int, 3>& dimensions)
 {
   static_assert(sizeof(From) == sizeof(To), "one type under two names");
   return isodiamond::SampleView<To>(static_cast<const To*>(array->GetVoidPointer(0)), dimensions);
@@ -116,10 +116,10 @@ bool ViewSamples(
   switch (array->GetDataType())
   {
     case VTK_FLOAT:
-      samples = View<float, float>(array, dimensions);
+      samples = SamplesAs<float, float>(array, dimensions);
       return true;
     case VTK_DOUBLE:
-      samples = View<double, double>(array, dimensions);
+      samples = SamplesAs<double, double>(array, dimensions);
       return true;
     case VTK_CHAR:
       samples = ViewInteger<char>(array, dimensions);

@@ -1,0 +1,27 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes files that include eight sources each, with compile commands of their own.
+
+Usage: merge-sources.py COMPILE_COMMANDS OUTPUT_DIRECTORY SOURCE_DIRECTORY...
+"""
+import json
+import os
+import sys
+
+commands_file, output, *directories = sys.argv[1:]
+with open(commands_file) as file:
+    commands = json.load(file)
+
+merged = []
+for directory in directories:
+    own = [c for c in commands if os.path.dirname(c["file"]) == os.path.abspath(directory)]
+    for first in range(0, len(own), 8):
+        sources = [c["file"] for c in own[first : first + 8]]
+        name = f"{output}/{len(merged)}.cpp"
+        with open(name, "w") as file:
+            file.writelines(f'#include "{source}"\n' for source in sources)
+        # They share the flags: each directory is one target.
+        command = own[first]["command"].replace(sources[0], name)
+        merged.append({**own[first], "file": name, "command": command})
+with open(f"{output}/compile_commands.json", "w") as file:
+    json.dump(merged, file)
