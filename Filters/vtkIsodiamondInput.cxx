@@ -28,23 +28,23 @@ isodiamond::AnySamples ViewInteger(vtkDataArray* array, const std::array<int, 3>
 {
   if constexpr (sizeof(From) == 1)
   {
-    return std::is_signed_v<From> ? View<From, std::int8_t>(array, dimensions)
-                                  : View<From, std::uint8_t>(array, dimensions);
+    return std::is_signed_v<From> ? SamplesAs<From, std::int8_t>(array, dimensions)
+                                  : SamplesAs<From, std::uint8_t>(array, dimensions);
   }
   else if constexpr (sizeof(From) == 2)
   {
-    return std::is_signed_v<From> ? View<From, std::int16_t>(array, dimensions)
-                                  : View<From, std::uint16_t>(array, dimensions);
+    return std::is_signed_v<From> ? SamplesAs<From, std::int16_t>(array, dimensions)
+                                  : SamplesAs<From, std::uint16_t>(array, dimensions);
   }
   else if constexpr (sizeof(From) == 4)
   {
-    return std::is_signed_v<From> ? View<From, std::int32_t>(array, dimensions)
-                                  : View<From, std::uint32_t>(array, dimensions);
+    return std::is_signed_v<From> ? SamplesAs<From, std::int32_t>(array, dimensions)
+                                  : SamplesAs<From, std::uint32_t>(array, dimensions);
   }
   else
   {
-    return std::is_signed_v<From> ? View<From, std::int64_t>(array, dimensions)
-                                  : View<From, std::uint64_t>(array, dimensions);
+    return std::is_signed_v<From> ? SamplesAs<From, std::int64_t>(array, dimensions)
+                                  : SamplesAs<From, std::uint64_t>(array, dimensions);
   }
 }
 

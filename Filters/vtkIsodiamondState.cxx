@@ -159,7 +159,7 @@ void ReadScalars(Reader& reader, const isodiamond::EncodingHeader& header, State
 
 int Dimension(std::int64_t value)
 {
-  if (value < 0 || value > std::numeric_limits<int>::max())
+  if (value < 2 || value > (1 << isodiamond::Grid::MaximumDepth) + 1)
   {
     throw std::invalid_argument("a dimension is out of range");
   }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 /**
@@ -49,9 +51,14 @@ struct BrickBox
   std::array<int, 3> Count{};
 
   BrickBox() = default;
+  /** @throws std::length_error beyond 2^31 - 1 bricks: they are numbered in 32 bits */
   explicit BrickBox(const std::array<int, 3>& positions)
     : Count{ (positions[0] + 7) / 8, (positions[1] + 7) / 8, (positions[2] + 7) / 8 }
   {
+    if (this->Size() > std::numeric_limits<std::int32_t>::max())
+    {
+      throw std::length_error("The grid is too large: more than 2^31 - 1 bricks of 8x8x8 samples.");
+    }
   }
 
   std::int64_t Size() const

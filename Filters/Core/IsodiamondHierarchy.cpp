@@ -18,6 +18,22 @@ void Require(bool condition, const char* message)
   }
 }
 
+/** The grid of an encoding, if its bricks can be looked up in memory that is in proportion: a
+ *  damaged header must not ask for all there is. */
+Grid CheckedGrid(const EncodingView& encoding)
+{
+  const Grid grid(encoding.Header.Dimensions);
+  std::int64_t bytes = 0; // of the tables from boxes to bricks
+  for (int scale = 0; scale <= grid.Depth(); ++scale)
+  {
+    bytes += BrickBox(grid.Positions(scale)).Size() * sizeof(std::int32_t);
+  }
+  constexpr std::int64_t always = std::int64_t{ 1 } << 30;
+  Require(bytes <= always || bytes / 64 <= encoding.StorageSize(),
+    "the dimensions are too large for what is stored");
+  return grid;
+}
+
 /** The positions of a brick that can hold a diamond of its scale. */
 BrickMask AllowedBits(const Grid& grid, int scale, const Point& origin)
 {
@@ -55,7 +71,7 @@ std::int64_t EncodingView::StorageSize() const
 IsodiamondHierarchy::IsodiamondHierarchy(
   const EncodingView& encoding, const ParallelFor& parallelFor)
   : View(encoding)
-  , TheGrid(encoding.Header.Dimensions)
+  , TheGrid(CheckedGrid(encoding))
   , Set(this->TheGrid)
   , Code(encoding.Header.ErrorScale)
   , InteriorCode(encoding.Header.FieldScale)
@@ -71,6 +87,7 @@ IsodiamondHierarchy::IsodiamondHierarchy(
 
   this->DeriveAllEdges(parallelFor);
   this->CountByKind();
+  this->CheckOrderOnEdges();
   this->CountInsideValues();
   this->FindHighestThresholds();
 }
@@ -113,6 +130,28 @@ void IsodiamondHierarchy::CountByKind()
     "the number of isovertices does not match the signs");
   Require(this->Header().RelevantCount >= this->Count(Kind::Relevant) + this->Count(Kind::Creation),
     "there are more relevant isodiamonds than the header says");
+}
+
+/** Where an edge crosses both surfaces of an interval volume, they are in the order of the signs.
+ */
+void IsodiamondHierarchy::CheckOrderOnEdges() const
+{
+  bool valid = true;
+  for (std::int64_t rank = 0; this->Region().IsVolume() && rank < this->Set.Size(); ++rank)
+  {
+    const std::uint32_t lower = this->Edges(rank);
+    const std::uint32_t upper = this->UpperEdges(rank);
+    const std::uint8_t* const coefficients = this->Isovertices(rank);
+    ForEachBit(lower & upper,
+      [&](int edge)
+      {
+        const std::uint32_t before = (1U << edge) - 1U;
+        const int onLower = coefficients[PopCount(lower & before)];
+        const int onUpper = coefficients[PopCount(lower) + PopCount(upper & before)];
+        valid = valid && (this->Sign(rank) == 0 ? onLower <= onUpper : onUpper <= onLower);
+      });
+  }
+  Require(valid, "the isovertices of an edge are in the wrong order");
 }
 
 /** Where each brick's inside values begin. */

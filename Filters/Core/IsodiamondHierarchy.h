@@ -247,6 +247,7 @@ private:
   void CheckRecords() const;
   void DeriveAllEdges(const ParallelFor& parallelFor);
   void CountByKind();
+  void CheckOrderOnEdges() const;
   void CountInsideValues();
   void FindHighestThresholds();
   int SignAt(const Place& place) const;

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hierarchies of any arrays: refused, or else every query gives a mesh whose cells have points.
+#include "EncodingBytes.h"
+
+#include "Builder.h"
+#include "DiamondMesh.h"
+#include "IntervalExtraction.h"
+#include "SurfaceExtraction.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+using namespace isodiamond;
+
+namespace
+{
+
+/** No tolerance may take long: what is refined is in the arrays, and these are short. */
+constexpr std::int64_t MostPoints = 10'000'000;
+
+void Check(bool condition)
+{
+  if (!condition)
+  {
+    std::abort();
+  }
+}
+
+template <typename Cells>
+void CheckIds(const Cells& connectivity, std::int64_t points)
+{
+  Check(std::all_of(connectivity.begin(), connectivity.end(),
+    [&](std::int32_t id) { return id >= 0 && id < points; }));
+}
+
+void Extract(const IsodiamondHierarchy& hierarchy, const Query& query)
+{
+  const RefinedSet refined(hierarchy, query, SerialFor);
+  if (hierarchy.Region().IsVolume())
+  {
+    const IntervalExtraction extraction(refined, SerialFor);
+    Check(extraction.PointCount() <= MostPoints);
+    std::vector<float> points(3 * extraction.PointCount());
+    std::vector<float> values(extraction.PointCount());
+    std::vector<std::int8_t> surfaces(extraction.PointCount());
+    std::vector<std::int32_t> connectivity(4 * extraction.TetrahedronCount());
+    std::vector<std::int8_t> levels(extraction.TetrahedronCount());
+    extraction.WritePoints(AffineMap(), points.data());
+    extraction.WriteValues(values.data(), surfaces.data());
+    extraction.WriteTetrahedra(false, connectivity.data(), levels.data());
+    CheckIds(connectivity, extraction.PointCount());
+  }
+  else
+  {
+    const SurfaceExtraction extraction(refined, SerialFor);
+    Check(extraction.PointCount() <= MostPoints);
+    std::vector<float> points(3 * extraction.PointCount());
+    std::vector<std::int32_t> connectivity(3 * extraction.TriangleCount());
+    std::vector<std::int8_t> levels(extraction.TriangleCount());
+    extraction.WritePoints(AffineMap(), points.data());
+    extraction.WriteTriangles(false, connectivity.data(), levels.data());
+    CheckIds(connectivity, extraction.PointCount());
+  }
+  ExtractDiamondMesh(refined);
+}
+
+Query RegionQuery(const fuzz::Arrays& arrays, const Grid& grid)
+{
+  const std::array<double, 6>& b = arrays.Region;
+  Query query{ 0.0, arrays.InteriorTolerance };
+  query.Region.emplace(Box{ { b[0], b[1], b[2] }, { b[3], b[4], b[5] } }, grid, AffineMap());
+  query.OutsideTolerance = arrays.Tolerance;
+  return query;
+}
+
+void QueryIsodiamonds(const fuzz::Arrays& arrays)
+{
+  const IsodiamondHierarchy hierarchy(arrays.Isodiamonds, SerialFor);
+  Extract(hierarchy, Query{});
+  Extract(hierarchy, Query{ arrays.Tolerance, arrays.InteriorTolerance });
+  Query seen;
+  seen.View.emplace(Vector{ arrays.Region[0], arrays.Region[1], arrays.Region[2] },
+    std::abs(arrays.Tolerance), AffineMap());
+  Extract(hierarchy, seen);
+  Extract(hierarchy, RegionQuery(arrays, hierarchy.Domain()));
+}
+
+void QueryScalars(const fuzz::Arrays& arrays)
+{
+  const EncodingHeader& header = arrays.Isodiamonds.Header;
+  AnySamples samples = ViewOf(arrays.Samples);
+  Check(SizeOf(samples) < 1'000'000);
+  std::visit(
+    [&](auto& view)
+    {
+      using View = std::decay_t<decltype(view)>;
+      const View shaped(view.Pointer(), header.Dimensions);
+      // Whoever reads an array compares its size with the dimensions.
+      const std::int64_t most = std::numeric_limits<std::int32_t>::max();
+      bool fits = true;
+      for (const int size : header.Dimensions)
+      {
+        fits = fits && size > 0 && size < 1000;
+      }
+      if (!fits || shaped.Size() > most || shaped.Size() != view.Size())
+      {
+        throw std::invalid_argument("dimensions");
+      }
+      view = shaped;
+    },
+    samples);
+  const ScalarHierarchy hierarchy(samples, header.ErrorScale, arrays.Errors.data(),
+    static_cast<std::int64_t>(arrays.Errors.size()), ViewOf(arrays.Minima), ViewOf(arrays.Maxima));
+  for (const Query& query : { Query{}, Query{ arrays.Tolerance, arrays.InteriorTolerance },
+         RegionQuery(arrays, hierarchy.Domain()) })
+  {
+    const Encoding answer =
+      EncodeQuery(hierarchy, header.Region, query, header.ExactIsovertices, SerialFor);
+    Extract(IsodiamondHierarchy(answer, SerialFor), Query{});
+  }
+  BuildIsodiamonds(Model::Minimal, hierarchy, header.Region, SerialFor);
+}
+
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  try
+  {
+    const fuzz::Arrays arrays = fuzz::Read(data, size);
+    if (arrays.Isodiamonds.Header.Kind == Model::HierarchyOfDiamonds)
+    {
+      QueryScalars(arrays);
+    }
+    else
+    {
+      QueryIsodiamonds(arrays);
+    }
+  }
+  catch (const std::logic_error&) // refused
+  {
+  }
+  return 0;
+}

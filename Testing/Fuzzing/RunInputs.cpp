@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs a fuzz target once over the files of folders: any compiler can.
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <vector>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+int main(int argc, char** argv)
+{
+  int count = 0;
+  for (int i = 1; i < argc; ++i)
+  {
+    for (const auto& entry : std::filesystem::directory_iterator(argv[i]))
+    {
+      std::cout << entry.path() << std::endl; // what is last is what failed
+      std::ifstream file(entry.path(), std::ios::binary);
+      const std::vector<char> bytes{ std::istreambuf_iterator<char>(file), {} };
+      LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+      ++count;
+    }
+  }
+  return count > 0 ? 0 : 1;
+}
