@@ -46,11 +46,12 @@ public:
       [&](int number, const HalfPlace& tetrahedron)
       {
         this->There |= 1U << number;
-        for (; this->Count < number; ++this->Count)
+        for (int i = this->Count; i < number; ++i)
         {
-          this->Entries[this->Count].Tetrahedron.Half = nullptr; // is not there
+          this->Entries[i].Tetrahedron.Half = nullptr; // is not there
         }
-        Entry& entry = this->Entries[this->Count++];
+        this->Count = number + 1;
+        Entry& entry = this->Entries[number];
         entry.Tetrahedron = tetrahedron;
         entry.HasOwn = false;
         entry.HasBound = false;

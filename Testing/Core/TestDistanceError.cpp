@@ -100,6 +100,7 @@ double LargestDistance(
   const Positions& points, const Positions& corners, const std::vector<Triangle>& mesh)
 {
   std::vector<reference::SurfaceTriangle> triangles;
+  triangles.reserve(mesh.size());
   for (const Triangle& t : mesh)
   {
     triangles.push_back({ { corners[t[0]], corners[t[1]], corners[t[2]] } });

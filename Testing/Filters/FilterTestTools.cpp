@@ -181,15 +181,17 @@ vtkSmartPointer<vtkRectilinearGrid> Rectilinear(
 
 double UnevenPlace(int axis, int index)
 {
-  switch (axis)
+  if (axis == 0)
   {
-    case 0:
-      return 0.4 * (std::pow(1.06, index) - 1.0) / 0.06;
-    case 1:
-      return 10.0 - 0.5 * index - 0.03 * index * index;
-    default:
-      return 4.8 * (index / 3) + (index % 3 == 0 ? 0.0 : index % 3 == 1 ? 0.4 : 1.6) - 7.0;
+    return 0.4 * (std::pow(1.06, index) - 1.0) / 0.06;
   }
+  if (axis == 1)
+  {
+    return 10.0 - 0.5 * index - 0.03 * index * index;
+  }
+  const int triple = index / 3;
+  const std::array<double, 3> inTriple = { 0.0, 0.4, 1.6 };
+  return 4.8 * triple + inTriple[index % 3] - 7.0;
 }
 
 double LargestDistance(vtkPolyData* from, vtkPolyData* to)

@@ -344,6 +344,7 @@ public:
   std::vector<double> Errors() const
   {
     std::vector<double> errors;
+    errors.reserve(this->Diamonds.Size());
     for (int index = 0; index < this->Diamonds.Size(); ++index)
     {
       errors.push_back(this->ErrorOf(index));
