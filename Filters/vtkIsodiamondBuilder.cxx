@@ -203,7 +203,7 @@ void vtkIsodiamondBuilder::BuildFromImage(
   const isodiamond::Isoregion region = choice.Region();
   const vtkIsodiamond::Volume volume = vtkIsodiamond::ReadVolume(
     image, this->FindInputArray(image), this->CloseBoundary && !region.IsVolume());
-  const isodiamond::AffineMap& world = volume.AffineWorld("A hierarchy");
+  const isodiamond::AffineMap& world = *volume.Place.World.Affine(); // as all images'
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {
     this->WarnWithoutPointArrays();

@@ -12,20 +12,26 @@ namespace vtkIsodiamond
 namespace
 {
 
+/** Whether two worlds, which are not curvilinear, have the same lengths. They may have if not. */
+bool HaveSameLengths(const isodiamond::GridGeometry& a, const isodiamond::GridGeometry& b)
+{
+  const isodiamond::AffineMap* mapA = a.Affine();
+  const isodiamond::AffineMap* mapB = b.Affine();
+  if (!mapA || !mapB)
+  {
+    return a.Axes() && b.Axes() && *a.Axes() == *b.Axes();
+  }
+  return std::equal(mapA->Rows.begin(), mapA->Rows.end(), mapB->Rows.begin(),
+    [](const auto& rowA, const auto& rowB)
+    { return std::equal(rowA.begin(), rowA.begin() + 3, rowB.begin()); });
+}
+
 /** Whether hierarchies built in one way can stand for those built in another. */
 bool AreAlike(const isodiamond::BuildOptions& a, const isodiamond::BuildOptions& b)
 {
-  bool sameLengths = a.Metric == isodiamond::ErrorMetric::Field;
-  if (!sameLengths)
-  {
-    sameLengths = a.PreserveFeatures == b.PreserveFeatures;
-    for (int i = 0; i < 3; ++i)
-    {
-      sameLengths = sameLengths &&
-        std::equal(a.World.Rows[i].begin(), a.World.Rows[i].begin() + 3, b.World.Rows[i].begin());
-    }
-  }
-  return a.Metric == b.Metric && a.ExactIsovertices == b.ExactIsovertices && sameLengths;
+  return a.Metric == b.Metric && a.ExactIsovertices == b.ExactIsovertices &&
+    (a.Metric == isodiamond::ErrorMetric::Field ||
+      (a.PreserveFeatures == b.PreserveFeatures && HaveSameLengths(a.World, b.World)));
 }
 
 }

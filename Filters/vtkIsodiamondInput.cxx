@@ -194,17 +194,6 @@ double LargestTolerance(
   return std::isfinite(length) && length > 0.0 ? DistanceOfInterest * length : 1.0;
 }
 
-const isodiamond::AffineMap& Volume::AffineWorld(const char* whatNeedsIt) const
-{
-  const isodiamond::AffineMap* map = this->Place.World.Affine();
-  if (!map)
-  {
-    throw std::invalid_argument(std::string(whatNeedsIt) +
-      " needs an image or a rectilinear grid of even spacing; on others use the field metric.");
-  }
-  return *map;
-}
-
 Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoundary)
 {
   if (!grid || grid->GetNumberOfPoints() == 0)

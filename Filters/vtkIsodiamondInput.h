@@ -30,9 +30,6 @@ struct Volume
   Geometry Place; ///< of the samples, padding included
   isodiamond::HiddenCells Hidden;
   std::string ArrayName;
-
-  /** The map to the world, if it is affine; else an exception that says what needs one. */
-  const isodiamond::AffineMap& AffineWorld(const char* whatNeedsIt) const;
 };
 
 /** An array and what it is of, as vtkDataObject::FIELD_ASSOCIATION_... says. */

@@ -74,7 +74,8 @@ inline void CheckTolerances(const Query& query)
   }
 }
 
-/** The query in terms of the core. @param world from the grid's index space; affine for a view */
+/** The query in terms of the core. @param world from the grid's index space; for a
+ *  view not that of a curvilinear grid */
 inline isodiamond::Query CoreQuery(
   const Query& query, const isodiamond::Grid& grid, const isodiamond::GridGeometry& world)
 {
@@ -94,7 +95,7 @@ inline isodiamond::Query CoreQuery(
   }
   if (query.View)
   {
-    result.View.emplace(query.View->Position, query.View->TolerancePerDistance, *map);
+    result.View.emplace(query.View->Position, query.View->TolerancePerDistance, world);
   }
   return result;
 }

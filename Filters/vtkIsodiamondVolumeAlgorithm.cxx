@@ -7,6 +7,8 @@
 #include "vtkIsodiamondTask.h"
 #include "vtkIsodiamondThreads.h"
 
+#include "WorldMetric.h"
+
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
@@ -117,11 +119,13 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       {
         throw std::invalid_argument("A view-dependent mesh needs the distance metric.");
       }
+      // Full resolution is the same by either metric: grids without distances have it, too.
+      const isodiamond::GridGeometry& world = volume.Place.World;
       if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
-        (volume.Place.World.Affine() || !query.IsFull()))
+        (world.Affine() || !query.IsFull() || isodiamond::FaultOfMetric(world).empty()))
       {
         options.Metric = isodiamond::ErrorMetric::Distance;
-        options.World = volume.AffineWorld("The distance metric");
+        options.World = world;
       }
       vtkIsodiamond::RunThreaded(this->NumberOfThreads,
         [&]

@@ -10,8 +10,9 @@
  * and so do blocks, time steps, isovalues and isoranges that it has seen before, while they are
  * kept (CacheSize).
  *
- * Blanked cells, cells at blanked points and ghost cells count as absent. On grids without even
- * spacing tolerances are by the field metric; full resolution needs no metric.
+ * Blanked cells, cells at blanked points and ghost cells count as absent. Distances are the world's
+ * on images and rectilinear grids, however these are spaced; on structured grids tolerances are by
+ * the field metric. Full resolution needs no metric.
  *
  * The whole extent of the input is requested. In parallel the first piece holds the mesh, the
  * others are empty.

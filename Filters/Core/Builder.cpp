@@ -208,6 +208,10 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
       options.Report(phase, begin, end);
     }
   };
+  // First of all: it throws if there are no distances.
+  const double errorScale = options.Metric == ErrorMetric::Field
+    ? source.FieldScale
+    : DistanceErrorScale(grid, options.World);
   const bool hides = options.Hidden != nullptr && options.Hidden->Any();
   // What lies in hidden cells can be left out at full resolution only, deep inside too.
   const bool refineInterior = (options.RefineInterior || hides) && region.IsVolume();
@@ -226,9 +230,7 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
   header.Region = region;
   header.Metric = options.Metric;
   header.FieldScale = source.FieldScale;
-  header.ErrorScale = options.Metric == ErrorMetric::Field
-    ? source.FieldScale
-    : DistanceErrorScale(grid, options.World);
+  header.ErrorScale = errorScale;
   header.ExactIsovertices = options.ExactIsovertices;
   header.ActiveCount = kinds.Active.Size();
   header.CreationCount = kinds.Creation.Size();

@@ -2,7 +2,7 @@
 #ifndef isodiamond_Builder_h
 #define isodiamond_Builder_h
 
-#include "AffineMap.h"
+#include "GridGeometry.h"
 #include "HiddenCells.h"
 #include "IsodiamondHierarchy.h"
 #include "Query.h"
@@ -23,8 +23,8 @@ struct BuildOptions
   /** Of an interval volume: keep every diamond that has all vertices inside, with its field error,
    *  so that queries can have an interior tolerance. */
   bool RefineInterior = false;
-  /** From index space to the world, where distances are measured. */
-  AffineMap World = AffineMap();
+  /** From index space to the world, where distances are measured; not of a curvilinear grid. */
+  GridGeometry World = AffineMap();
   /** Cells that count as absent, if there are any. What carries something and touches one is always
    *  subdivided, so that whoever has the mesh can leave out what lies in it. */
   const HiddenCells* Hidden = nullptr;

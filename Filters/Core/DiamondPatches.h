@@ -20,13 +20,14 @@ namespace isodiamond
  * not subdivided: those of its tetrahedra, and those of the coarser ones that stand in for them.
  * Each is made when it is first asked for; the object is used for one diamond after the other.
  */
+template <typename Metric>
 class DiamondPatches
 {
 public:
-  DiamondPatches(const IsodiamondHierarchy& hierarchy, const WorldMetric& metric, int surface)
+  DiamondPatches(const IsodiamondHierarchy& hierarchy, const Metric& metric, int surface)
     : Hierarchy(hierarchy)
     , Neighbourhood(hierarchy)
-    , Metric(metric)
+    , InWorld(metric)
     , InBounds(metric)
     , Surface(surface)
   {
@@ -45,11 +46,12 @@ public:
       [&](int number, const HalfPlace& tetrahedron)
       {
         this->There |= 1U << number;
-        for (; this->Count < number; ++this->Count)
+        for (int i = this->Count; i < number; ++i)
         {
-          this->Entries[this->Count].Tetrahedron.Half = nullptr; // is not there
+          this->Entries[i].Tetrahedron.Half = nullptr; // is not there
         }
-        Entry& entry = this->Entries[this->Count++];
+        this->Count = number + 1;
+        Entry& entry = this->Entries[number];
         entry.Tetrahedron = tetrahedron;
         entry.HasOwn = false;
         entry.HasBound = false;
@@ -92,7 +94,7 @@ public:
       {
         if (this->IsCrossed(edge))
         {
-          crossings[count++] = this->Metric(this->Corner(edge));
+          crossings[count++] = this->InWorld(this->Corner(edge));
         }
       });
     if (count == 0)
@@ -108,7 +110,7 @@ public:
   }
 
   /** Bounds of the distances to the patch of a tetrahedron; null if it has none. */
-  const PatchBound* Bound(int tetrahedron)
+  const PatchBound<Metric>* Bound(int tetrahedron)
   {
     Entry& entry = this->Entries[tetrahedron];
     if (!entry.HasBound)
@@ -125,7 +127,7 @@ public:
     }
     return entry.IsEmpty ? nullptr : &entry.Bound;
   }
-  const BoundMetric& MetricOfBounds() const { return this->InBounds; }
+  const BoundMetric<Metric>& MetricOfBounds() const { return this->InBounds; }
 
   /** The squared distance to the patch of a tetrahedron; infinite if it has none. */
   double SquaredTo(int tetrahedron, const Vector& point)
@@ -173,7 +175,7 @@ private:
     HalfPlace Coarsest;   ///< the last of Coarser, at first the tetrahedron itself
     bool HasCoarsest = false;
     int CoarserCount = 0;
-    PatchBound Bound;
+    PatchBound<Metric> Bound;
     PatchDistance Own;
     std::array<PatchDistance, MostCoarser> Coarser; ///< what can be in its place
   };
@@ -191,7 +193,7 @@ private:
       const std::array<std::uint8_t, 6>& edges =
         this->Edges->OfTetrahedron[&entry - this->Entries.data()];
       entry.Own.Reset(this->Patch(entry.Tetrahedron),
-        [&](int edge) { return this->Metric(this->Corner(edges[edge])); });
+        [&](int edge) { return this->InWorld(this->Corner(edges[edge])); });
     }
     return entry.Own;
   }
@@ -246,7 +248,8 @@ private:
   {
     const OwnedEdge owned = OwnedEdgeOf(tetrahedron, edge);
     const auto rank = static_cast<std::uint32_t>(this->Hierarchy.Diamonds().Rank(owned.Owner));
-    return this->Metric(IsovertexAt(this->Hierarchy, owned.Owner, rank, owned.Edge, this->Surface));
+    return this->InWorld(
+      IsovertexAt(this->Hierarchy, owned.Owner, rank, owned.Edge, this->Surface));
   }
 
   /** To the farthest of what can be in a tetrahedron's place; or some that is not nearer than
@@ -276,8 +279,8 @@ private:
 
   const IsodiamondHierarchy& Hierarchy;
   SpineNeighbourhood Neighbourhood;
-  const WorldMetric& Metric;
-  BoundMetric InBounds;
+  const Metric& InWorld;
+  BoundMetric<Metric> InBounds;
   int Surface;
   Place Diamond;
   int Count = 0;

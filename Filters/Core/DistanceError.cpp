@@ -5,24 +5,24 @@
 #include "FinestDistances.h"
 
 #include <cmath>
-#include <stdexcept>
+#include <variant>
 
 namespace isodiamond
 {
 
-double DistanceErrorScale(const Grid& grid, const AffineMap& world)
+double DistanceErrorScale(const Grid& grid, const GridGeometry& world)
 {
-  const WorldMetric metric(world);
-  if (!metric.IsValid())
-  {
-    throw std::invalid_argument("Distances need a spacing that is neither 0 nor infinite.");
-  }
-  const Vector diagonal = metric(grid.Last(0), grid.Last(1), grid.Last(2));
+  const Point last = { grid.Last(0), grid.Last(1), grid.Last(2) };
+  const Vector diagonal = std::visit(
+    [&](const auto& metric) {
+      return metric.Between({ 0, 0, 0 }, last);
+    },
+    WorldMetricOf(world));
   return ErrorCode(std::sqrt(Dot(diagonal, diagonal))).Scale();
 }
 
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
-  const AnySamples& samples, const AffineMap& world, bool preserveFeatures,
+  const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
   const ParallelFor& parallelFor)
 {
   RisingErrors errors(
@@ -36,8 +36,13 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
         continue; // there are none
       }
       const IsovertexClusters clusters(relevant, errors.IsFinite(), surface, ends, parallelFor);
-      MeasureCoarse(clusters, errors, parallelFor);
-      MeasureFinest(clusters, errors, parallelFor);
+      std::visit(
+        [&](const auto& metric)
+        {
+          MeasureCoarse(clusters, metric, errors, parallelFor);
+          MeasureFinest(clusters, metric, errors, parallelFor);
+        },
+        errors.Metric());
     }
   }
   return errors.Result();

@@ -2,7 +2,7 @@
 #ifndef isodiamond_DistanceError_h
 #define isodiamond_DistanceError_h
 
-#include "AffineMap.h"
+#include "GridGeometry.h"
 #include "IsodiamondHierarchy.h"
 #include "Samples.h"
 
@@ -33,8 +33,8 @@ namespace isodiamond
 {
 
 /** The scale of distance error codes: the diagonal of the grid in the world.
- *  @throws std::invalid_argument if the world has no volume */
-double DistanceErrorScale(const Grid& grid, const AffineMap& world);
+ *  @throws std::invalid_argument if there are no distances in the world: FaultOfMetric() */
+double DistanceErrorScale(const Grid& grid, const GridGeometry& world);
 
 /**
  * The distance errors of all diamonds.
@@ -47,7 +47,7 @@ double DistanceErrorScale(const Grid& grid, const AffineMap& world);
  * @return codes by rank, scaled by DistanceErrorScale(); 0 without an isovertex in the domain
  */
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
-  const AnySamples& samples, const AffineMap& world, bool preserveFeatures,
+  const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
   const ParallelFor& parallelFor);
 
 }

@@ -20,12 +20,14 @@ namespace isodiamond
  * are proposed, with the tetrahedron that holds them; few of those need to be compared with more
  * than its own patch. Used for one diamond after the other, by one thread.
  */
+template <typename Metric>
 class FarthestSearch
 {
 public:
-  FarthestSearch(const RisingErrors& errors, int surface)
-    : Metric(errors.Metric())
-    , Patches(errors.Hierarchy(), errors.Metric(), surface)
+  /** The hierarchy and the metric must outlive it. */
+  FarthestSearch(const IsodiamondHierarchy& hierarchy, const Metric& metric, int surface)
+    : InWorld(metric)
+    , Patches(hierarchy, metric, surface)
   {
   }
 
@@ -49,13 +51,13 @@ public:
     }
     farthest.IsAny = true;
     const float known = this->Patches.MetricOfBounds().Squared(farthest.Squared);
-    const PatchBound* bound = this->Patches.Bound(tetrahedron);
+    const PatchBound<Metric>* bound = this->Patches.Bound(tetrahedron);
     Candidate* next = this->Room(count);
-    std::array<float, PatchBound::Width> bounds;
+    std::array<float, Width> bounds;
     bounds.fill(std::numeric_limits<float>::infinity());
-    for (std::size_t first = 0; first < count; first += PatchBound::Width)
+    for (std::size_t first = 0; first < count; first += Width)
     {
-      const int some = static_cast<int>(std::min<std::size_t>(count - first, PatchBound::Width));
+      const int some = static_cast<int>(std::min<std::size_t>(count - first, Width));
       if (bound != nullptr)
       {
         bounds = bound->Squared(positions + first, some);
@@ -80,7 +82,7 @@ public:
       return;
     }
     farthest.IsAny = true;
-    const double squared = this->Patches.BoundToBorder(around, this->Metric(position));
+    const double squared = this->Patches.BoundToBorder(around, this->InWorld(position));
     const float bound = 1.01F * this->Patches.MetricOfBounds().Squared(squared) + 1e-20F;
     if (!(bound <= this->Patches.MetricOfBounds().Squared(farthest.Squared)))
     {
@@ -119,28 +121,18 @@ public:
   bool IsWithin(int tetrahedron, const FineBox& box, double squaredLimit)
   {
     FinePosition centre;
-    std::array<double, 3> half;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const int size = box.High[axis] - box.Low[axis];
-      centre[axis] = box.Low[axis] + size / 2;
-      const int longer = size - size / 2;
-      half[axis] = 1.0 / FineUnits * longer;
-    }
-    double squaredRadius = 0.0;
-    for (int corner = 0; corner < 4; ++corner)
-    {
-      const Vector reach = this->Metric(
-        (corner & 1) != 0 ? -half[0] : half[0], (corner & 2) != 0 ? -half[1] : half[1], half[2]);
-      squaredRadius = std::max(squaredRadius, Dot(reach, reach));
+      centre[axis] = box.Low[axis] + (box.High[axis] - box.Low[axis]) / 2;
     }
     const double limit = std::sqrt(squaredLimit) / (DistanceMargin * DistanceMargin) -
-      std::sqrt(squaredRadius) * DistanceMargin;
+      std::sqrt(this->InWorld.SquaredRadius(box, centre)) * DistanceMargin -
+      this->InWorld.Rounding();
     if (limit <= 0.0)
     {
       return false;
     }
-    const Vector point = this->Metric(centre);
+    const Vector point = this->InWorld(centre);
     const double own = this->Patches.SquaredTo(tetrahedron, point);
     const double enough = limit * limit;
     return own <= enough ||
@@ -148,6 +140,8 @@ public:
   }
 
 private:
+  static constexpr int Width = PatchBound<Metric>::Width;
+
   struct Candidate
   {
     float Bound = 0.0F;           ///< of the squared distance to the tetrahedron's own patch
@@ -168,7 +162,7 @@ private:
   /** Raises the farthest distance to a candidate's, that to the nearest patch. */
   void Measure(const Candidate& candidate, Farthest& farthest)
   {
-    const Vector point = this->Metric(candidate.Position);
+    const Vector point = this->InWorld(candidate.Position);
     ForEachBit(candidate.Tetrahedra,
       [&](int tetrahedron)
       {
@@ -181,8 +175,8 @@ private:
       });
   }
 
-  const WorldMetric& Metric;
-  DiamondPatches Patches;
+  const Metric& InWorld;
+  DiamondPatches<Metric> Patches;
   std::vector<Candidate> Candidates; ///< the first CandidateCount; memory is kept
   std::size_t CandidateCount = 0;
 };

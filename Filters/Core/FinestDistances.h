@@ -2,17 +2,169 @@
 #ifndef isodiamond_FinestDistances_h
 #define isodiamond_FinestDistances_h
 
+#include "Bisection.h"
+#include "FarthestSearch.h"
+#include "FinestDomain.h"
 #include "IsovertexClusters.h"
 #include "Parallel.h"
 #include "RisingErrors.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
 
 namespace isodiamond
 {
 
 /** Raises the distance errors of the diamonds of scale 0, each by itself: a table tells which edges
  *  of full resolution lie in which of its tetrahedra. */
-void MeasureFinest(
-  const IsovertexClusters& clusters, RisingErrors& errors, const ParallelFor& parallelFor);
+template <typename Metric>
+class FinestDistances
+{
+public:
+  static void Run(const IsovertexClusters& clusters, const Metric& metric, RisingErrors& errors,
+    const ParallelFor& parallelFor)
+  {
+    if (clusters.All().empty())
+    {
+      return;
+    }
+    const std::vector<Brick>& bricks = errors.Hierarchy().Diamonds().Level(0).Bricks;
+    parallelFor(static_cast<std::int64_t>(bricks.size()), 16,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        FinestDistances some(clusters, metric, errors);
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          some.MeasureBrick(bricks[i]);
+        }
+      });
+  }
+
+private:
+  FinestDistances(const IsovertexClusters& clusters, const Metric& metric, RisingErrors& errors)
+    : Clusters(clusters)
+    , Errors(errors)
+    , Hierarchy(errors.Hierarchy())
+    , Search(errors.Hierarchy(), metric, clusters.Surface())
+  {
+  }
+
+  void MeasureBrick(const Brick& brick)
+  {
+    const DiamondSet& set = this->Hierarchy.Diamonds();
+    const BrickLevel& level = set.Level(0);
+    const BrickWindow window(level, level.Box.Origin(brick.BoxIndex));
+    set.ForEachInBrick(0, brick,
+      [&](const Place& diamond, std::uint32_t rank)
+      {
+        this->Located.clear();
+        for (const FinestDomain::Owner& owner : FinestDomainOf(diamond.Position).Owners)
+        {
+          // The isovertices of older owners are corners of the patches: at a distance of 0.
+          if (!owner.IsOlder || this->Clusters.AlwaysSubdivide())
+          {
+            this->Locate(window, diamond, owner);
+          }
+        }
+        if (!this->Located.empty())
+        {
+          this->Measure(diamond, rank);
+        }
+      });
+  }
+
+  /** An isovertex in the domain. */
+  struct LocatedIsovertex
+  {
+    const FinestDomain::Edge* Edge = nullptr; ///< that it lies on
+    FinePosition Position{};
+  };
+
+  /** Finds the isovertices on the edges of one owner in the domain of a diamond of scale 0. */
+  void Locate(const BrickWindow& window, const Place& diamond, const FinestDomain::Owner& owner)
+  {
+    const Place place{ 0, diamond.Position + owner.Offset };
+    const std::int64_t found = window.Rank(place.Position);
+    if (found == DiamondSet::None)
+    {
+      return;
+    }
+    const auto rank = static_cast<std::uint32_t>(found);
+    const std::uint32_t crossed = owner.EdgeMask &
+      (this->Clusters.Surface() == 0 ? this->Hierarchy.Edges(rank)
+                                     : this->Hierarchy.UpperEdges(rank));
+    for (const FinestDomain::Edge& edge : owner.Edges)
+    {
+      if (((crossed >> edge.OwnerEdge) & 1U) != 0 && this->Clusters.IsWanted(place, edge.OwnerEdge))
+      {
+        this->Located.push_back({ &edge,
+          IsovertexAt(this->Hierarchy, place, rank, edge.OwnerEdge, this->Clusters.Surface()) });
+      }
+    }
+  }
+
+  void Measure(const Place& diamond, std::uint32_t rank)
+  {
+    if (this->Errors.IsAlways(rank))
+    {
+      return;
+    }
+    if (this->Clusters.AlwaysSubdivide() || this->Errors.HasNoInterpolant(diamond))
+    {
+      if (this->IsAnyInGrid(diamond))
+      {
+        this->Errors.RaiseToAlways(rank);
+      }
+      return;
+    }
+    this->Search.Reset(diamond);
+    this->Errors.RaiseToFarthest(diamond, rank,
+      [&](Farthest& farthest)
+      {
+        for (const LocatedIsovertex& isovertex : this->Located)
+        {
+          this->Search.Propose(
+            isovertex.Edge->Tetrahedra, isovertex.Edge->Around, isovertex.Position, farthest);
+        }
+        this->Search.Decide(farthest);
+      });
+  }
+
+  /** Whether a tetrahedron in the grid holds one of the isovertices. */
+  bool IsAnyInGrid(const Place& diamond) const
+  {
+    std::uint32_t holders = 0;
+    for (const LocatedIsovertex& isovertex : this->Located)
+    {
+      holders |= isovertex.Edge->Tetrahedra;
+    }
+    bool isAny = false;
+    SpineNeighbourhood(this->Hierarchy)
+      .ForEachTetrahedron(diamond, false,
+        [&](int number, const HalfPlace& tetrahedron)
+        {
+          isAny = isAny ||
+            (((holders >> number) & 1U) != 0 && IsInGrid(this->Hierarchy.Domain(), tetrahedron));
+        });
+    return isAny;
+  }
+
+  const IsovertexClusters& Clusters;
+  RisingErrors& Errors;
+  const IsodiamondHierarchy& Hierarchy;
+  FarthestSearch<Metric> Search;
+  std::vector<LocatedIsovertex> Located;
+};
+
+///@{
+/** For each metric in a file of its own: of two in one, compilers would inline less, and the time
+ * is spent in small functions. */
+void MeasureFinest(const IsovertexClusters& clusters, const AffineMetric& metric,
+  RisingErrors& errors, const ParallelFor& parallelFor);
+void MeasureFinest(const IsovertexClusters& clusters, const AxesMetric& metric,
+  RisingErrors& errors, const ParallelFor& parallelFor);
+///@}
 
 }
 

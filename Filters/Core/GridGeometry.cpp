@@ -7,6 +7,25 @@
 
 namespace isodiamond
 {
+namespace
+{
+
+/** Each coordinate depends on the index on its own axis only, rounding included. */
+Vector AlongAxes(const AxisCoordinates& coordinates, const CellPosition& position)
+{
+  Vector along{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* from = coordinates[axis].data() + position.Cell[axis];
+    const double fraction = position.Fraction[axis];
+    // What has no weight does not count, even if it is no number.
+    along[axis] = (fraction != 1.0 ? (1.0 - fraction) * from[0] : 0.0) +
+      (fraction != 0.0 ? fraction * from[1] : 0.0);
+  }
+  return along;
+}
+
+}
 
 std::array<int, 3> GridGeometry::Dimensions() const
 {
@@ -44,17 +63,22 @@ Vector GridGeometry::operator()(const Vector& index) const
     return (*map)(index[0], index[1], index[2]);
   }
   const double shift = this->Shift;
+  const CellPosition cell(
+    { index[0] - shift, index[1] - shift, index[2] - shift }, this->Dimensions());
+  if (const AxisCoordinates* axes = this->Axes())
+  {
+    return AlongAxes(*axes, cell);
+  }
   Vector position{};
-  CellPosition({ index[0] - shift, index[1] - shift, index[2] - shift }, this->Dimensions())
-    .ForEachCorner(
-      [&](const Point& sample, double weight)
+  cell.ForEachCorner(
+    [&](const Point& sample, double weight)
+    {
+      const Vector corner = this->SampleAt(sample);
+      for (int axis = 0; axis < 3; ++axis)
       {
-        const Vector corner = this->SampleAt(sample);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          position[axis] += weight * corner[axis];
-        }
-      });
+        position[axis] += weight * corner[axis];
+      }
+    });
   return position;
 }
 

@@ -29,8 +29,8 @@ struct SamplePositions
  * by a position for each.
  *
  * Between samples positions are interpolated trilinearly, so a mesh without cracks in index space
- * has none in the world; beyond the grid they are extrapolated from the outermost cells. Only an
- * affine map keeps what is straight straight: distances (DistanceError.h) need one.
+ * has none in the world; beyond the grid they are extrapolated from the outermost cells. The
+ * distances of WorldMetric.h need an affine map, or coordinates on each axis.
  */
 class GridGeometry
 {
@@ -51,8 +51,11 @@ public:
   {
   }
 
-  /** The affine map, if it is one. */
+  ///@{
+  /** The affine map, or the coordinates on each axis, if it is one or these. */
   const AffineMap* Affine() const { return std::get_if<AffineMap>(&this->Map); }
+  const AxisCoordinates* Axes() const { return std::get_if<AxisCoordinates>(&this->Map); }
+  ///@}
 
   /** The world position of one in index space. */
   Vector operator()(const Vector& index) const;

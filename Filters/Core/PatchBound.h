@@ -18,40 +18,90 @@ namespace isodiamond
  * Lengths for bounds: the world's in numbers of 32 bits, in a unit that is about one step of the
  * lattice, so that their squares neither vanish nor overflow.
  */
+template <typename Metric>
 class BoundMetric
 {
 public:
-  explicit BoundMetric(const WorldMetric& metric)
+  /** @param metric that must outlive it */
+  explicit BoundMetric(const Metric& metric)
+    : World(metric)
+    , PerUnit(1.0 / metric.TypicalStep())
+    , PerSquaredUnit(1.0 / (metric.TypicalStep() * metric.TypicalStep()))
+    , AbsoluteError(static_cast<float>(metric.Rounding() / metric.TypicalStep()))
   {
-    const std::array<Vector, 3> columns = { metric(1.0, 0.0, 0.0), metric(0.0, 1.0, 0.0),
-      metric(0.0, 0.0, 1.0) };
-    const double unit = std::max({ columns[0][0], columns[1][1], columns[2][2] });
-    this->PerSquaredUnit = 1.0 / (unit * unit);
-    for (int axis = 0; axis < 3; ++axis)
+    if constexpr (Metric::IsLinear)
     {
-      for (int row = 0; row < 3; ++row)
+      this->SetFactor(metric.Factor(), metric.TypicalStep());
+    }
+    else
+    {
+      this->Factor = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+      this->RelativeError = LeastRelativeError;
+    }
+  }
+
+  /** Offsets of positions from another one: of the lattice, or lengths where these are not linear
+   *  in the former. Factor makes lengths of either. */
+  void Offsets(const FinePosition& origin, const FinePosition* positions, int count, float* x,
+    float* y, float* z) const
+  {
+    if constexpr (Metric::IsLinear)
+    {
+      for (int i = 0; i < count; ++i)
       {
-        this->Factor[row][axis] = static_cast<float>(columns[axis][row] / unit / FineUnits);
+        const FinePosition& position = positions[i];
+        x[i] = static_cast<float>(position[0] - origin[0]);
+        y[i] = static_cast<float>(position[1] - origin[1]);
+        z[i] = static_cast<float>(position[2] - origin[2]);
       }
     }
-    // How much longer than their sum its parts along the axes can be.
-    const double shear = std::abs(columns[1][0]) / columns[1][1] +
-      (std::abs(columns[2][0]) + std::abs(columns[2][1])) / columns[2][2];
-    const double condition = (1.0 + 2.0 * shear) * (1.0 + 2.0 * shear);
-    this->RelativeError = condition < 1000.0 ? static_cast<float>(4e-6 * condition)
-                                             : std::numeric_limits<float>::infinity();
+    else
+    {
+      const Vector start = this->World(origin);
+      for (int i = 0; i < count; ++i)
+      {
+        const Vector offset = this->PerUnit * (this->World(positions[i]) - start);
+        x[i] = static_cast<float>(offset[0]);
+        y[i] = static_cast<float>(offset[1]);
+        z[i] = static_cast<float>(offset[2]);
+      }
+    }
   }
 
   /** A squared length of the world in squared units. */
   float Squared(double squared) const { return static_cast<float>(squared * this->PerSquaredUnit); }
 
-  /** Upper triangular, from fine positions. */
-  std::array<std::array<float, 3>, 3> Factor{};
-  /** More than what rounding changes in sums of a few lengths, relative to these. */
-  float RelativeError = 0.0F;
-
 private:
-  double PerSquaredUnit = 1.0;
+  static constexpr float LeastRelativeError = 4e-6F;
+
+  void SetFactor(const std::array<std::array<double, 3>, 3>& factor, double unit)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (int row = 0; row < 3; ++row)
+      {
+        this->Factor[row][axis] = static_cast<float>(factor[row][axis] / unit / FineUnits);
+      }
+    }
+    // How much longer than their sum its parts along the axes can be.
+    const double shear = std::abs(factor[0][1]) / factor[1][1] +
+      (std::abs(factor[0][2]) + std::abs(factor[1][2])) / factor[2][2];
+    const double condition = (1.0 + 2.0 * shear) * (1.0 + 2.0 * shear);
+    this->RelativeError = condition < 1000.0 ? static_cast<float>(4e-6 * condition)
+                                             : std::numeric_limits<float>::infinity();
+  }
+
+  const Metric& World;
+  double PerUnit;
+  double PerSquaredUnit;
+
+public:
+  /** Upper triangular. */
+  std::array<std::array<float, 3>, 3> Factor{};
+  /** More than what rounding changes in sums of a few lengths, relative to these; and whatever
+   *  these are. */
+  float RelativeError = 0.0F;
+  float AbsoluteError;
 };
 
 /**
@@ -61,6 +111,7 @@ private:
  * sides of a triangle it is the nearest. That takes no decisions, only short loops over numbers of
  * 32 bits, which compilers make vector instructions of.
  */
+template <typename Metric>
 class PatchBound
 {
 public:
@@ -69,9 +120,9 @@ public:
   /** @param cornerAt gives the isovertex on an edge of the patch's half-tetrahedron
    *  @pre the patch is not empty */
   template <typename CornerAt>
-  void Reset(const BoundMetric& metric, const SurfacePatch& patch, CornerAt&& cornerAt)
+  void Reset(const BoundMetric<Metric>& metric, const SurfacePatch& patch, CornerAt&& cornerAt)
   {
-    this->Metric = &metric;
+    this->InBounds = &metric;
     this->Origin = cornerAt(patch.Triangles[0][0]);
     this->Count = patch.TriangleCount;
     float extent = 0.0F;
@@ -90,7 +141,7 @@ public:
       extent = std::max({ extent, triangle.Extent(), Length(triangle.Start) });
     }
     // (a + b)^2 <= 1.01 a^2 + 101 b^2; and what is lost where numbers are too small.
-    const float error = metric.RelativeError * extent;
+    const float error = metric.RelativeError * extent + metric.AbsoluteError;
     this->Slack = 101.0F * error * error + 1e-30F;
   }
 
@@ -104,14 +155,8 @@ public:
     x.fill(0.0F);
     y.fill(0.0F);
     z.fill(0.0F);
-    for (int i = 0; i < count; ++i)
-    {
-      const FinePosition& position = positions[i];
-      x[i] = static_cast<float>(position[0] - this->Origin[0]);
-      y[i] = static_cast<float>(position[1] - this->Origin[1]);
-      z[i] = static_cast<float>(position[2] - this->Origin[2]);
-    }
-    const auto& f = this->Metric->Factor;
+    this->InBounds->Offsets(this->Origin, positions, count, x.data(), y.data(), z.data());
+    const auto& f = this->InBounds->Factor;
     for (int i = 0; i < Width; ++i)
     {
       x[i] = f[0][0] * x[i] + f[0][1] * y[i] + f[0][2] * z[i];
@@ -209,14 +254,15 @@ private:
 
   Lengths Place(const FinePosition& position) const
   {
-    const auto x = static_cast<float>(position[0] - this->Origin[0]);
-    const auto y = static_cast<float>(position[1] - this->Origin[1]);
-    const auto z = static_cast<float>(position[2] - this->Origin[2]);
-    const auto& f = this->Metric->Factor;
+    float x = 0.0F;
+    float y = 0.0F;
+    float z = 0.0F;
+    this->InBounds->Offsets(this->Origin, &position, 1, &x, &y, &z);
+    const auto& f = this->InBounds->Factor;
     return { f[0][0] * x + f[0][1] * y + f[0][2] * z, f[1][1] * y + f[1][2] * z, f[2][2] * z };
   }
 
-  const BoundMetric* Metric = nullptr;
+  const BoundMetric<Metric>* InBounds = nullptr;
   FinePosition Origin{};
   int Count = 0;
   std::array<Triangle, 2> Triangles;

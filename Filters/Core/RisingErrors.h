@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <variant>
 #include <vector>
 
 namespace isodiamond
@@ -33,12 +34,12 @@ struct Farthest
 class RisingErrors
 {
 public:
-  /** Hierarchy and samples must outlive it. */
+  /** Hierarchy and samples must outlive it. @throws std::invalid_argument without distances */
   RisingErrors(const IsodiamondHierarchy& hierarchy, const AnySamples& samples,
-    const AffineMap& world, double scale, bool preserveFeatures)
+    const GridGeometry& world, double scale, bool preserveFeatures)
     : Source(hierarchy)
     , Finite(samples)
-    , InWorld(world)
+    , InWorld(WorldMetricOf(world))
     , Code(scale)
     , PreserveFeatures(preserveFeatures)
     , Codes(hierarchy.Diamonds().Size())
@@ -78,7 +79,8 @@ public:
     find(farthest);
     if (farthest.Squared == std::numeric_limits<double>::infinity() && !this->PreserveFeatures)
     {
-      farthest.Squared = this->SquaredDiameter(diamond);
+      farthest.Squared = std::visit(
+        [&](const auto& metric) { return this->SquaredDiameter(metric, diamond); }, this->InWorld);
     }
     if (farthest.IsAny && (farthest.Squared > known * known || code == 0))
     {
@@ -99,15 +101,17 @@ private:
     return finite;
   }
 
-  double SquaredDiameter(const Place& diamond) const
+  template <typename Metric>
+  double SquaredDiameter(const Metric& metric, const Place& diamond) const
   {
     const TypeTable& shape = ShapeOf(diamond.Position);
     const std::uint32_t vertices = SampledVertices(this->Source.Domain(), diamond, shape);
     double largest = 0.0;
+    const auto vertexAt = [&](int i)
+    { return (1 << diamond.Scale) * (diamond.Position + shape.Offsets[i]); };
     const auto measure = [&](int a, int b)
     {
-      const Point between = (1 << diamond.Scale) * (shape.Offsets[a] + -1 * shape.Offsets[b]);
-      const Vector vector = this->InWorld(between[0], between[1], between[2]);
+      const Vector vector = metric.Between(vertexAt(b), vertexAt(a));
       largest = std::max(largest, Dot(vector, vector));
     };
     ForEachBit(vertices, [&](int a) { ForEachBit(vertices, [&](int b) { measure(a, b); }); });

@@ -2,8 +2,8 @@
 #ifndef isodiamond_Viewpoint_h
 #define isodiamond_Viewpoint_h
 
-#include "AffineMap.h"
 #include "DiamondSet.h"
+#include "GridGeometry.h"
 #include "Vector.h"
 
 #include <algorithm>
@@ -15,16 +15,17 @@ namespace isodiamond
 
 /**
  * The viewpoint of a query: the tolerance grows with the distance from it, as the size of a pixel
- * does in the world. A diamond has the tolerance of a ball around it at the ball's nearest point,
- * so everywhere in it the error in pixels is at most the one that is tolerated; around the
- * viewpoint the mesh is of full resolution.
+ * does in the world. A diamond has the tolerance at the nearest point of a ball around it, or where
+ * lattice steps differ in length, of the box around it: so everywhere in it the error in pixels is
+ * at most the one that is tolerated; around the viewpoint the mesh is of full resolution.
  */
 class Viewpoint
 {
 public:
   /** @param tolerancePerDistance what is tolerated at distance 1, at least 0
+   *  @param world not that of a curvilinear grid
    *  @throws std::invalid_argument if something is not a finite number */
-  Viewpoint(const Vector& position, double tolerancePerDistance, const AffineMap& world)
+  Viewpoint(const Vector& position, double tolerancePerDistance, const GridGeometry& world)
     : Position(position)
     , TolerancePerDistance(tolerancePerDistance)
     , World(world)
@@ -33,13 +34,12 @@ public:
     {
       throw std::invalid_argument("The viewpoint or its tolerance is not a finite number.");
     }
-    const Vector origin = world(0.0, 0.0, 0.0);
+    const Vector origin = world({ 0.0, 0.0, 0.0 });
     for (const double y : { -1.0, 1.0 })
     {
       for (const double z : { -1.0, 1.0 })
       {
-        this->CornerLength =
-          std::max(this->CornerLength, LengthOf(this->World(1.0, y, z) - origin));
+        this->CornerLength = std::max(this->CornerLength, LengthOf(world({ 1.0, y, z }) - origin));
       }
     }
   }
@@ -79,19 +79,36 @@ private:
 
   double DistanceOf(const Vector& index) const
   {
-    return LengthOf(this->World(index[0], index[1], index[2]) - this->Position);
+    return LengthOf(this->World(index) - this->Position);
   }
 
-  /** At the nearest point of the ball around a cube of a half width. */
+  /** At the nearest point of the ball around a cube of a half width, or of the cube. */
   double NearestIn(const Vector& centre, double half) const
   {
-    return this->TolerancePerDistance *
-      std::max(0.0, this->DistanceOf(centre) - half * this->CornerLength);
+    const double distance = this->World.Axes() != nullptr
+      ? this->DistanceOfBox(centre, half)
+      : std::max(0.0, this->DistanceOf(centre) - half * this->CornerLength);
+    return this->TolerancePerDistance * distance;
+  }
+
+  /** Of a cube, which is a box in the world. */
+  double DistanceOfBox(const Vector& centre, double half) const
+  {
+    const Vector halves = { half, half, half };
+    const Vector from = this->World(centre - halves);
+    const Vector to = this->World(centre - -1.0 * halves);
+    Vector apart{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto [low, high] = std::minmax(from[axis], to[axis]);
+      apart[axis] = std::max({ 0.0, low - this->Position[axis], this->Position[axis] - high });
+    }
+    return LengthOf(apart);
   }
 
   Vector Position;
   double TolerancePerDistance;
-  AffineMap World;
+  GridGeometry World;
   double CornerLength = 0.0; ///< in the world, of the longest of (+-1, +-1, +-1)
 };
 

@@ -180,7 +180,7 @@ isodiamond::BuildOptions Interior(bool refine)
   return options;
 }
 
-isodiamond::BuildOptions Distance(const isodiamond::AffineMap& world)
+isodiamond::BuildOptions Distance(const isodiamond::GridGeometry& world)
 {
   isodiamond::BuildOptions options;
   options.Metric = isodiamond::ErrorMetric::Distance;

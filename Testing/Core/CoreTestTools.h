@@ -72,7 +72,7 @@ isodiamond::BuildOptions Placement(bool exact);
 /** The field metric with a refined interior, or without. */
 isodiamond::BuildOptions Interior(bool refine);
 /** The distance metric in a world. */
-isodiamond::BuildOptions Distance(const isodiamond::AffineMap& world = isodiamond::AffineMap());
+isodiamond::BuildOptions Distance(const isodiamond::GridGeometry& world = isodiamond::AffineMap());
 
 /** An HD with its arrays. */
 struct BuiltScalars

@@ -93,7 +93,7 @@ bool IsBoundary(const Volume& volume, const Face& face, const std::array<int, 3>
 
 }
 
-std::size_t CountSurfaceFaces(const Volume& volume, int surface)
+std::vector<Face> SurfaceFaces(const Volume& volume, int surface)
 {
   std::map<Face, int> faces;
   for (const std::array<std::int32_t, 4>& t : volume.Tetrahedra)
@@ -109,8 +109,15 @@ std::size_t CountSurfaceFaces(const Volume& volume, int surface)
       }
     }
   }
-  return static_cast<std::size_t>(
-    std::count_if(faces.begin(), faces.end(), [](const auto& face) { return face.second == 1; }));
+  std::vector<Face> alone;
+  for (const auto& [face, count] : faces)
+  {
+    if (count == 1)
+    {
+      alone.push_back(face);
+    }
+  }
+  return alone;
 }
 
 std::string FindFault(const Volume& volume, const std::array<int, 3>& dims)

@@ -47,8 +47,12 @@ double TotalVolume(const Volume& volume);
  */
 std::string FindFault(const Volume& volume, const std::array<int, 3>& dims);
 
-/** The number of faces of one tetrahedron alone on the lower (-1) or upper (1) surface. */
-std::size_t CountSurfaceFaces(const Volume& volume, int surface);
+/** The faces of one tetrahedron alone on the lower (-1) or upper (1) surface. */
+std::vector<std::array<std::int32_t, 3>> SurfaceFaces(const Volume& volume, int surface);
+inline std::size_t CountSurfaceFaces(const Volume& volume, int surface)
+{
+  return SurfaceFaces(volume, surface).size();
+}
 
 /** Points, as tetrahedra of sorted corners with their level: equal for equal meshes in any order.
  */

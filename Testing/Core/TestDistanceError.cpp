@@ -7,6 +7,7 @@
 #include "PatchBound.h"
 #include "PatchDistance.h"
 #include "SurfacePatch.h"
+#include "WorldMetric.h"
 
 #include "ReferenceDistance.h"
 
@@ -57,28 +58,109 @@ std::vector<test::Field> Fields()
     test::BrokenField({ 9, 10, 8 }, 63), test::SphereField({ 12, 17, 9 }) };
 }
 
-/** Largest distance of points of a surface to a mesh, in the world. */
-double LargestDistance(const std::vector<test::Corner>& points, const test::Mesh& mesh,
-  const std::array<double, 3>& spacing)
+/** Cells that grow on one axis, fall on another, and have all sizes on the third: of the largest
+ *  ratio of their lengths that is given. Multiples of a power of 2, so that little is rounded. */
+AxisCoordinates UnevenCoordinates(const std::array<int, 3>& dims, double ratio)
+{
+  AxisCoordinates coordinates;
+  std::mt19937 random(dims[0] + 100 * dims[1]);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double at = axis == 0 ? 5.0 : -40.0;
+    for (int i = 0; i < dims[axis]; ++i)
+    {
+      coordinates[axis].push_back(at);
+      const double power = axis == 2 ? part(random) : i / (dims[axis] - 1.0);
+      const double step = std::round(1024.0 * 0.25 * std::pow(ratio, power)) / 1024.0;
+      at += axis == 1 ? -step : step;
+    }
+  }
+  return coordinates;
+}
+
+AxisCoordinates EvenCoordinates(const std::array<int, 3>& dims, const AffineMap& world)
+{
+  AxisCoordinates coordinates;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int i = 0; i < dims[axis]; ++i)
+    {
+      coordinates[axis].push_back(world.Rows[axis][axis] * i + world.Rows[axis][3]);
+    }
+  }
+  return coordinates;
+}
+
+using Positions = std::vector<std::array<double, 3>>;
+
+/** Largest distance of points of a surface to triangles of another, all placed in the world. */
+template <typename Triangle>
+double LargestDistance(
+  const Positions& points, const Positions& corners, const std::vector<Triangle>& mesh)
 {
   std::vector<reference::SurfaceTriangle> triangles;
-  for (const std::array<std::int32_t, 3>& t : mesh.Triangles)
+  triangles.reserve(mesh.size());
+  for (const Triangle& t : mesh)
   {
-    reference::SurfaceTriangle triangle{};
-    for (int i = 0; i < 3; ++i)
-    {
-      const test::Corner& corner = mesh.Points[t[i]];
-      triangle.Corners[i] = { corner[0], corner[1], corner[2] };
-    }
-    triangles.push_back(triangle);
+    triangles.push_back({ { corners[t[0]], corners[t[1]], corners[t[2]] } });
   }
   double largest = 0.0;
-  for (const test::Corner& p : points)
+  for (const std::array<double, 3>& p : points)
   {
-    largest = std::max(
-      largest, reference::Distance(std::array<double, 3>{ p[0], p[1], p[2] }, triangles, spacing));
+    largest = std::max(largest, reference::Distance(p, triangles, { 1.0, 1.0, 1.0 }));
   }
   return largest;
+}
+
+/** Points of index space in the world. */
+template <typename Points>
+Positions Placed(const Points& points, const AxisCoordinates& world)
+{
+  Positions placed;
+  for (const auto& p : points)
+  {
+    placed.push_back(reference::PlaceByCoordinates({ p[0], p[1], p[2] }, world));
+  }
+  return placed;
+}
+
+/** Counts the finite and the infinite errors of all diamonds, which are to be the reference's.
+ *  @param inReference the same world */
+template <typename ReferenceWorld>
+void ExpectReferencesErrors(const test::Field& field, const GridGeometry& world,
+  const ReferenceWorld& inReference, std::map<bool, int>& seen)
+{
+  SCOPED_TRACE(field.Name);
+  const reference::Hierarchy hierarchy(field.Dims);
+  for (const bool exact : { true, false })
+  {
+    for (const bool preserve : { true, false })
+    {
+      const test::Built relevant = test::Build(Model::Relevant, field, test::Placement(exact));
+      const Grid& grid = relevant.Hierarchy->Domain();
+      const ErrorCode code(DistanceErrorScale(grid, world));
+      const std::vector<ErrorCode::Type> found =
+        DistanceErrors(*relevant.Hierarchy, field.View(), world, preserve, test::ThreadedFor(2));
+      const std::vector<double> expected = reference::OwnDistanceErrors(
+        hierarchy, field.Reference(), field.Isovalue, inReference, exact, preserve);
+      for (int i = 0; i < hierarchy.Size(); ++i)
+      {
+        const std::int64_t rank =
+          relevant.Hierarchy->Diamonds().Rank(test::PlaceOf(grid, hierarchy.At(i).Center));
+        if (expected[i] < 0.0)
+        {
+          ASSERT_TRUE(rank == DiamondSet::None || found[rank] == 0) << "diamond " << i;
+          continue;
+        }
+        ASSERT_NE(rank, DiamondSet::None);
+        // Codes of values that differ by rounding only.
+        ASSERT_GE(found[rank], code.Encode(expected[i] * (1 - 1e-9))) << "diamond " << i;
+        ASSERT_LE(found[rank], code.Encode(expected[i] * (1 + 1e-9))) << "diamond " << i;
+        ++seen[expected[i] < Infinity];
+      }
+    }
+  }
 }
 
 }
@@ -89,60 +171,134 @@ TEST(DistanceError, IsTheReferencesForEveryDiamond)
   std::map<bool, int> seen; // finite or not
   for (const test::Field& field : Fields())
   {
-    SCOPED_TRACE(field.Name);
-    const reference::Hierarchy hierarchy(field.Dims);
     for (const std::array<double, 3>& spacing : spacings)
     {
-      for (const bool exact : { true, false })
-      {
-        for (const bool preserve : { true, false })
-        {
-          const AffineMap world = Spacing(spacing[0], spacing[1], spacing[2]);
-          const test::Built relevant = test::Build(Model::Relevant, field, test::Placement(exact));
-          const Grid& grid = relevant.Hierarchy->Domain();
-          const ErrorCode code(DistanceErrorScale(grid, world));
-          const std::vector<ErrorCode::Type> found = DistanceErrors(
-            *relevant.Hierarchy, field.View(), world, preserve, test::ThreadedFor(2));
-          const std::vector<double> expected = reference::OwnDistanceErrors(
-            hierarchy, field.Reference(), field.Isovalue, spacing, exact, preserve);
-          for (int i = 0; i < hierarchy.Size(); ++i)
-          {
-            const std::int64_t rank =
-              relevant.Hierarchy->Diamonds().Rank(test::PlaceOf(grid, hierarchy.At(i).Center));
-            if (expected[i] < 0.0)
-            {
-              ASSERT_TRUE(rank == DiamondSet::None || found[rank] == 0) << "diamond " << i;
-              continue;
-            }
-            ASSERT_NE(rank, DiamondSet::None);
-            // Codes of values that differ by rounding only.
-            ASSERT_GE(found[rank], code.Encode(expected[i] * (1 - 1e-9))) << "diamond " << i;
-            ASSERT_LE(found[rank], code.Encode(expected[i] * (1 + 1e-9))) << "diamond " << i;
-            ++seen[expected[i] < Infinity];
-          }
-        }
-      }
+      ExpectReferencesErrors(field, Spacing(spacing[0], spacing[1], spacing[2]), spacing, seen);
     }
   }
   EXPECT_GT(seen[true], 1000);
   EXPECT_GT(seen[false], 1000);
 }
 
-TEST(DistanceError, IsAPromise)
+TEST(DistanceError, IsTheReferencesAlongUnevenAxes)
 {
-  const std::array<double, 3> spacing = { 0.5, 2.0, 1.25 };
+  std::map<bool, int> seen;
+  for (const test::Field& field : Fields())
+  {
+    for (const double ratio : { 4.0, 100.0 })
+    {
+      const AxisCoordinates axes = UnevenCoordinates(field.Dims, ratio);
+      ExpectReferencesErrors(field, GridGeometry(axes), axes, seen);
+    }
+  }
+  EXPECT_GT(seen[true], 1000);
+  EXPECT_GT(seen[false], 1000);
+}
+
+TEST(DistanceError, IsThatOfTheMapAlongEvenAxes)
+{
+  const AffineMap world = Spacing(0.5, -2.0, 1.25); // sums of these are exact
   for (const test::Field& field : Fields())
   {
     SCOPED_TRACE(field.Name);
-    const test::Built built = test::Build(
-      Model::Minimal, field, test::Distance(Spacing(spacing[0], spacing[1], spacing[2])));
-    const test::Mesh full = test::Extract(*built.Hierarchy, 0.0);
-    ASSERT_FALSE(full.Points.empty());
-    for (const double tolerance : { 0.1, 0.25, 0.5, 1.0, 2.0, 1000.0 })
+    const GridGeometry axes(EvenCoordinates(field.Dims, world));
+    for (const Isoregion& region :
+      { Isoregion(field.Isovalue), test::RegionOf(test::RangesOf(field)[0]) })
     {
-      const test::Mesh mesh = test::Extract(*built.Hierarchy, tolerance);
-      EXPECT_LE(LargestDistance(full.Points, mesh, spacing), tolerance * (1 + 1e-9));
+      const test::Built relevant(
+        BuildIsodiamonds(Model::Relevant, field.View(), region, SerialFor), SerialFor);
+      const Grid& grid = relevant.Hierarchy->Domain();
+      EXPECT_EQ(DistanceErrorScale(grid, axes), DistanceErrorScale(grid, world));
+      for (const bool preserve : { true, false })
+      {
+        EXPECT_EQ(DistanceErrors(*relevant.Hierarchy, field.View(), axes, preserve, SerialFor),
+          DistanceErrors(*relevant.Hierarchy, field.View(), world, preserve, SerialFor));
+      }
     }
+  }
+}
+
+TEST(DistanceError, GoesOnInPaddingAsInTheOutermostCells)
+{
+  const test::Field field = test::WaveField({ 12, 10, 13 });
+  const AxisCoordinates inner = UnevenCoordinates({ 10, 8, 11 }, 10.0);
+  AxisCoordinates padded = inner;
+  for (std::vector<double>& axis : padded)
+  {
+    axis.insert(axis.begin(), 2.0 * axis[0] - axis[1]);
+    axis.push_back(2.0 * axis.back() - axis[axis.size() - 2]);
+  }
+  const test::Built relevant = test::Build(Model::Relevant, field);
+  const auto errors = [&](const GridGeometry& world)
+  { return DistanceErrors(*relevant.Hierarchy, field.View(), world, false, SerialFor); };
+  const std::vector<ErrorCode::Type> found = errors(GridGeometry(inner, 1));
+  const std::vector<ErrorCode::Type> expected = errors(GridGeometry(padded));
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    ASSERT_NEAR(found[i], expected[i], 1); // rounding only
+  }
+}
+
+TEST(DistanceError, IsAPromise)
+{
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    const AxisCoordinates even = EvenCoordinates(field.Dims, Spacing(0.5, 2.0, 1.25));
+    const AxisCoordinates uneven = UnevenCoordinates(field.Dims, 20.0);
+    const std::array<std::pair<GridGeometry, AxisCoordinates>, 2> worlds = {
+      { { Spacing(0.5, 2.0, 1.25), even }, { GridGeometry(uneven), uneven } }
+    };
+    for (const auto& [world, axes] : worlds)
+    {
+      const test::Built built = test::Build(Model::Minimal, field, test::Distance(world));
+      const Positions full = Placed(test::Extract(*built.Hierarchy, 0.0).Points, axes);
+      ASSERT_FALSE(full.empty());
+      for (const double tolerance : { 0.1, 0.25, 0.5, 1.0, 2.0, 1000.0 })
+      {
+        const test::Mesh mesh = test::Extract(*built.Hierarchy, tolerance);
+        EXPECT_LE(
+          LargestDistance(full, Placed(mesh.Points, axes), mesh.Triangles), tolerance * (1 + 1e-9));
+      }
+    }
+  }
+}
+
+TEST(DistanceError, IsAPromiseOfBothSurfacesAlongUnevenAxes)
+{
+  for (const test::Field& field : { test::SphereField({ 17, 17, 17 }),
+         test::WaveField({ 14, 11, 13 }), test::NoiseField({ 9, 9, 9 }, 61) })
+  {
+    SCOPED_TRACE(field.Name);
+    const AxisCoordinates axes = UnevenCoordinates(field.Dims, 20.0);
+    const test::Built built(
+      BuildIsodiamonds(Model::Minimal, field.View(), test::RegionOf(test::RangesOf(field)[0]),
+        SerialFor, test::Distance(GridGeometry(axes))),
+      SerialFor);
+    const test::Volume full = test::ExtractVolume(*built.Hierarchy, 0.0);
+    std::size_t fewest = full.Tetrahedra.size();
+    for (const double tolerance : { 0.25, 1.0, 4.0 })
+    {
+      const test::Volume volume = test::ExtractVolume(*built.Hierarchy, tolerance);
+      fewest = std::min(fewest, volume.Tetrahedra.size());
+      for (const int surface : { -1, 1 })
+      {
+        std::vector<std::array<double, 3>> points;
+        for (std::size_t i = 0; i < full.Points.size(); ++i)
+        {
+          if (full.Surfaces[i] == surface)
+          {
+            points.push_back(full.Points[i]);
+          }
+        }
+        ASSERT_GT(points.size(), 20U);
+        EXPECT_LE(LargestDistance(Placed(points, axes), Placed(volume.Points, axes),
+                    test::SurfaceFaces(volume, surface)),
+          tolerance * (1 + 1e-9));
+      }
+    }
+    EXPECT_LT(fewest, full.Tetrahedra.size());
   }
 }
 
@@ -168,22 +324,26 @@ TEST(DistanceError, MeasuresLengthsWhateverTheOrientation)
 TEST(DistanceError, DoesNotDependOnThreadsOrOnTheSource)
 {
   const test::Field field = test::NoiseField({ 33, 20, 27 }, 8);
-  const BuildOptions options = test::Distance(Spacing(1.0, 0.7, 1.5));
-  const Encoding expected =
-    BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor, options);
-  EXPECT_EQ(expected.Header.Metric, ErrorMetric::Distance);
-  for (const int threads : { 2, 7 })
+  for (const GridGeometry& world :
+    { GridGeometry(Spacing(1.0, 0.7, 1.5)), GridGeometry(UnevenCoordinates(field.Dims, 1e6)) })
   {
-    const Encoding encoding = BuildIsodiamonds(
-      Model::Minimal, field.View(), field.Isovalue, test::ThreadedFor(threads), options);
-    EXPECT_EQ(encoding.Arrays.Records, expected.Arrays.Records);
-    EXPECT_EQ(encoding.Arrays.Isovertices, expected.Arrays.Isovertices);
+    const BuildOptions options = test::Distance(world);
+    const Encoding expected =
+      BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor, options);
+    EXPECT_EQ(expected.Header.Metric, ErrorMetric::Distance);
+    for (const int threads : { 2, 7 })
+    {
+      const Encoding encoding = BuildIsodiamonds(
+        Model::Minimal, field.View(), field.Isovalue, test::ThreadedFor(threads), options);
+      EXPECT_EQ(encoding.Arrays.Records, expected.Arrays.Records);
+      EXPECT_EQ(encoding.Arrays.Isovertices, expected.Arrays.Isovertices);
+    }
+    const test::BuiltScalars scalars = test::BuildScalars(field);
+    const Encoding fromScalars =
+      BuildIsodiamonds(Model::Minimal, *scalars.Hierarchy, field.Isovalue, SerialFor, options);
+    EXPECT_EQ(fromScalars.Arrays.Records, expected.Arrays.Records);
+    EXPECT_EQ(fromScalars.Arrays.Isovertices, expected.Arrays.Isovertices);
   }
-  const test::BuiltScalars scalars = test::BuildScalars(field);
-  const Encoding fromScalars =
-    BuildIsodiamonds(Model::Minimal, *scalars.Hierarchy, field.Isovalue, SerialFor, options);
-  EXPECT_EQ(fromScalars.Arrays.Records, expected.Arrays.Records);
-  EXPECT_EQ(fromScalars.Arrays.Isovertices, expected.Arrays.Isovertices);
 }
 
 // Integers on a cube of 2^N + 1 samples: many distances are equal, or equal to the value of a code.
@@ -239,6 +399,28 @@ TEST(DistanceError, RefusesWorldsWithoutLengths)
   AffineMap flat; // y and z lie in one direction
   flat.Rows = { { { 1, 0, 0, 0 }, { 0, 1, 2, 0 }, { 0, 0, 0, 0 } } };
   EXPECT_THROW(DistanceErrorScale(grid, flat), std::invalid_argument);
+}
+
+TEST(DistanceError, RefusesAxesWithoutLengths)
+{
+  const Grid grid({ 4, 4, 4 });
+  const std::vector<double> good = { 1.0, 2.0, 4.0, 8.0 };
+  EXPECT_GT(DistanceErrorScale(grid, GridGeometry({ good, { 8, 4, 2, 1 }, good })), 0.0);
+  for (const std::vector<double>& bad : std::vector<std::vector<double>>{ { 1, 2, 2, 3 },
+         { 1, 3, 2, 4 }, { 4, 3, 2, 2 }, { 1, 1, 1, 1 }, { std::nan(""), 1, 2, 3 },
+         { 0, 1, std::nan(""), 3 }, { 0, 1, 2, Infinity }, { -Infinity, 1, 2, 3 } })
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      AxisCoordinates axes = { good, good, good };
+      axes[axis] = bad;
+      EXPECT_THROW(DistanceErrorScale(grid, GridGeometry(axes)), std::invalid_argument);
+    }
+  }
+  const std::vector<float> positions(3 * 4 * 4 * 4);
+  EXPECT_THROW(
+    DistanceErrorScale(grid, GridGeometry(SamplePositions{ positions.data(), { 4, 4, 4 } })),
+    std::invalid_argument);
 }
 
 // What distances are measured to is what extraction makes: the patches of all leaves are the faces
@@ -328,15 +510,74 @@ TEST(DistanceError, KeepsIntervalVolumesFitForASolver)
   }
 }
 
+namespace
+{
+
+/** How many bounds are near to the distance, of how many. */
+struct BoundCount
+{
+  std::int64_t Near = 0;
+  std::int64_t All = 0;
+};
+
+/** Random patches of some scale, flat ones too, and positions beside them. */
+template <typename Metric>
+void ExpectBounds(const Metric& metric, int round, std::mt19937& random, BoundCount& count)
+{
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  const int scale = static_cast<int>(random() % 12);
+  const double length = FineUnits << scale;
+  const FinePosition middle = { static_cast<int>(random() % 100000),
+    static_cast<int>(random() % 100000), static_cast<int>(random() % 100000) };
+  const auto anywhere = [&](double most)
+  {
+    FinePosition position = middle;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      position[axis] += static_cast<int>(most * part(random));
+    }
+    return position;
+  };
+  std::array<FinePosition, 6> corners{};
+  for (FinePosition& corner : corners)
+  {
+    corner = round % 7 == 0 ? middle : anywhere(round % 5 == 0 ? 2.0 : length);
+  }
+  const SurfacePatch& patch = tables::IsosurfacePatches[1 + random() % 7];
+  PatchDistance exact;
+  exact.Reset(patch, [&](int edge) { return metric(corners[edge]); });
+  const BoundMetric<Metric> boundMetric(metric);
+  PatchBound<Metric> bound;
+  bound.Reset(boundMetric, patch, [&](int edge) { return corners[edge]; });
+  std::array<FinePosition, PatchBound<Metric>::Width> positions{};
+  for (FinePosition& position : positions)
+  {
+    position = anywhere(length);
+  }
+  const int some = 1 + static_cast<int>(random() % positions.size());
+  const auto squared = bound.Squared(positions.data(), some);
+  for (int j = 0; j < some; ++j)
+  {
+    const double truth = boundMetric.Squared(exact.Squared(metric(positions[j])));
+    ++count.All;
+    if (!std::isnan(squared[j]))
+    {
+      EXPECT_GE(squared[j], truth * (1.0 - 1e-6));
+      count.Near += squared[j] <= 1.3 * truth + 1.0 ? 1 : 0;
+    }
+  }
+}
+
+}
+
 TEST(PatchBound, IsNeverLessThanTheDistanceAndNearToItMostly)
 {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> part(-1.0, 1.0);
-  std::int64_t near = 0;
-  std::int64_t all = 0;
+  BoundCount count;
   for (int i = 0; i < 4000; ++i)
   {
-    // Sheared and stretched worlds, of any size; patches of any scale, flat ones too.
+    // Sheared and stretched worlds, of any size.
     AffineMap map;
     const double size = std::pow(10.0, 12.0 * part(random));
     for (int row = 0; row < 3; ++row)
@@ -347,48 +588,35 @@ TEST(PatchBound, IsNeverLessThanTheDistanceAndNearToItMostly)
           size * (row == column ? 1.0 + 0.9 * part(random) : 0.4 * part(random));
       }
     }
-    const WorldMetric metric(map);
-    const int scale = static_cast<int>(random() % 12);
-    const double length = FineUnits << scale;
-    const FinePosition middle = { static_cast<int>(random() % 100000),
-      static_cast<int>(random() % 100000), static_cast<int>(random() % 100000) };
-    const auto anywhere = [&](double most)
-    {
-      FinePosition position = middle;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        position[axis] += static_cast<int>(most * part(random));
-      }
-      return position;
-    };
-    std::array<FinePosition, 6> corners{};
-    for (FinePosition& corner : corners)
-    {
-      corner = i % 7 == 0 ? middle : anywhere(i % 5 == 0 ? 2.0 : length);
-    }
-    const SurfacePatch& patch = tables::IsosurfacePatches[1 + random() % 7];
-    PatchDistance exact;
-    exact.Reset(patch, [&](int edge) { return metric(corners[edge]); });
-    const BoundMetric boundMetric(metric);
-    PatchBound bound;
-    bound.Reset(boundMetric, patch, [&](int edge) { return corners[edge]; });
-    std::array<FinePosition, PatchBound::Width> positions{};
-    for (FinePosition& position : positions)
-    {
-      position = anywhere(length);
-    }
-    const int count = 1 + static_cast<int>(random() % PatchBound::Width);
-    const std::array<float, PatchBound::Width> squared = bound.Squared(positions.data(), count);
-    for (int j = 0; j < count; ++j)
-    {
-      const double truth = boundMetric.Squared(exact.Squared(metric(positions[j])));
-      ++all;
-      if (!std::isnan(squared[j]))
-      {
-        EXPECT_GE(squared[j], truth * (1.0 - 1e-6));
-        near += squared[j] <= 1.3 * truth + 1.0 ? 1 : 0;
-      }
-    }
+    ExpectBounds(AffineMetric(map), i, random, count);
   }
-  EXPECT_GT(near, all / 2);
+  EXPECT_GT(count.Near, count.All / 2);
+}
+
+TEST(PatchBound, IsSoAlongUnevenAxes)
+{
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  BoundCount count;
+  for (int i = 0; i < 2000; ++i)
+  {
+    // Of any size, far from the origin too; steps that differ by up to a million times.
+    const double size = std::pow(10.0, 12.0 * part(random));
+    const double spread = 3.0 * std::abs(part(random));
+    AxisCoordinates axes;
+    for (std::vector<double>& axis : axes)
+    {
+      const double sign = part(random) < 0.0 ? -1.0 : 1.0;
+      double at = 100.0 * size * part(random);
+      for (int j = 0; j < 400; ++j)
+      {
+        axis.push_back(at);
+        at += sign * size * std::pow(10.0, spread * part(random));
+      }
+    }
+    const AxesMetric metric(axes, i % 2);
+    ASSERT_TRUE(metric.IsValid());
+    ExpectBounds(metric, i, random, count);
+  }
+  EXPECT_GT(count.Near, count.All / 2);
 }

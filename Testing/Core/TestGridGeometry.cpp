@@ -5,6 +5,7 @@
 #include "HiddenCells.h"
 #include "RegionOfInterest.h"
 #include "Viewpoint.h"
+#include "WorldMetric.h"
 
 #include <gtest/gtest.h>
 
@@ -250,10 +251,85 @@ TEST(HiddenCells, TouchesAreThoseOfTheBoxAroundADiamond)
   }
 }
 
-TEST(Viewpoint, TolerancesAreThoseOfTheNearestPointOrLess)
+TEST(WorldMetric, OfAxesIsTheGeometrysDistance)
 {
-  AffineMap map;
-  map.Rows = { { { 0.5, 0.2, 0.0, 3.0 }, { 0.0, 2.0, -0.3, 1.0 }, { 0.1, 0.0, 1.5, -2.0 } } };
+  const AxisCoordinates axes = { std::vector<double>{ 100.0, 101.0, 103.0, 103.5, 109.0 },
+    { 5.0, 4.0, 2.0, 1.0 }, { -1.0, 0.0, 0.5, 0.75, 4.0, 8.0 } };
+  std::mt19937 random(9);
+  for (const int padding : { 0, 1 })
+  {
+    const GridGeometry world(axes, padding);
+    const WorldMetric found = WorldMetricOf(world);
+    const AxesMetric& metric = std::get<AxesMetric>(found);
+    const auto anywhere = [&]
+    {
+      FinePosition position{};
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        position[axis] =
+          static_cast<int>(random() % (FineUnits * (Size[axis] - 1 + 2 * padding) + 1));
+      }
+      return position;
+    };
+    const auto place = [&](const FinePosition& p) {
+      return world({ p[0] / 256.0, p[1] / 256.0, p[2] / 256.0 });
+    };
+    for (int i = 0; i < 300; ++i)
+    {
+      const FinePosition a = anywhere();
+      const FinePosition b = anywhere();
+      ExpectNear(metric(b) - metric(a), place(b) - place(a));
+      // The ball around a box holds all of it, and no more than it must.
+      FineBox box;
+      box.Add(a);
+      box.Add(b);
+      FinePosition middle{};
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        middle[axis] = (box.Low[axis] + box.High[axis]) / 2;
+      }
+      double farthest = 0.0;
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        FinePosition at = box.Low;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          at[axis] = ((corner >> axis) & 1) != 0 ? box.High[axis] : box.Low[axis];
+        }
+        const Vector reach = place(at) - place(middle);
+        farthest = std::max(farthest, Dot(reach, reach));
+      }
+      EXPECT_NEAR(metric.SquaredRadius(box, middle), farthest, 1e-9);
+    }
+    ExpectNear(metric.Between({ 1, 1, 1 }, { 3, 2, 4 }),
+      place({ 3 * 256, 2 * 256, 4 * 256 }) - place({ 256, 256, 256 }));
+  }
+}
+
+class ViewpointIn : public testing::TestWithParam<bool>
+{
+protected:
+  static GridGeometry World(bool isUneven)
+  {
+    AffineMap map;
+    map.Rows = { { { 0.5, 0.2, 0.0, 3.0 }, { 0.0, 2.0, -0.3, 1.0 }, { 0.1, 0.0, 1.5, -2.0 } } };
+    AxisCoordinates axes;
+    for (int i = 0; i < 33; ++i)
+    {
+      axes[0].push_back(3.0 + 0.1 * i * i);
+      axes[1].push_back(10.0 - 2.0 * i);
+      axes[2].push_back(0.3 * i + 3.0 * std::floor(i / 10.0));
+    }
+    axes[1].resize(20);
+    axes[2].resize(30);
+    return isUneven ? GridGeometry(axes) : GridGeometry(map);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Worlds, ViewpointIn, testing::Bool());
+
+TEST_P(ViewpointIn, TolerancesAreThoseOfTheNearestPointOrLess)
+{
+  const GridGeometry map = World(this->GetParam());
   const Grid grid({ 33, 20, 30 });
   const Vector eye = { 30.0, -5.0, 12.0 };
   const Viewpoint view(eye, 0.01, map);
@@ -277,8 +353,8 @@ TEST(Viewpoint, TolerancesAreThoseOfTheNearestPointOrLess)
       for (int j = 0; j < 20; ++j)
       {
         const double h = 1 << scale;
-        const Vector p = map(h * (place.Position[0] + part(random)),
-          h * (place.Position[1] + part(random)), h * (place.Position[2] + part(random)));
+        const Vector p = map({ h * (place.Position[0] + part(random)),
+          h * (place.Position[1] + part(random)), h * (place.Position[2] + part(random)) });
         EXPECT_LE(
           tolerance, 0.01 * std::hypot(p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]) + 1e-12);
       }

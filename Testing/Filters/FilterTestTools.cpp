@@ -3,6 +3,7 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkCell.h"
+#include "vtkDoubleArray.h"
 #include "vtkFeatureEdges.h"
 #include "vtkFloatArray.h"
 #include "vtkImplicitPolyDataDistance.h"
@@ -155,6 +156,42 @@ Triangles SortedTriangles(vtkPointSet* mesh)
     });
   std::sort(triangles.begin(), triangles.end());
   return triangles;
+}
+
+vtkSmartPointer<vtkRectilinearGrid> Rectilinear(
+  vtkImageData* image, const std::function<double(int, int)>& place)
+{
+  auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
+  const int* dims = image->GetDimensions();
+  grid->SetDimensions(dims);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    vtkNew<vtkDoubleArray> coordinates;
+    for (int i = 0; i < dims[axis]; ++i)
+    {
+      coordinates->InsertNextValue(place(axis, i));
+    }
+    (axis == 0      ? grid->SetXCoordinates(coordinates)
+        : axis == 1 ? grid->SetYCoordinates(coordinates)
+                    : grid->SetZCoordinates(coordinates));
+  }
+  grid->GetPointData()->ShallowCopy(image->GetPointData());
+  return grid;
+}
+
+double UnevenPlace(int axis, int index)
+{
+  if (axis == 0)
+  {
+    return 0.4 * (std::pow(1.06, index) - 1.0) / 0.06;
+  }
+  if (axis == 1)
+  {
+    return 10.0 - 0.5 * index - 0.03 * index * index;
+  }
+  const int triple = index / 3;
+  const std::array<double, 3> inTriple = { 0.0, 0.4, 1.6 };
+  return 4.8 * triple + inTriple[index % 3] - 7.0;
 }
 
 double LargestDistance(vtkPolyData* from, vtkPolyData* to)

@@ -5,6 +5,7 @@
 #include "vtkCommand.h"
 #include "vtkImageData.h"
 #include "vtkPointSet.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 
 #include <array>
@@ -31,6 +32,14 @@ vtkSmartPointer<vtkImageData> BallImage(const std::array<int, 3>& dims);
  * voxels, 100 inside and 0 outside, with noise. Sharp edges have large field errors and little
  * shape. */
 vtkSmartPointer<vtkImageData> PhantomImage(const std::array<int, 3>& dims, double noise);
+
+/** The same samples with a coordinate place(axis, index) for each index on each axis. */
+vtkSmartPointer<vtkRectilinearGrid> Rectilinear(
+  vtkImageData* image, const std::function<double(int, int)>& place);
+
+/** Coordinates that grow along x by a constant factor, fall along y, and are of three sizes in turn
+ *  along z: cells between 0.4 and 4 in a grid of about 40 samples on each axis. */
+double UnevenPlace(int axis, int index);
 
 /** Collects the errors and warnings of an algorithm instead of printing them. */
 class Messages : public vtkCommand

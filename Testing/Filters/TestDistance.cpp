@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -73,11 +74,13 @@ double Rounding(vtkDataSet* data)
   return 4e-7 * largest;
 }
 
-void ExpectPromiseOfContour(vtkImageData* image, double isovalue, double voxel)
+/** @param grid an image or a rectilinear grid @param voxel a length that is its cells' */
+void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, bool close = false)
 {
   vtkNew<vtkIsodiamondContour> contour;
-  contour->SetInputData(image);
+  contour->SetInputData(grid);
   contour->SetValue(0, isovalue);
+  contour->SetCloseBoundary(close);
   contour->ComputeNormalsOff();
   contour->Update();
   vtkNew<vtkPolyData> full;
@@ -220,6 +223,21 @@ TEST(Distance, IsAPromiseInTheWorld)
   ExpectPromiseOfContour(image, 50.0, 0.9);
 }
 
+TEST(Distance, IsAPromiseOnUnevenGrids)
+{
+  for (const auto& image : { test::BallImage({ 41, 38, 43 }),
+         test::MakeImage({ 40, 33, 45 },
+           [](double x, double y, double z)
+           { return std::sin(0.3 * x) * std::cos(0.2 * y) + std::sin(0.25 * z + 0.1 * y); }) })
+  {
+    const auto uneven = test::Rectilinear(image, test::UnevenPlace);
+    ExpectPromiseOfContour(uneven, 0.1, 1.0);
+    ExpectPromiseOfContour(uneven, 0.1, 1.0, true);
+  }
+  ExpectPromiseOfContour(
+    test::Rectilinear(test::PhantomImage({ 42, 42, 42 }, 5.0), test::UnevenPlace), 50.0, 1.0);
+}
+
 TEST(Distance, IsAPromiseOnSampleVolumes)
 {
   const auto tooth = SampleVolume("tooth_103x94x161_uint8.raw", { 103, 94, 161 });
@@ -235,14 +253,18 @@ TEST(Distance, IsAPromiseOnSampleVolumes)
 
 TEST(Distance, IsAPromiseOnBothSurfacesOfIntervalVolumes)
 {
-  for (const auto& image :
-    { test::BallImage({ 33, 30, 36 }), test::PhantomImage({ 40, 40, 40 }, 8.0) })
+  const auto ball = test::BallImage({ 33, 30, 36 });
+  const auto phantom = test::PhantomImage({ 40, 40, 40 }, 8.0);
+  ball->SetSpacing(1.0, 0.5, 1.5);
+  phantom->SetSpacing(1.0, 0.5, 1.5);
+  const auto uneven = test::Rectilinear(ball, test::UnevenPlace);
+  for (vtkDataSet* grid : { static_cast<vtkDataSet*>(ball), static_cast<vtkDataSet*>(phantom),
+         static_cast<vtkDataSet*>(uneven) })
   {
-    image->SetSpacing(1.0, 0.5, 1.5);
     double range[2];
-    image->GetScalarRange(range);
+    grid->GetScalarRange(range);
     vtkNew<vtkIsodiamondIntervalVolume> volume;
-    volume->SetInputData(image);
+    volume->SetInputData(grid);
     volume->SetIsorange(
       range[0] + 0.45 * (range[1] - range[0]), range[0] + 0.8 * (range[1] - range[0]));
     volume->Update();
@@ -387,6 +409,33 @@ TEST(Distance, NeedsAWorldWithLengths)
   EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
 }
 
+TEST(Distance, NeedsCoordinatesThatRiseOrFall)
+{
+  const auto image = test::BallImage({ 17, 17, 17 });
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : { 7.0, 6.5, nan, -HUGE_VAL }) // the one before is 7
+  {
+    const auto grid = test::Rectilinear(
+      image, [&](int axis, int i) { return axis == 1 && i == 8 ? bad : i + 0.0 * axis; });
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputData(grid);
+    contour->SetValue(0, 0.0);
+    const auto messages = test::Watch(contour);
+    contour->Update(); // full resolution needs no distances
+    EXPECT_EQ(messages->ErrorCount, 0);
+    EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
+    contour->SetErrorTolerance(0.5);
+    contour->Update();
+    EXPECT_EQ(messages->ErrorCount, 1);
+    EXPECT_NE(messages->Errors.find("field metric"), std::string::npos) << messages->Errors;
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+    contour->SetErrorMetricToField();
+    contour->Update();
+    EXPECT_EQ(messages->ErrorCount, 1);
+    EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
+  }
+}
+
 TEST(Distance, BuildsAgainOnlyForWhatMatters)
 {
   const auto image = test::BallImage({ 17, 17, 17 });
@@ -421,6 +470,14 @@ TEST(Distance, BuildsAgainOnlyForWhatMatters)
   image->SetSpacing(1.0, 1.0, 1.0);
   expectBuilds(0);
   contour->SetValue(0, 0.05);
+  expectBuilds(1);
+  contour->SetErrorMetricToDistance();
+  contour->SetInputData(test::Rectilinear(image, test::UnevenPlace));
+  expectBuilds(1);
+  contour->SetInputData(test::Rectilinear(image, test::UnevenPlace));
+  expectBuilds(0);
+  contour->SetInputData(test::Rectilinear(
+    image, [](int axis, int i) { return test::UnevenPlace(axis, i) + (i == 16 ? 0.1 : 0.0); }));
   expectBuilds(1);
   vtkNew<vtkIsodiamondIntervalVolume> volume;
   volume->SetInputData(image);

@@ -5,7 +5,6 @@
 #include "vtkCellData.h"
 #include "vtkContourFilter.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkDoubleArray.h"
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondIntervalVolume.h"
 #include "vtkMultiBlockDataSet.h"
@@ -40,28 +39,6 @@ vtkSmartPointer<vtkPolyData> Contour(
   contour->SetCloseBoundary(close);
   contour->Update();
   return contour->GetOutput();
-}
-
-/** The same samples with a coordinate for each index on each axis. */
-template <typename Place>
-vtkSmartPointer<vtkRectilinearGrid> Rectilinear(vtkImageData* image, const Place& place)
-{
-  const auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
-  const int* dims = image->GetDimensions();
-  grid->SetDimensions(dims);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    vtkNew<vtkDoubleArray> coordinates;
-    for (int i = 0; i < dims[axis]; ++i)
-    {
-      coordinates->InsertNextValue(place(axis, i));
-    }
-    (axis == 0      ? grid->SetXCoordinates(coordinates)
-        : axis == 1 ? grid->SetYCoordinates(coordinates)
-                    : grid->SetZCoordinates(coordinates));
-  }
-  grid->GetPointData()->ShallowCopy(image->GetPointData());
-  return grid;
 }
 
 /** The same samples at place(x, y, z) of their indices. */
@@ -146,7 +123,7 @@ TEST(Grids, EvenRectilinearGridsAreImages)
   const auto image = test::BallImage({ 20, 17, 23 });
   image->SetOrigin(1.0, 2.0, 3.0);
   image->SetSpacing(0.5, 0.25, 2.0);
-  const auto grid = Rectilinear(image,
+  const auto grid = test::Rectilinear(image,
     [&](int axis, int i) { return image->GetOrigin()[axis] + i * image->GetSpacing()[axis]; });
   for (const double tolerance : { 0.0, 0.2 })
   {
@@ -166,7 +143,7 @@ TEST(Grids, EvenRectilinearGridsAreImages)
 TEST(Grids, UnevenRectilinearGridsHaveTheSurfaceOfTheContourFilter)
 {
   const auto image = test::BallImage({ 25, 21, 23 });
-  const auto grid = Rectilinear(
+  const auto grid = test::Rectilinear(
     image, [](int axis, int i) { return axis == 1 ? -0.8 * i : i + 0.02 * i * i; }); // y mirrors
   ExpectSameAsContourFilter(grid, 2.0);
 }
@@ -223,7 +200,7 @@ TEST(Grids, ClosedSurfacesOfBentGridsAreClosed)
   const auto image = test::MakeImage({ 12, 12, 12 },
     [](double x, double y, double z) { return 1.0 + std::sin(0.7 * x) + std::cos(0.5 * y + z); });
   const auto bent = Structured(image, Bent);
-  const auto uneven = Rectilinear(image, [](int, int i) { return i * (1 + 0.1 * i); });
+  const auto uneven = test::Rectilinear(image, [](int, int i) { return i * (1 + 0.1 * i); });
   for (vtkDataSet* grid : { static_cast<vtkDataSet*>(bent), static_cast<vtkDataSet*>(uneven) })
   {
     EXPECT_GT(test::BoundaryEdges(Contour(grid, 1.0)), 0);
@@ -255,7 +232,7 @@ TEST(Grids, RegionsOfInterestOfBentGridsAreOfTheWorld)
 {
   const auto image = test::BallImage({ 33, 33, 33 });
   const auto bent = Structured(image, Bent);
-  const auto uneven = Rectilinear(image, [](int, int i) { return i * (1 + 0.05 * i); });
+  const auto uneven = test::Rectilinear(image, [](int, int i) { return i * (1 + 0.05 * i); });
   for (vtkDataSet* grid : { static_cast<vtkDataSet*>(bent), static_cast<vtkDataSet*>(uneven) })
   {
     double bounds[6];

@@ -95,6 +95,8 @@ grid.GetPointData().ShallowCopy(image.GetPointData())
 """
 uneven = IsodiamondContour(rectilinear, Isosurfaces=[150])
 assert cells(uneven) == expected
+uneven.ErrorTolerance = 0.5
+assert 0 < cells(uneven) < expected
 uneven.ErrorMetric = "Field"
 uneven.ErrorTolerance = 20
 assert 0 < cells(uneven) < expected

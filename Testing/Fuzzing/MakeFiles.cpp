@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes where the fuzzer of files begins: small hierarchies in the encodings of VTK's writer.
 #include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondHierarchy.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -21,13 +22,17 @@ int main(int argc, char** argv)
   image->SetDimensions(5, 4, 5);
   vtkNew<vtkFloatArray> values;
   values->SetName("wave");
+  vtkNew<vtkFloatArray> heights;
+  heights->SetName("height");
   for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
   {
     double x[3];
     image->GetPoint(i, x);
+    heights->InsertNextValue(static_cast<float>(x[2]));
     values->InsertNextValue(static_cast<float>(std::sin(1.1 * x[0]) + std::cos(0.8 * x[1] + x[2])));
   }
   image->GetPointData()->SetScalars(values);
+  image->GetPointData()->AddArray(heights);
   for (int model = 0; model < 3; ++model)
   {
     for (int shape = 0; shape < 2; ++shape)
@@ -38,7 +43,10 @@ int main(int argc, char** argv)
       builder->SetShape(shape);
       builder->SetIsovalue(0.2);
       builder->SetIsorange(-0.3, 0.4);
-      builder->AddPointArray("wave");
+      if (model != vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
+      {
+        builder->AddPointArray("height");
+      }
       vtkNew<vtkXMLPolyDataWriter> writer;
       writer->SetInputConnection(builder->GetOutputPort());
       writer->SetCompressorTypeToNone();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
@@ -277,15 +278,22 @@ struct Member
   int Index;
 };
 
+/** From index space to the world: a move of positions, then a spacing for what they span. */
+struct World
+{
+  std::function<Vector(const Vector&)> Move;
+  Vector Spacing;
+};
+
 /** All that the errors depend on. */
 class ErrorFinder
 {
 public:
-  ErrorFinder(const Hierarchy& hierarchy, const ScalarField& field, double isovalue,
-    const std::array<double, 3>& spacing, bool exact, bool preserveFeatures)
+  ErrorFinder(const Hierarchy& hierarchy, const ScalarField& field, double isovalue, World world,
+    bool exact, bool preserveFeatures)
     : Diamonds(hierarchy)
     , Isovertices(hierarchy, field, isovalue)
-    , Spacing(spacing)
+    , InWorld(std::move(world))
     , PreserveFeatures(preserveFeatures)
   {
     for (const Diamond& diamond : hierarchy.Diamonds())
@@ -298,6 +306,13 @@ public:
       for (const Tetrahedron& tetrahedron : diamond.Tetrahedra)
       {
         this->Patches.back().push_back(TrianglesOf(hierarchy, field, isovalue, tetrahedron, exact));
+        for (SurfaceTriangle& triangle : this->Patches.back().back())
+        {
+          for (Vector& corner : triangle.Corners)
+          {
+            corner = this->InWorld.Move(corner);
+          }
+        }
       }
     }
   }
@@ -319,10 +334,22 @@ public:
       const std::vector<Place> places = this->PlacesFor({ index, i });
       for (const FineIsovertex& isovertex : inside)
       {
-        error = std::max(error, this->DistanceFrom(places, isovertex.Position, error));
+        error = std::max(
+          error, this->DistanceFrom(places, this->InWorld.Move(isovertex.Position), error));
       }
     }
     return error == Infinity && !this->PreserveFeatures ? this->DiameterOf(diamond) : error;
+  }
+
+  std::vector<double> Errors() const
+  {
+    std::vector<double> errors;
+    errors.reserve(this->Diamonds.Size());
+    for (int index = 0; index < this->Diamonds.Size(); ++index)
+    {
+      errors.push_back(this->ErrorOf(index));
+    }
+    return errors;
   }
 
 private:
@@ -400,7 +427,7 @@ private:
     for (const Member& member : place)
     {
       const std::vector<SurfaceTriangle>& patch = this->Patches[member.Diamond][member.Index];
-      farthest = std::max(farthest, Distance(position, patch, this->Spacing));
+      farthest = std::max(farthest, Distance(position, patch, this->InWorld.Spacing));
     }
     return farthest;
   }
@@ -428,7 +455,9 @@ private:
     {
       for (const Point& b : diamond.Vertices)
       {
-        const Vector offset = Scaled(Difference(ToVector(a), ToVector(b)), this->Spacing);
+        const Vector offset =
+          Scaled(Difference(this->InWorld.Move(ToVector(a)), this->InWorld.Move(ToVector(b))),
+            this->InWorld.Spacing);
         diameter = std::max(diameter, std::sqrt(Dot(offset, offset)));
       }
     }
@@ -437,7 +466,7 @@ private:
 
   const Hierarchy& Diamonds;
   FineIsovertices Isovertices;
-  std::array<double, 3> Spacing;
+  World InWorld;
   bool PreserveFeatures;
   std::vector<bool> HaveFiniteVertices;
   /** For every diamond, the triangles in each of its tetrahedra. */
@@ -504,13 +533,34 @@ double Distance(const std::array<double, 3>& point, const std::vector<SurfaceTri
 std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
   double isovalue, const std::array<double, 3>& spacing, bool exact, bool preserveFeatures)
 {
-  const ErrorFinder finder(hierarchy, field, isovalue, spacing, exact, preserveFeatures);
-  std::vector<double> errors;
-  for (int index = 0; index < hierarchy.Size(); ++index)
+  const World world{ [](const Vector& point) { return point; }, spacing };
+  return ErrorFinder(hierarchy, field, isovalue, world, exact, preserveFeatures).Errors();
+}
+
+Vector PlaceByCoordinates(const Vector& point, const Coordinates& coordinates)
+{
+  Vector place{};
+  for (int axis = 0; axis < 3; ++axis)
   {
-    errors.push_back(finder.ErrorOf(index));
+    const std::vector<double>& along = coordinates[axis];
+    std::size_t sample = 0;
+    while (sample + 2 < along.size() && point[axis] >= static_cast<double>(sample + 1))
+    {
+      ++sample;
+    }
+    const double fraction = point[axis] - static_cast<double>(sample);
+    place[axis] = (1.0 - fraction) * along[sample] + fraction * along[sample + 1];
   }
-  return errors;
+  return place;
+}
+
+std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
+  double isovalue, const Coordinates& coordinates, bool exact, bool preserveFeatures)
+{
+  const World world{ [&coordinates](const Vector& point)
+    { return PlaceByCoordinates(point, coordinates); },
+    { 1.0, 1.0, 1.0 } };
+  return ErrorFinder(hierarchy, field, isovalue, world, exact, preserveFeatures).Errors();
 }
 
 }

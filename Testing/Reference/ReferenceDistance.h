@@ -62,6 +62,18 @@ double Distance(const std::array<double, 3>& point, const std::vector<SurfaceTri
 std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
   double isovalue, const std::array<double, 3>& spacing, bool exact, bool preserveFeatures = true);
 
+/** A coordinate for each sample on each axis. */
+using Coordinates = std::array<std::vector<double>, 3>;
+
+/** The world position of a point of the grid in index space: linear from sample to sample. */
+std::array<double, 3> PlaceByCoordinates(
+  const std::array<double, 3>& point, const Coordinates& coordinates);
+
+/** The same errors where samples have coordinates instead of a spacing. Isovertices are moved to
+ *  the world, with straight edges and flat triangles between them there. */
+std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
+  double isovalue, const Coordinates& coordinates, bool exact, bool preserveFeatures = true);
+
 }
 
 #endif
