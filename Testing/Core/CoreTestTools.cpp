@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -219,6 +220,74 @@ Mesh Extract(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond:
     extraction.WriteTriangles(false, mesh.Triangles[0].data(), mesh.Levels.data());
   }
   return mesh;
+}
+
+namespace
+{
+
+bool OnBoundary(const std::array<int, 3>& dims, const Corner& a, const Corner& b)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto last = static_cast<float>(dims[axis] - 1);
+    if ((a[axis] == 0.0F && b[axis] == 0.0F) || (a[axis] == last && b[axis] == last))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+}
+
+std::string FindFault(const Mesh& mesh, const std::array<int, 3>& dims)
+{
+  std::map<std::pair<int, int>, int> directed;
+  std::vector<bool> used(mesh.Points.size(), false);
+  for (const std::array<std::int32_t, 3>& t : mesh.Triangles)
+  {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+    {
+      return "a triangle has a point twice";
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      ++directed[{ t[i], t[(i + 1) % 3] }];
+      used.at(t[i]) = true;
+    }
+  }
+  for (const auto& [edge, count] : directed)
+  {
+    if (count != 1)
+    {
+      return "two triangles are on the same side of an edge";
+    }
+    if (directed.count({ edge.second, edge.first }) == 0 &&
+      !OnBoundary(dims, mesh.Points[edge.first], mesh.Points[edge.second]))
+    {
+      return "an edge inside of the grid has one triangle";
+    }
+  }
+  if (std::count(used.begin(), used.end(), false) > 0)
+  {
+    return "a point without use";
+  }
+  const std::set<Corner> distinct(mesh.Points.begin(), mesh.Points.end());
+  if (distinct.size() != mesh.Points.size())
+  {
+    return "two points are in one place";
+  }
+  for (const Corner& point : mesh.Points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (!(point[axis] >= 0.0F && point[axis] <= static_cast<float>(dims[axis] - 1)))
+      {
+        return "a point outside of the grid";
+      }
+    }
+  }
+  return "";
 }
 
 PlacedTriangle Place(const Corner& a, const Corner& b, const Corner& c, int level)

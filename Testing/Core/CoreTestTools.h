@@ -100,6 +100,13 @@ Mesh Extract(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond:
 Mesh Extract(const isodiamond::IsodiamondHierarchy& hierarchy, double tolerance,
   const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
 
+/**
+ * What a surface must have: edges with one triangle only on the grid's boundary, none with more
+ * than two, orientation consistent, points distinct and all used, nothing outside of the grid.
+ * @return the first fault in words, empty if there is none
+ */
+std::string FindFault(const Mesh& mesh, const std::array<int, 3>& dims);
+
 /** Triangles by position and level, so that meshes compare whatever their order is. */
 using Corner = std::array<float, 3>;
 struct PlacedTriangle

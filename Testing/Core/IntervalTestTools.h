@@ -7,6 +7,8 @@
 
 #include "ReferenceInterval.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 /** Interval volumes for the core's tests. */
@@ -24,7 +26,10 @@ struct Volume
 
   bool operator==(const Volume& other) const
   {
-    return this->Points == other.Points && this->Values == other.Values &&
+    const auto isSame = [](double a, double b)
+    { return a == b || (std::isnan(a) && std::isnan(b)); };
+    return this->Points == other.Points && this->Values.size() == other.Values.size() &&
+      std::equal(this->Values.begin(), this->Values.end(), other.Values.begin(), isSame) &&
       this->Surfaces == other.Surfaces && this->Tetrahedra == other.Tetrahedra &&
       this->Levels == other.Levels;
   }

@@ -14,60 +14,6 @@
 
 using namespace isodiamond;
 
-namespace
-{
-
-bool OnBoundary(const test::Field& field, const test::Corner& a, const test::Corner& b)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const auto last = static_cast<float>(field.Dims[axis] - 1);
-    if ((a[axis] == 0.0F && b[axis] == 0.0F) || (a[axis] == last && b[axis] == last))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/** Edges with one triangle only on the boundary, none with more than two, orientation consistent,
- *  points distinct and all used, nothing outside of the grid. */
-void ExpectConforming(const test::Field& field, const test::Mesh& mesh)
-{
-  std::map<std::pair<int, int>, int> directed;
-  std::vector<bool> used(mesh.Points.size(), false);
-  for (const std::array<std::int32_t, 3>& t : mesh.Triangles)
-  {
-    ASSERT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
-    for (int i = 0; i < 3; ++i)
-    {
-      ++directed[{ t[i], t[(i + 1) % 3] }];
-      used.at(t[i]) = true;
-    }
-  }
-  for (const auto& [edge, count] : directed)
-  {
-    ASSERT_EQ(count, 1); // a second triangle on the same side
-    if (directed.count({ edge.second, edge.first }) == 0)
-    {
-      ASSERT_TRUE(OnBoundary(field, mesh.Points[edge.first], mesh.Points[edge.second]));
-    }
-  }
-  ASSERT_EQ(std::count(used.begin(), used.end(), false), 0);
-  const std::set<test::Corner> distinct(mesh.Points.begin(), mesh.Points.end());
-  ASSERT_EQ(distinct.size(), mesh.Points.size());
-  for (const test::Corner& point : mesh.Points)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      ASSERT_GE(point[axis], 0.0F);
-      ASSERT_LE(point[axis], static_cast<float>(field.Dims[axis] - 1));
-    }
-  }
-}
-
-}
-
 TEST(Surface, EqualsTheReferenceMeshAtEveryTolerance)
 {
   for (const test::Field& field : test::SmallFields())
@@ -152,7 +98,7 @@ TEST(Surface, ConformsAtEveryTolerance)
     for (const double tolerance : test::Tolerances(minimal.Hierarchy->Codes().Scale()))
     {
       SCOPED_TRACE(tolerance);
-      ExpectConforming(field, test::Extract(*minimal.Hierarchy, tolerance));
+      EXPECT_EQ(test::FindFault(test::Extract(*minimal.Hierarchy, tolerance), field.Dims), "");
     }
   }
 }
@@ -266,7 +212,7 @@ TEST(Surface, AtInfiniteToleranceDependsOnTheRoot)
   }
   field.Isovalue = 7.3;
   test::Mesh mesh = test::Extract(*test::Build(Model::Minimal, field).Hierarchy, infinity);
-  ExpectConforming(field, mesh);
+  EXPECT_EQ(test::FindFault(mesh, field.Dims), "");
   EXPECT_EQ(mesh.Triangles.size(), 8U); // two halves and four quadrilaterals' worth
   EXPECT_TRUE(std::all_of(
     mesh.Levels.begin(), mesh.Levels.end(), [](std::int8_t level) { return level == 0; }));
