@@ -453,6 +453,22 @@ inline constexpr const TypeTable& ShapeOf(const Point& position)
   return tables::Types[TypeOf(position)];
 }
 
+/** What make(position) finds for the diamonds of each type, by TypeOf. */
+template <typename Make>
+auto MakeByType(const Make& make)
+{
+  std::array<decltype(make(Point{})), 64> all{};
+  for (int type = 0; type < 64; ++type)
+  {
+    const Point example = PositionOfType(type);
+    if (ShapeOf(example).Valid)
+    {
+      all[type] = make(example);
+    }
+  }
+  return all;
+}
+
 /** The index of the vertex of a diamond at an offset that a vertex has. */
 inline constexpr int VertexIndex(const Point& position, const Point& offset)
 {

@@ -75,19 +75,7 @@ FinestDomain MakeDomain(const Point& position)
 
 const FinestDomain& FinestDomainOf(const Point& position)
 {
-  static const std::array<FinestDomain, 64> domains = []
-  {
-    std::array<FinestDomain, 64> all;
-    for (int type = 0; type < 64; ++type)
-    {
-      const Point position = PositionOfType(type);
-      if (ShapeOf(position).Valid)
-      {
-        all[type] = MakeDomain(position);
-      }
-    }
-    return all;
-  }();
+  static const auto domains = MakeByType(MakeDomain);
   return domains[TypeOf(position)];
 }
 

@@ -61,19 +61,7 @@ SpineEdges MakeEdges(const Point& position)
 
 const SpineEdges& SpineEdgesOf(const Point& position)
 {
-  static const std::array<SpineEdges, 64> tables = []
-  {
-    std::array<SpineEdges, 64> all;
-    for (int type = 0; type < 64; ++type)
-    {
-      const Point example = PositionOfType(type);
-      if (ShapeOf(example).Valid)
-      {
-        all[type] = MakeEdges(example);
-      }
-    }
-    return all;
-  }();
+  static const auto tables = MakeByType(MakeEdges);
   return tables[TypeOf(position)];
 }
 
