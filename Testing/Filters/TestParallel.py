@@ -6,19 +6,19 @@ Every process runs this script (pvbatch --symmetric), and the filters of its own
 pipeline; the first one collects the meshes and compares them."""
 import os
 import sys
+import traceback
 
 import numpy
-from paraview import servermanager
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 import isodiamonds
 
 FOLDER = sys.argv[1]
-EXTENT = [-10, 10, -10, 12, -9, 10]
+EXTENT = [-8, 8, -7, 9, -6, 8]
 LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
 controller = vtkMultiProcessController.GetGlobalController()
 rank = controller.GetLocalProcessId()
@@ -69,6 +69,10 @@ def pieces(proxy):
     """What each process has of a filter's output, on the first process; nothing elsewhere."""
     proxy.UpdatePipeline()
     output = proxy.GetClientSideObject().GetOutputDataObject(0)
+    if output.IsA("vtkCompositeDataSet"):
+        iterator = output.NewIterator()
+        iterator.InitTraversal()
+        output = iterator.GetCurrentDataObject()
     if ranks == 1:
         return [output]
     if rank > 0:
@@ -82,8 +86,8 @@ def pieces(proxy):
     return received
 
 
-def compare(name, proxy, filter, surface=None):
-    """@param surface whether sides of one cell may be where its surfaces are, too"""
+def compare(name, proxy, filter):
+    """The pieces of a filter of ParaView with the mesh of one of VTK."""
     meshes = pieces(proxy)
     if rank > 0:
         return
@@ -119,22 +123,6 @@ def serial(filter, **properties):
     return filter
 
 
-region = dict(UseRegionOfInterest=1)
-box = (-10, 0, -10, 0, -9, 0)
-for tolerance in (0, 0.3, 2):
-    compare(
-        f"contour at {tolerance}",
-        IsodiamondContour(wavelet, Isosurfaces=[150], ErrorTolerance=tolerance),
-        serial(isodiamonds.vtkIsodiamondContour(), Value=(0, 150), ErrorTolerance=tolerance),
-    )
-    compare(
-        f"interval volume at {tolerance}",
-        IsodiamondIntervalVolume(wavelet, Isorange=[150, 200], ErrorTolerance=tolerance),
-        serial(isodiamonds.vtkIsodiamondIntervalVolume(), Isorange=(150, 200),
-               ErrorTolerance=tolerance),
-    )
-
-hierarchy = IsodiamondHierarchy(wavelet, Isovalue=150, ErrorMetric="Distance")
 builder = serial(isodiamonds.vtkIsodiamondBuilder(), Isovalue=150, ErrorMetric=1)
 
 
@@ -145,16 +133,64 @@ def of_hierarchy(filter, tolerance=None):
     return filter
 
 
-hierarchy.UpdatePipeline()
-outline = hierarchy.GetClientSideObject().GetOutputDataObject(0)
-assert outline.GetNumberOfCells() == (12 if rank == 0 else 0)
-assert outline.GetNumberOfActiveIsodiamonds() > 0
-for tolerance in (0, 0.3, 2):
+def main():
+    for tolerance in (0, 0.3, 2):
+        compare(
+            f"contour at {tolerance}",
+            IsodiamondContour(wavelet, Isosurfaces=[150], ErrorTolerance=tolerance, ComputeScalars=1),
+            serial(isodiamonds.vtkIsodiamondContour(), Value=(0, 150), ErrorTolerance=tolerance),
+        )
+        compare(
+            f"interval volume at {tolerance}",
+            IsodiamondIntervalVolume(wavelet, Isorange=[150, 200], ErrorTolerance=tolerance),
+            serial(isodiamonds.vtkIsodiamondIntervalVolume(), Isorange=(150, 200),
+                   ErrorTolerance=tolerance),
+        )
+
+    hierarchy = IsodiamondHierarchy(wavelet, Isovalue=150, ErrorMetric="Distance")
+    hierarchy.UpdatePipeline()
+    outline = hierarchy.GetClientSideObject().GetOutputDataObject(0)
+    assert outline.GetNumberOfCells() == (12 if rank == 0 else 0)
+    assert outline.GetNumberOfActiveIsodiamonds() > 0
+    for tolerance in (0, 0.3):
+        compare(
+            f"extraction at {tolerance}",
+            IsodiamondExtract(hierarchy, ErrorTolerance=tolerance),
+            of_hierarchy(isodiamonds.vtkIsodiamondExtractor(), tolerance),
+        )
+    path = os.path.join(FOLDER, f"parallel-{ranks}.vtp")
+    if rank == 0:
+        writer = vtkXMLPolyDataWriter()
+        writer.SetFileName(path)
+        writer.SetDataModeToBinary()
+        writer.SetInputConnection(builder.GetOutputPort())
+        assert writer.Write() == 1
+    controller.Barrier()
     compare(
-        f"extraction at {tolerance}",
-        IsodiamondExtract(hierarchy, ErrorTolerance=tolerance),
-        of_hierarchy(isodiamonds.vtkIsodiamondExtractor(), tolerance),
+        "extraction from a file",
+        IsodiamondExtract(XMLPolyDataReader(FileName=[path]), ErrorTolerance=0.3),
+        of_hierarchy(isodiamonds.vtkIsodiamondExtractor(), 0.3),
     )
-compare("diamond mesh", DiamondMesh(hierarchy, ErrorTolerance=0.3),
-        of_hierarchy(isodiamonds.vtkDiamondMesh(), 0.3))
-compare("points", IsodiamondPoints(hierarchy), of_hierarchy(isodiamonds.vtkIsodiamondPoints()))
+    # A group of what each process has asks for what is asked of it: the whole volume, not pieces.
+    compare(
+        "contour of a group",
+        IsodiamondContour(
+            GroupDatasets(wavelet), Isosurfaces=[150], ErrorTolerance=0.3, ComputeScalars=1
+        ),
+        serial(isodiamonds.vtkIsodiamondContour(), Value=(0, 150), ErrorTolerance=0.3),
+    )
+    compare(
+        "diamond mesh",
+        DiamondMesh(hierarchy, ErrorTolerance=0.3),
+        of_hierarchy(isodiamonds.vtkDiamondMesh(), 0.3),
+    )
+    compare("points", IsodiamondPoints(hierarchy), of_hierarchy(isodiamonds.vtkIsodiamondPoints()))
+
+
+try:
+    main()
+except BaseException:
+    # The others wait for this process: without it mpiexec ends them.
+    traceback.print_exc()
+    sys.stderr.flush()
+    os._exit(1)
