@@ -45,18 +45,17 @@ void MakePart(Array* offsets, Array* connectivity, vtkIdType pointCount, Part& p
   const Id* begin = connectivity->GetPointer(0) + offset[part.FirstCell];
   const Id* end = connectivity->GetPointer(0) + offset[part.LastCell];
 
-  std::vector<char> used(pointCount, 0);
+  std::vector<Id> newIds(pointCount, 0); // first whether a point is used
   for (const Id* id = begin; id != end; ++id)
   {
-    used[*id] = 1;
+    newIds[*id] = 1;
   }
-  part.Points->SetNumberOfIds(std::count(used.begin(), used.end(), 1));
-  std::vector<Id> newIds(pointCount);
+  part.Points->SetNumberOfIds(std::accumulate(newIds.begin(), newIds.end(), vtkIdType{ 0 }));
   vtkIdType* points = part.Points->GetPointer(0);
   Id count = 0;
   for (vtkIdType id = 0; id < pointCount; ++id)
   {
-    if (used[id] != 0)
+    if (newIds[id] != 0)
     {
       points[count] = id;
       newIds[id] = count++;
@@ -73,6 +72,17 @@ void MakePart(Array* offsets, Array* connectivity, vtkIdType pointCount, Part& p
     begin, end, newConnectivity->GetPointer(0), [&newIds](Id id) { return newIds[id]; });
   part.Cells = vtkSmartPointer<vtkCellArray>::New();
   part.Cells->SetData(newOffsets, newConnectivity);
+}
+
+/** Of a data set's attributes the tuples from one until another. */
+void KeepRange(vtkDataSetAttributes* data, vtkIdType first, vtkIdType last)
+{
+  vtkNew<vtkCellData> all;
+  all->ShallowCopy(data);
+  data->Initialize();
+  data->CopyAllOn();
+  data->CopyAllocate(all, last - first);
+  data->CopyData(all, 0, last - first, first);
 }
 
 void KeepPart(vtkCellArray* cells, const int share[2], vtkPointSet* mesh, Part& part)
@@ -96,10 +106,7 @@ void KeepPart(vtkCellArray* cells, const int share[2], vtkPointSet* mesh, Part& 
   mesh->GetPoints()->GetPoints(part.Points, points);
   mesh->SetPoints(points);
   KeepTuples(mesh->GetPointData(), part.Points);
-  vtkNew<vtkIdList> cellIds;
-  cellIds->SetNumberOfIds(part.LastCell - part.FirstCell);
-  std::iota(cellIds->begin(), cellIds->end(), part.FirstCell);
-  KeepTuples(mesh->GetCellData(), cellIds);
+  KeepRange(mesh->GetCellData(), part.FirstCell, part.LastCell);
 }
 
 }

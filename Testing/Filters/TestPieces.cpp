@@ -242,7 +242,8 @@ TEST(Pieces, EveryPieceHasTheHierarchyAndTheFirstItsOutline)
   vtkNew<vtkIsodiamondBuilder> builder;
   builder->SetInputData(BallWithMore());
   builder->Update();
-  vtkAbstractArray* records = builder->GetOutput()->GetFieldData()->GetArray("IsodiamondRecords");
+  const vtkSmartPointer<vtkDataArray> records =
+    builder->GetOutput()->GetFieldData()->GetArray("IsodiamondRecords");
   ASSERT_NE(records, nullptr);
   for (const int piece : { 0, 1, 2 })
   {
