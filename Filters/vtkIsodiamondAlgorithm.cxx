@@ -2,9 +2,11 @@
 #include "vtkIsodiamondAlgorithm.h"
 
 #include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondShare.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkMath.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -111,8 +113,16 @@ vtkTypeBool vtkIsodiamondAlgorithm::ProcessRequest(
 }
 
 //------------------------------------------------------------------------------
-int vtkIsodiamondAlgorithm::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+int vtkIsodiamondAlgorithm::ModifyRequest(vtkInformation* request, int when)
 {
+  vtkIsodiamond::NoteShare(this, request, when, this->Share);
+  return this->Superclass::ModifyRequest(request, when);
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondAlgorithm::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  vtkIsodiamond::RequestWhole(inputVector[0]->GetInformationObject(0));
   return 1;
 }

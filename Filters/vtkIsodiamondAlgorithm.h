@@ -144,6 +144,9 @@ protected:
   vtkIsodiamondAlgorithm();
   ~vtkIsodiamondAlgorithm() override = default;
 
+  /** Notes the share of the output that is asked for. */
+  int ModifyRequest(vtkInformation* request, int when) override;
+  /** Asks for the whole input. */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -164,6 +167,7 @@ protected:
   int OutputPointsPrecision = DEFAULT_PRECISION;
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
+  int Share[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
 
 private:
   vtkIsodiamondAlgorithm(const vtkIsodiamondAlgorithm&) = delete;

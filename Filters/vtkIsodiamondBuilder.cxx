@@ -4,6 +4,7 @@
 #include "Builder.h"
 #include "vtkIsodiamondInput.h"
 #include "vtkIsodiamondPointData.h"
+#include "vtkIsodiamondShare.h"
 #include "vtkIsodiamondState.h"
 #include "vtkIsodiamondTask.h"
 #include "vtkIsodiamondThreads.h"
@@ -15,6 +16,7 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPoints.h"
 
 #include <stdexcept>
 
@@ -123,10 +125,17 @@ vtkTypeBool vtkIsodiamondBuilder::ProcessRequest(
 }
 
 //------------------------------------------------------------------------------
+int vtkIsodiamondBuilder::ModifyRequest(vtkInformation* request, int when)
+{
+  vtkIsodiamond::NoteShare(this, request, when, this->Share);
+  return this->Superclass::ModifyRequest(request, when);
+}
+
+//------------------------------------------------------------------------------
 int vtkIsodiamondBuilder::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  vtkIsodiamond::RequestWholeExtent(inputVector[0]->GetInformationObject(0));
+  vtkIsodiamond::RequestWhole(inputVector[0]->GetInformationObject(0));
   return 1;
 }
 
@@ -135,23 +144,44 @@ int vtkIsodiamondBuilder::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  if (!vtkIsodiamond::IsFirstPiece(outputVector->GetInformationObject(0)))
-  {
-    return 1;
-  }
   return vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task& task)
     {
-      this->CheckModel();
-      if (vtkPolyData* hierarchy = vtkPolyData::GetData(inputVector[0]))
+      vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+      vtkIsodiamond::CheckWhole(input, inputVector[0]->GetInformationObject(0), this->Share);
+      this->Build(input, task, output);
+      if (this->Share[0] > 0)
       {
-        this->BuildFromHierarchy(hierarchy, task, output);
-      }
-      else
-      {
-        this->BuildFromImage(vtkImageData::GetData(inputVector[0]), task, output);
+        output->SetPoints(vtkNew<vtkPoints>());
+        output->SetLines(nullptr);
       }
     });
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondBuilder::Build(
+  vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output)
+{
+  if (this->Built && this->BuiltOf == input && this->BuiltAt > input->GetMTime() &&
+    this->BuiltAt > this->GetMTime())
+  {
+    output->ShallowCopy(this->Built);
+    return;
+  }
+  this->Built = nullptr;
+  this->CheckModel();
+  if (vtkPolyData* hierarchy = vtkPolyData::SafeDownCast(input))
+  {
+    this->BuildFromHierarchy(hierarchy, task, output);
+  }
+  else
+  {
+    this->BuildFromImage(vtkImageData::SafeDownCast(input), task, output);
+  }
+  this->Built = vtkSmartPointer<vtkIsodiamondHierarchy>::New();
+  this->Built->ShallowCopy(output);
+  this->BuiltOf = input;
+  this->BuiltAt.Modified();
 }
 
 //------------------------------------------------------------------------------

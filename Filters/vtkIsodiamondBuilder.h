@@ -12,8 +12,8 @@
  * samples within the isorange, its ends included. NaN counts as below. Errors, and so the
  * tolerances of queries, are in the units of the error metric.
  *
- * The whole extent of the input is requested. In parallel the first piece holds the hierarchy,
- * the others are empty.
+ * The whole extent of the input is requested. In parallel every piece holds the whole hierarchy,
+ * as extractors need it, but only the first one its outline.
  *
  * @warning A sample that equals the isovalue counts as below it; surfaces that only touch samples
  * are empty.
@@ -28,6 +28,8 @@
 #include "vtkIsodiamondFiltersModule.h" // for export macro
 #include "vtkIsodiamondHierarchy.h"     // for the models
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for what was built
+#include "vtkTimeStamp.h"    // for when
 
 #include <string> // for the names of arrays
 #include <vector> // for the names of arrays
@@ -201,6 +203,8 @@ protected:
   ~vtkIsodiamondBuilder() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  /** Notes the share of the output that is asked for. */
+  int ModifyRequest(vtkInformation* request, int when) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -218,6 +222,7 @@ protected:
   std::vector<std::string> PointArrays;
   bool ComputeNormals = false;
   int NumberOfThreads = 0;
+  int Share[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
 
 private:
   vtkIsodiamondBuilder(const vtkIsodiamondBuilder&) = delete;
@@ -230,6 +235,13 @@ private:
   void WarnWithoutPointArrays();
   void BuildFromImage(vtkImageData* image, vtkIsodiamond::Task& task, vtkPolyData* output);
   void BuildFromHierarchy(vtkPolyData* input, vtkIsodiamond::Task& task, vtkPolyData* output);
+  void Build(vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output);
+
+  /** What was built, of what, and when: in parallel extractors ask for the only piece of the
+   *  hierarchy, and whoever shows it for one of several. That is the same hierarchy. */
+  vtkSmartPointer<vtkIsodiamondHierarchy> Built;
+  vtkDataObject* BuiltOf = nullptr; ///< to compare with, may be gone
+  vtkTimeStamp BuiltAt;
 };
 
 #endif

@@ -4,6 +4,7 @@
 #include "vtkIsodiamondInput.h"
 #include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondShare.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -179,10 +180,6 @@ int vtkIsodiamondExtractor::RequestData(
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
   this->Last.reset();
-  if (!vtkIsodiamond::IsFirstPiece(outputVector->GetInformationObject(0)))
-  {
-    return 1; // the first piece has all of it
-  }
   return vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task& task)
     {
@@ -197,6 +194,7 @@ int vtkIsodiamondExtractor::RequestData(
         task.For(),
         [&](const isodiamond::RefinedSet& refined)
         { this->WriteMesh(*execution->State, refined, writing, output); });
+      vtkIsodiamond::KeepShare(output, this->Share);
       this->Last = std::move(execution);
     });
 }

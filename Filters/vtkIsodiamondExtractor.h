@@ -15,6 +15,9 @@
  * tolerance costs less time, in proportion to what it returns. All tetrahedra have positive
  * volume; every face of one is a face of another, or lies on a surface or the image's boundary.
  *
+ * In parallel every process needs the whole hierarchy, and keeps its share of the mesh's cells: all
+ * pieces together are the mesh, with each cell once.
+ *
  * @warning With an open boundary, a surface's edges on the image's boundary have one triangle.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010, section 6.

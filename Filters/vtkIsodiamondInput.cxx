@@ -5,7 +5,6 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkPointData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -231,27 +230,6 @@ Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoun
   volume.Place = GeometryOf(grid, volume.Padding);
   volume.Hidden = HiddenCellsOf(grid, volume.Padding);
   return volume;
-}
-
-void RequestWholeExtent(vtkInformation* inputInformation)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  if (inputInformation && inputInformation->Has(Pipeline::WHOLE_EXTENT()))
-  {
-    int extent[6];
-    inputInformation->Get(Pipeline::WHOLE_EXTENT(), extent);
-    inputInformation->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
-    inputInformation->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  }
-}
-
-bool IsFirstPiece(vtkInformation* outputInformation)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  return !outputInformation->Has(Pipeline::UPDATE_PIECE_NUMBER()) ||
-    outputInformation->Get(Pipeline::UPDATE_PIECE_NUMBER()) == 0;
 }
 
 }

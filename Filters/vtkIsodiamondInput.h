@@ -71,13 +71,6 @@ Volume ReadVolume(vtkDataSet* grid, const InputArray& array, bool closeBoundary)
 bool ViewSamples(
   vtkDataArray* array, const std::array<int, 3>& dimensions, isodiamond::AnySamples& samples);
 
-/** Asks for the whole grid: a hierarchy of a part of it is another hierarchy. */
-void RequestWholeExtent(vtkInformation* inputInformation);
-
-/** Whether this process makes the output: in parallel the first piece does, the others are empty.
- */
-bool IsFirstPiece(vtkInformation* outputInformation);
-
 }
 
 #endif

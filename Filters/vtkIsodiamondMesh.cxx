@@ -3,6 +3,7 @@
 
 #include "IntervalExtraction.h"
 #include "SurfaceExtraction.h"
+#include "vtkIsodiamondShare.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -20,7 +21,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace vtkIsodiamond
@@ -161,20 +161,6 @@ isodiamond::Point CellOfGrid(
     cell[axis] = static_cast<int>(std::floor(sum / static_cast<double>(size)));
   }
   return cell;
-}
-
-/** Of a mesh's attributes those of some ids. */
-void KeepTuples(vtkDataSetAttributes* data, vtkIdList* ids)
-{
-  vtkNew<vtkPointData> all;
-  all->ShallowCopy(data);
-  data->Initialize();
-  data->CopyAllOn();
-  data->CopyAllocate(all, ids->GetNumberOfIds());
-  vtkNew<vtkIdList> newIds; // VTK 9.1 has no CopyData without
-  newIds->SetNumberOfIds(ids->GetNumberOfIds());
-  std::iota(newIds->begin(), newIds->end(), vtkIdType{ 0 });
-  data->CopyData(all, ids, newIds);
 }
 
 /** Leaves out the cells that lie in hidden ones of the grid, and points that no cell has then.

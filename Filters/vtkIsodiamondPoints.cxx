@@ -2,7 +2,7 @@
 #include "vtkIsodiamondPoints.h"
 
 #include "vtkIsodiamondHierarchy.h"
-#include "vtkIsodiamondInput.h"
+#include "vtkIsodiamondShare.h"
 #include "vtkIsodiamondState.h"
 
 #include "vtkCellArray.h"
@@ -36,15 +36,26 @@ int vtkIsodiamondPoints::FillInputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
+int vtkIsodiamondPoints::ModifyRequest(vtkInformation* request, int when)
+{
+  vtkIsodiamond::NoteShare(this, request, when, this->Share);
+  return this->Superclass::ModifyRequest(request, when);
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondPoints::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  vtkIsodiamond::RequestWhole(inputVector[0]->GetInformationObject(0));
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkIsodiamondPoints::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  if (!vtkIsodiamond::IsFirstPiece(outputVector->GetInformationObject(0)))
-  {
-    return 1; // the first piece has all of it
-  }
   try
   {
     const std::shared_ptr<const vtkIsodiamond::State> state =
@@ -89,6 +100,7 @@ int vtkIsodiamondPoints::RequestData(
     output->GetPointData()->AddArray(classes);
     output->GetPointData()->AddArray(levels);
     output->GetPointData()->AddArray(errors);
+    vtkIsodiamond::KeepShare(output, this->Share);
   }
   catch (const std::exception& problem)
   {

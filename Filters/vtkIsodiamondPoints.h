@@ -7,7 +7,7 @@
  * stored isodiamond at its central vertex, with the point arrays `Kind` (0 active, 1 creation,
  * 2 relevant), `Class` (0, 1, 2), `Level` (0 for the root) and `Error` (the tolerance, in the
  * metric's units, below which the diamond is subdivided; infinite where it always is). The
- * paper's figures 11 and 16.
+ * paper's figures 11 and 16. In parallel each process has a share of the points.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010.
  */
@@ -30,8 +30,14 @@ protected:
   ~vtkIsodiamondPoints() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  /** Notes the share of the output that is asked for. */
+  int ModifyRequest(vtkInformation* request, int when) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+
+  int Share[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
 
 private:
   vtkIsodiamondPoints(const vtkIsodiamondPoints&) = delete;

@@ -4,6 +4,7 @@
 #include "vtkIsodiamondCache.h"
 #include "vtkIsodiamondInput.h"
 #include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondShare.h"
 #include "vtkIsodiamondTask.h"
 #include "vtkIsodiamondThreads.h"
 
@@ -76,14 +77,6 @@ int vtkIsodiamondVolumeAlgorithm::FillInputPortInformation(int, vtkInformation* 
 }
 
 //------------------------------------------------------------------------------
-int vtkIsodiamondVolumeAlgorithm::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
-{
-  vtkIsodiamond::RequestWholeExtent(inputVector[0]->GetInformationObject(0));
-  return 1;
-}
-
-//------------------------------------------------------------------------------
 vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataSet* input)
 {
   vtkIsodiamond::InputArray found;
@@ -99,16 +92,13 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  if (!vtkIsodiamond::IsFirstPiece(outputVector->GetInformationObject(0)))
-  {
-    return 1; // the first piece has all of it
-  }
   return vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task& task)
     {
       const vtkIsodiamond::Query query = this->GetQuery();
       vtkIsodiamond::CheckTolerances(query);
       vtkDataSet* grid = vtkDataSet::GetData(inputVector[0]);
+      vtkIsodiamond::CheckWhole(grid, inputVector[0]->GetInformationObject(0), this->Share);
       const vtkIsodiamond::InputArray array = this->FindInputArray(grid);
       const vtkIsodiamond::Volume volume =
         vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
@@ -134,5 +124,6 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
           this->Extract(volume, query, task, output);
           this->Hierarchies->Trim(std::int64_t{ this->CacheSize } << 20);
         });
+      vtkIsodiamond::KeepShare(output, this->Share);
     });
 }

@@ -14,8 +14,8 @@
  * on images and rectilinear grids, however these are spaced; on structured grids tolerances are by
  * the field metric. Full resolution needs no metric.
  *
- * The whole extent of the input is requested. In parallel the first piece holds the mesh, the
- * others are empty.
+ * The whole input is requested. In parallel every process makes the whole mesh and keeps its share
+ * of the cells: all pieces together are the mesh, with each cell once.
  *
  * @sa vtkIsodiamondContour vtkIsodiamondIntervalVolume
  */
@@ -113,8 +113,6 @@ protected:
   ~vtkIsodiamondVolumeAlgorithm() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

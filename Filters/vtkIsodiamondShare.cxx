@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondShare.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkExecutive.h"
+#include "vtkIdList.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+namespace vtkIsodiamond
+{
+namespace
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+/** A range of cells, and the points that they use. */
+struct Part
+{
+  vtkIdType FirstCell = 0;
+  vtkIdType LastCell = 0; ///< not in it
+  vtkNew<vtkIdList> Points;
+  vtkSmartPointer<vtkCellArray> Cells; ///< their points by place in Points
+};
+
+/** Ids of the whole's points become ids of the part's, in the same order. */
+template <typename Array>
+void MakePart(Array* offsets, Array* connectivity, vtkIdType pointCount, Part& part)
+{
+  using Id = typename Array::ValueType;
+  const Id* offset = offsets->GetPointer(0);
+  const Id* begin = connectivity->GetPointer(0) + offset[part.FirstCell];
+  const Id* end = connectivity->GetPointer(0) + offset[part.LastCell];
+
+  std::vector<Id> newIds(pointCount, 0); // first whether a point is used
+  for (const Id* id = begin; id != end; ++id)
+  {
+    newIds[*id] = 1;
+  }
+  part.Points->SetNumberOfIds(std::accumulate(newIds.begin(), newIds.end(), vtkIdType{ 0 }));
+  vtkIdType* points = part.Points->GetPointer(0);
+  Id count = 0;
+  for (vtkIdType id = 0; id < pointCount; ++id)
+  {
+    if (newIds[id] != 0)
+    {
+      points[count] = id;
+      newIds[id] = count++;
+    }
+  }
+
+  vtkNew<Array> newOffsets;
+  newOffsets->SetNumberOfValues(part.LastCell - part.FirstCell + 1);
+  std::transform(offset + part.FirstCell, offset + part.LastCell + 1, newOffsets->GetPointer(0),
+    [first = offset[part.FirstCell]](Id place) { return place - first; });
+  vtkNew<Array> newConnectivity;
+  newConnectivity->SetNumberOfValues(end - begin);
+  std::transform(
+    begin, end, newConnectivity->GetPointer(0), [&newIds](Id id) { return newIds[id]; });
+  part.Cells = vtkSmartPointer<vtkCellArray>::New();
+  part.Cells->SetData(newOffsets, newConnectivity);
+}
+
+/** Of a data set's attributes the tuples from one until another. */
+void KeepRange(vtkDataSetAttributes* data, vtkIdType first, vtkIdType last)
+{
+  vtkNew<vtkCellData> all;
+  all->ShallowCopy(data);
+  data->Initialize();
+  data->CopyAllOn();
+  data->CopyAllocate(all, last - first);
+  data->CopyData(all, 0, last - first, first);
+}
+
+void KeepPart(vtkCellArray* cells, const int share[2], vtkPointSet* mesh, Part& part)
+{
+  const vtkIdType count = cells->GetNumberOfCells();
+  const int piece = std::clamp(share[0], 0, share[1]);
+  part.FirstCell = count * piece / share[1];
+  part.LastCell = count * std::min(piece + 1, share[1]) / share[1];
+  if (cells->IsStorage64Bit())
+  {
+    MakePart(
+      cells->GetOffsetsArray64(), cells->GetConnectivityArray64(), mesh->GetNumberOfPoints(), part);
+  }
+  else
+  {
+    MakePart(
+      cells->GetOffsetsArray32(), cells->GetConnectivityArray32(), mesh->GetNumberOfPoints(), part);
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(mesh->GetPoints()->GetDataType());
+  mesh->GetPoints()->GetPoints(part.Points, points);
+  mesh->SetPoints(points);
+  KeepTuples(mesh->GetPointData(), part.Points);
+  KeepRange(mesh->GetCellData(), part.FirstCell, part.LastCell);
+}
+
+}
+
+void RequestWhole(vtkInformation* inputInformation)
+{
+  if (!inputInformation)
+  {
+    return;
+  }
+  if (inputInformation->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    int extent[6];
+    inputInformation->Get(Pipeline::WHOLE_EXTENT(), extent);
+    inputInformation->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+  }
+  inputInformation->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+  inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+  inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
+void NoteShare(vtkAlgorithm* filter, vtkInformation* request, int when, int share[2])
+{
+  if (when == vtkExecutive::AfterForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    vtkInformation* output = filter->GetOutputInformation(0);
+    share[0] = output->Get(Pipeline::UPDATE_PIECE_NUMBER()); // 0 if there is none
+    share[1] = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
+  }
+}
+
+void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int share[2])
+{
+  vtkInformation* data = volume ? volume->GetInformation() : nullptr;
+  if (share[1] == 1 || !data || !data->Has(vtkDataObject::DATA_EXTENT()) ||
+    !inputInformation->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    return;
+  }
+  int whole[6];
+  int extent[6];
+  inputInformation->Get(Pipeline::WHOLE_EXTENT(), whole);
+  data->Get(vtkDataObject::DATA_EXTENT(), extent);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (extent[2 * axis] > whole[2 * axis] || extent[2 * axis + 1] < whole[2 * axis + 1])
+    {
+      throw std::invalid_argument("The input is a part of the volume, though all of it was asked "
+                                  "for: in parallel every process needs the whole volume.");
+    }
+  }
+}
+
+void KeepShare(vtkDataObject* mesh, const int share[2])
+{
+  vtkPointSet* points = vtkPointSet::SafeDownCast(mesh);
+  if ((share[0] == 0 && share[1] == 1) || !points || !points->GetPoints())
+  {
+    return;
+  }
+  Part part;
+  if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(mesh))
+  {
+    if (polyData->GetNumberOfVerts() > 0)
+    {
+      KeepPart(polyData->GetVerts(), share, polyData, part);
+      polyData->SetVerts(part.Cells);
+    }
+    else
+    {
+      KeepPart(polyData->GetPolys(), share, polyData, part);
+      polyData->SetPolys(part.Cells);
+    }
+  }
+  else if (vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(mesh))
+  {
+    const int type = grid->GetNumberOfCells() > 0 ? grid->GetCellType(0) : VTK_EMPTY_CELL;
+    KeepPart(grid->GetCells(), share, grid, part);
+    grid->SetCells(type, part.Cells);
+  }
+}
+
+void KeepTuples(vtkDataSetAttributes* data, vtkIdList* ids)
+{
+  vtkNew<vtkPointData> all;
+  all->ShallowCopy(data);
+  data->Initialize();
+  data->CopyAllOn();
+  data->CopyAllocate(all, ids->GetNumberOfIds());
+  vtkNew<vtkIdList> newIds; // VTK 9.1 has no CopyData without
+  newIds->SetNumberOfIds(ids->GetNumberOfIds());
+  std::iota(newIds->begin(), newIds->end(), vtkIdType{ 0 });
+  data->CopyData(all, ids, newIds);
+}
+
+}

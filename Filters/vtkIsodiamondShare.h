@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamondShare_h
+#define vtkIsodiamondShare_h
+
+#include "vtkType.h"
+
+class vtkAlgorithm;
+class vtkDataObject;
+class vtkDataSetAttributes;
+class vtkIdList;
+class vtkInformation;
+
+/**
+ * @file vtkIsodiamondShare.h
+ * In parallel every process makes the whole mesh, from the whole input, and keeps its share of it.
+ * See docs/parallel.md.
+ */
+namespace vtkIsodiamond
+{
+
+/** Asks for the whole input: a hierarchy of a part of a volume is another hierarchy, and of a part
+ *  of a hierarchy there is no mesh. */
+void RequestWhole(vtkInformation* inputInformation);
+
+/**
+ * Notes the piece and the number of pieces that a filter's output is asked for. For ModifyRequest,
+ * which has both: composite inputs are iterated over by the pipeline, and for every block of theirs
+ * RequestData is asked for piece 0 of 1.
+ *
+ * @param share piece, and number of pieces
+ */
+void NoteShare(vtkAlgorithm* filter, vtkInformation* request, int when, int share[2]);
+
+/**
+ * Refuses a part of a volume where several processes are to share its mesh: of other parts in other
+ * processes the meshes would not fit. A simulation may have a part in each process, for instance,
+ * and ignore what it is asked for.
+ *
+ * @throws std::invalid_argument
+ */
+void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int share[2]);
+
+/**
+ * Leaves a piece of a mesh: its cells from cells * piece / pieces until the same of the next piece,
+ * and the points that these use, both in the mesh's order, with all their data. All pieces together
+ * have each cell once; points between two pieces are in both, the same to the bit. More pieces than
+ * cells leave some without a cell, but with all arrays.
+ *
+ * @param mesh a vtkPolyData or vtkUnstructuredGrid, whose cells are of one kind
+ * @param share piece, and number of pieces
+ */
+void KeepShare(vtkDataObject* mesh, const int share[2]);
+
+/** Of a data set's attributes the tuples of some ids, in their order. */
+void KeepTuples(vtkDataSetAttributes* data, vtkIdList* ids);
+
+}
+
+#endif

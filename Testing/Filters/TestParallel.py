@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""In pvbatch with any number of processes: the shares of all of them are the mesh that one process
+makes, with each cell once and no crack.
+
+Every process runs this script (pvbatch --symmetric), and the filters of its own part of ParaView's
+pipeline; the first one collects the meshes and compares them."""
+import os
+import sys
+import traceback
+
+import numpy
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+import isodiamonds
+
+FOLDER = sys.argv[1]
+EXTENT = [-8, 8, -7, 9, -6, 8]
+LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
+controller = vtkMultiProcessController.GetGlobalController()
+rank = controller.GetLocalProcessId()
+ranks = controller.GetNumberOfProcesses()
+
+
+def cells(mesh):
+    """The mesh's cells: corners with their point data, one row for each cell."""
+    size = mesh.GetCell(0).GetNumberOfPoints() if mesh.GetNumberOfCells() > 0 else 1
+    array = mesh.GetCells() if mesh.IsA("vtkUnstructuredGrid") else None
+    if array is None:
+        array = mesh.GetPolys() if mesh.GetNumberOfPolys() > 0 else mesh.GetVerts()
+    corners = vtk_to_numpy(array.GetConnectivityArray()).reshape(-1, size)
+    columns = [vtk_to_numpy(mesh.GetPoints().GetData())] if mesh.GetNumberOfPoints() > 0 else []
+    for i in range(mesh.GetPointData().GetNumberOfArrays()):
+        columns.append(vtk_to_numpy(mesh.GetPointData().GetArray(i)))
+    if not len(corners):
+        return numpy.zeros((0, 0))
+    points = numpy.column_stack([column.astype(float) for column in columns])
+    return points[corners].reshape(len(corners), -1)
+
+
+def lexsorted(rows):
+    return rows[numpy.lexsort(rows.T[::-1])]
+
+
+def faces_of_one(rows, size):
+    """The sides (edges of triangles, faces of tetrahedra) of one cell alone, by exact positions of
+    their corners; none may be of more than two."""
+    width = rows.shape[1] // size
+    positions = rows.reshape(-1, width)[:, :3]
+    points, ids = numpy.unique(positions, axis=0, return_inverse=True)
+    corners = ids.reshape(-1, size)
+    sides = numpy.concatenate([numpy.delete(corners, i, axis=1) for i in range(size)])
+    sides, uses = numpy.unique(numpy.sort(sides, axis=1), axis=0, return_counts=True)
+    assert uses.max() <= 2, "a side of more than two cells"
+    return points[sides[uses == 1]]
+
+
+def on_border(sides):
+    """Whether every side lies in one of the volume's six faces."""
+    bounds = numpy.array(EXTENT, dtype=float).reshape(3, 2)
+    on = [(sides[:, :, axis] == bound).all(axis=1) for axis in range(3) for bound in bounds[axis]]
+    return numpy.any(on, axis=0)
+
+
+def pieces(proxy):
+    """What each process has of a filter's output, on the first process; nothing elsewhere."""
+    proxy.UpdatePipeline()
+    output = proxy.GetClientSideObject().GetOutputDataObject(0)
+    if output.IsA("vtkCompositeDataSet"):
+        iterator = output.NewIterator()
+        iterator.InitTraversal()
+        output = iterator.GetCurrentDataObject()
+    if ranks == 1:
+        return [output]
+    if rank > 0:
+        controller.Send(output, 0, 7)
+        return []
+    received = [output]
+    for process in range(1, ranks):
+        mesh = output.NewInstance()
+        controller.Receive(mesh, process, 7)
+        received.append(mesh)
+    return received
+
+
+def compare(name, proxy, filter):
+    """The pieces of a filter of ParaView with the mesh of one of VTK."""
+    meshes = pieces(proxy)
+    if rank > 0:
+        return
+    filter.Update()
+    whole = filter.GetOutputDataObject(0)
+    counts = [mesh.GetNumberOfCells() for mesh in meshes]
+    assert len(meshes) == ranks and max(counts) - min(counts) <= 1, (name, counts)
+    together = numpy.concatenate([cells(mesh) for mesh in meshes])
+    expected = cells(whole)
+    assert len(expected) > 500, (name, len(expected))
+    assert together.shape == expected.shape, (name, together.shape, expected.shape)
+    assert (lexsorted(together) == lexsorted(expected)).all(), name
+    assert len(numpy.unique(together, axis=0)) == len(together), f"{name}: a cell twice"
+    size = whole.GetCell(0).GetNumberOfPoints()
+    if size > 1:
+        alone = faces_of_one(together, size)
+        assert len(alone) == len(faces_of_one(expected, size)), name
+        if size == 3:
+            assert on_border(alone).all(), f"{name}: a crack"
+    print(f"{ranks} processes, {name}: {counts} cells")
+
+
+source = vtkRTAnalyticSource()
+source.SetWholeExtent(*EXTENT)
+wavelet = Wavelet(WholeExtent=EXTENT)
+
+
+def serial(filter, **properties):
+    """The filter on the volume, without pieces and without ParaView."""
+    filter.SetInputConnection(source.GetOutputPort())
+    for name, value in properties.items():
+        getattr(filter, "Set" + name)(*value if isinstance(value, tuple) else (value,))
+    return filter
+
+
+builder = serial(isodiamonds.vtkIsodiamondBuilder(), Isovalue=150, ErrorMetric=1)
+
+
+def of_hierarchy(filter, tolerance=None):
+    filter.SetInputConnection(builder.GetOutputPort())
+    if tolerance is not None:
+        filter.SetErrorTolerance(tolerance)
+    return filter
+
+
+def main():
+    for tolerance in (0, 0.3, 2):
+        compare(
+            f"contour at {tolerance}",
+            IsodiamondContour(wavelet, Isosurfaces=[150], ErrorTolerance=tolerance, ComputeScalars=1),
+            serial(isodiamonds.vtkIsodiamondContour(), Value=(0, 150), ErrorTolerance=tolerance),
+        )
+        compare(
+            f"interval volume at {tolerance}",
+            IsodiamondIntervalVolume(wavelet, Isorange=[150, 200], ErrorTolerance=tolerance),
+            serial(isodiamonds.vtkIsodiamondIntervalVolume(), Isorange=(150, 200),
+                   ErrorTolerance=tolerance),
+        )
+
+    hierarchy = IsodiamondHierarchy(wavelet, Isovalue=150, ErrorMetric="Distance")
+    hierarchy.UpdatePipeline()
+    outline = hierarchy.GetClientSideObject().GetOutputDataObject(0)
+    assert outline.GetNumberOfCells() == (12 if rank == 0 else 0)
+    assert outline.GetNumberOfActiveIsodiamonds() > 0
+    for tolerance in (0, 0.3):
+        compare(
+            f"extraction at {tolerance}",
+            IsodiamondExtract(hierarchy, ErrorTolerance=tolerance),
+            of_hierarchy(isodiamonds.vtkIsodiamondExtractor(), tolerance),
+        )
+    path = os.path.join(FOLDER, f"parallel-{ranks}.vtp")
+    if rank == 0:
+        writer = vtkXMLPolyDataWriter()
+        writer.SetFileName(path)
+        writer.SetDataModeToBinary()
+        writer.SetInputConnection(builder.GetOutputPort())
+        assert writer.Write() == 1
+    controller.Barrier()
+    compare(
+        "extraction from a file",
+        IsodiamondExtract(XMLPolyDataReader(FileName=[path]), ErrorTolerance=0.3),
+        of_hierarchy(isodiamonds.vtkIsodiamondExtractor(), 0.3),
+    )
+    # A group of what each process has asks for what is asked of it: the whole volume, not pieces.
+    compare(
+        "contour of a group",
+        IsodiamondContour(
+            GroupDatasets(wavelet), Isosurfaces=[150], ErrorTolerance=0.3, ComputeScalars=1
+        ),
+        serial(isodiamonds.vtkIsodiamondContour(), Value=(0, 150), ErrorTolerance=0.3),
+    )
+    compare(
+        "diamond mesh",
+        DiamondMesh(hierarchy, ErrorTolerance=0.3),
+        of_hierarchy(isodiamonds.vtkDiamondMesh(), 0.3),
+    )
+    compare("points", IsodiamondPoints(hierarchy), of_hierarchy(isodiamonds.vtkIsodiamondPoints()))
+
+
+try:
+    main()
+except BaseException:
+    # The others wait for this process: without it mpiexec ends them.
+    traceback.print_exc()
+    sys.stderr.flush()
+    os._exit(1)

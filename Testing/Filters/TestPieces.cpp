@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each process of several gets: shares that together are the whole.
+#include "FilterTestTools.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDiamondMesh.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondExtractor.h"
+#include "vtkIsodiamondIntervalVolume.h"
+#include "vtkIsodiamondPoints.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkTrivialProducer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <utility>
+
+namespace
+{
+
+/** A cell: its type, its corners, and all data there and of itself. */
+using Cell = std::vector<double>;
+
+void Append(vtkDataSetAttributes* data, vtkIdType id, Cell& cell)
+{
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    const double* tuple = array->GetTuple(id);
+    cell.insert(cell.end(), tuple, tuple + array->GetNumberOfComponents());
+  }
+}
+
+/** Adds a mesh's cells in their order. Each of its points is to have one. */
+void AddCells(vtkDataSet* mesh, std::vector<Cell>& cells)
+{
+  std::set<vtkIdType> used;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    Cell cell{ static_cast<double>(mesh->GetCellType(i)) };
+    mesh->GetCellPoints(i, ids);
+    for (const vtkIdType id : *ids)
+    {
+      used.insert(id);
+      const double* point = mesh->GetPoint(id);
+      cell.insert(cell.end(), point, point + 3);
+      Append(mesh->GetPointData(), id, cell);
+    }
+    Append(mesh->GetCellData(), i, cell);
+    cells.push_back(std::move(cell));
+  }
+  EXPECT_EQ(static_cast<vtkIdType>(used.size()), mesh->GetNumberOfPoints());
+}
+
+/** Names, types, sizes and roles of a mesh's arrays. */
+std::string Arrays(vtkDataSet* mesh)
+{
+  std::string text;
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(mesh->GetPointData()),
+         static_cast<vtkDataSetAttributes*>(mesh->GetCellData()) })
+  {
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* array = data->GetArray(i);
+      text += std::string(array->GetName()) + " " + array->GetDataTypeAsString() + " " +
+        std::to_string(array->GetNumberOfComponents()) + " " +
+        std::to_string(data->IsArrayAnAttribute(i)) + "\n";
+    }
+  }
+  return text + vtkPointSet::SafeDownCast(mesh)->GetPoints()->GetData()->GetDataTypeAsString();
+}
+
+/** All pieces of a filter's mesh are its cells, in the same order. */
+void ExpectShares(vtkAlgorithm* filter, int pieces)
+{
+  filter->UpdatePiece(0, 1, 0);
+  const auto whole = vtkSmartPointer<vtkDataSet>::Take(
+    vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0))->NewInstance());
+  whole->DeepCopy(filter->GetOutputDataObject(0));
+  ASSERT_GT(whole->GetNumberOfCells(), 0);
+  std::vector<Cell> cells;
+  AddCells(whole, cells);
+  std::vector<Cell> together;
+  for (int piece = 0; piece < pieces; ++piece)
+  {
+    filter->UpdatePiece(piece, pieces, 0);
+    vtkDataSet* mesh = vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+    EXPECT_EQ(Arrays(mesh), Arrays(whole));
+    for (int i = 0; i < mesh->GetPointData()->GetNumberOfArrays(); ++i)
+    {
+      EXPECT_EQ(mesh->GetPointData()->GetArray(i)->GetNumberOfTuples(), mesh->GetNumberOfPoints());
+    }
+    for (int i = 0; i < mesh->GetCellData()->GetNumberOfArrays(); ++i)
+    {
+      EXPECT_EQ(mesh->GetCellData()->GetArray(i)->GetNumberOfTuples(), mesh->GetNumberOfCells());
+    }
+    const vtkIdType share = whole->GetNumberOfCells() / pieces;
+    EXPECT_GE(mesh->GetNumberOfCells(), share);
+    EXPECT_LE(mesh->GetNumberOfCells(), share + 1);
+    AddCells(mesh, together);
+  }
+  EXPECT_TRUE(together == cells) << pieces << " pieces: " << together.size() << " cells for "
+                                 << cells.size();
+}
+
+void ExpectShares(vtkAlgorithm* filter)
+{
+  for (const int pieces : { 1, 2, 3, 7 })
+  {
+    ExpectShares(filter, pieces);
+  }
+}
+
+/** The ball with another array beside its density. */
+vtkSmartPointer<vtkImageData> BallWithMore()
+{
+  const auto image = test::BallImage({ 33, 29, 31 });
+  vtkNew<vtkDoubleArray> more;
+  more->SetName("more");
+  more->SetNumberOfComponents(2);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    more->InsertNextTuple2(0.5 * i, -1.0 * (i % 7));
+  }
+  image->GetPointData()->AddArray(more);
+  return image;
+}
+
+/** Uniform at two tolerances, then with a region of interest. */
+template <typename Check>
+void ForQueries(vtkIsodiamondAlgorithm* filter, const Check& check)
+{
+  for (const double tolerance : { 0.0, 0.5 })
+  {
+    filter->SetErrorTolerance(tolerance);
+    check();
+  }
+  filter->SetErrorTolerance(0.0);
+  filter->UseRegionOfInterestOn();
+  filter->SetRegionOfInterest(3.0, 14.0, 5.0, 12.0, 0.0, 20.0);
+  check();
+}
+
+}
+
+TEST(Pieces, Contour)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(BallWithMore());
+  contour->SetValue(0, 0.0);
+  contour->ComputeGradientsOn();
+  ForQueries(contour, [&] { ExpectShares(contour); });
+  contour->SetValue(1, 0.2);
+  contour->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  ExpectShares(contour);
+}
+
+TEST(Pieces, IntervalVolume)
+{
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  volume->SetInputData(BallWithMore());
+  volume->SetIsorange(0.0, 0.3);
+  ForQueries(volume, [&] { ExpectShares(volume); });
+}
+
+TEST(Pieces, OfAHierarchy)
+{
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(BallWithMore());
+  builder->SetErrorMetricToDistance();
+  builder->AddPointArray("more");
+  for (const int shape :
+    { vtkIsodiamondHierarchy::ISOSURFACE, vtkIsodiamondHierarchy::INTERVAL_VOLUME })
+  {
+    builder->SetShape(shape);
+    builder->SetIsorange(0.0, 0.3);
+    vtkNew<vtkIsodiamondExtractor> extractor;
+    extractor->SetInputConnection(builder->GetOutputPort());
+    ForQueries(extractor, [&] { ExpectShares(extractor); });
+    vtkNew<vtkDiamondMesh> tetrahedra;
+    tetrahedra->SetInputConnection(builder->GetOutputPort());
+    ForQueries(tetrahedra, [&] { ExpectShares(tetrahedra); });
+    vtkNew<vtkIsodiamondPoints> points;
+    points->SetInputConnection(builder->GetOutputPort());
+    ExpectShares(points);
+  }
+}
+
+TEST(Pieces, HiddenCellsAreInNone)
+{
+  const auto image = BallWithMore();
+  image->AllocateCellGhostArray();
+  for (int i = 0; i < 20; ++i)
+  {
+    image->GetCellGhostArray()->SetValue(
+      32 * 28 * 4 + 32 * 14 + i, vtkDataSetAttributes::HIDDENCELL);
+  }
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.0);
+  ExpectShares(contour);
+}
+
+TEST(Pieces, MoreThanCells)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(test::MakeImage({ 3, 3, 3 },
+    [](double x, double y, double z) { return x == 1.0 && y == 1.0 && z == 1.0 ? 1.0 : 0.0; }));
+  contour->SetValue(0, 0.5);
+  contour->Update();
+  ExpectShares(contour, static_cast<int>(contour->GetOutput()->GetNumberOfCells()) + 5);
+}
+
+TEST(Pieces, OfNothing)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(test::BallImage({ 9, 9, 9 }));
+  contour->SetValue(0, 1000.0);
+  const auto messages = test::Watch(contour);
+  for (const int piece : { 0, 1, 2 })
+  {
+    contour->UpdatePiece(piece, 3, 0);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_NE(contour->GetOutput()->GetPointData()->GetArray("density"), nullptr);
+  }
+  EXPECT_EQ(messages->ErrorCount, 0) << messages->Errors;
+}
+
+TEST(Pieces, EveryPieceHasTheHierarchyAndTheFirstItsOutline)
+{
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(BallWithMore());
+  builder->Update();
+  const vtkSmartPointer<vtkDataArray> records =
+    builder->GetOutput()->GetFieldData()->GetArray("IsodiamondRecords");
+  ASSERT_NE(records, nullptr);
+  for (const int piece : { 0, 1, 2 })
+  {
+    builder->UpdatePiece(piece, 3, 0);
+    // Not built again, but the same array.
+    EXPECT_EQ(builder->GetOutput()->GetFieldData()->GetArray("IsodiamondRecords"), records);
+    EXPECT_EQ(builder->GetOutput()->GetNumberOfCells(), piece == 0 ? 12 : 0);
+    EXPECT_EQ(builder->GetOutput()->GetNumberOfPoints(), piece == 0 ? 8 : 0);
+    EXPECT_GT(builder->GetHierarchy()->GetNumberOfActiveIsodiamonds(), 0);
+  }
+  builder->SetIsovalue(0.1);
+  builder->UpdatePiece(1, 3, 0);
+  EXPECT_NE(builder->GetOutput()->GetFieldData()->GetArray("IsodiamondRecords"), records);
+  EXPECT_EQ(builder->GetHierarchy()->GetIsovalue(), 0.1);
+}
+
+TEST(Pieces, OfEveryBlock)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, test::BallImage({ 17, 17, 17 }));
+  blocks->SetBlock(1, test::BallImage({ 21, 19, 15 }));
+  const auto cellsOf = [&](unsigned int block, int piece, int pieces)
+  {
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputDataObject(blocks);
+    contour->SetValue(0, 0.0);
+    contour->UpdatePiece(piece, pieces, 0);
+    auto* output = vtkMultiBlockDataSet::SafeDownCast(contour->GetOutputDataObject(0));
+    std::vector<Cell> cells;
+    AddCells(vtkDataSet::SafeDownCast(output->GetBlock(block)), cells);
+    return cells;
+  };
+  for (const unsigned int block : { 0U, 1U })
+  {
+    const std::vector<Cell> whole = cellsOf(block, 0, 1);
+    EXPECT_GT(whole.size(), 100U);
+    std::vector<Cell> together;
+    for (const int piece : { 0, 1, 2 })
+    {
+      const std::vector<Cell> cells = cellsOf(block, piece, 3);
+      EXPECT_LE(cells.size(), whole.size() / 3 + 1);
+      together.insert(together.end(), cells.begin(), cells.end());
+    }
+    EXPECT_TRUE(together == whole);
+  }
+}
+
+TEST(Pieces, PartOfAVolumeIsAnError)
+{
+  vtkNew<vtkTrivialProducer> simulation;
+  simulation->SetOutput(test::BallImage({ 17, 17, 17 }));
+  simulation->SetWholeExtent(0, 16, 0, 16, 0, 32);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputConnection(simulation->GetOutputPort());
+  contour->SetValue(0, 0.0);
+  const auto messages = test::Watch(contour);
+  contour->UpdatePiece(0, 2, 0);
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_NE(messages->Errors.find("every process needs the whole volume"), std::string::npos);
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+}
