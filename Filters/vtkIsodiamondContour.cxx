@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondContour.h"
 
+#include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondCache.h"
 #include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
@@ -64,6 +65,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   const int count = this->ContourValues->GetNumberOfContours();
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(this->OutputPointsPrecision);
+  std::int64_t kibibytes = 0;
   for (int i = 0; i < count; ++i)
   {
     vtkIsodiamond::Task part = task.Part(1.0 * i / count, (i + 1.0) / count);
@@ -74,6 +76,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
       *this->Hierarchies, volume, choice.Region(), false, query, wishes, part)
       .Give(contour);
     append->AddInputData(contour);
+    kibibytes += static_cast<std::int64_t>(contour->GetActualMemorySize());
   }
   if (count == 1)
   {
@@ -81,6 +84,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   }
   else if (count > 1)
   {
+    vtkIsodiamond::ExpectMemory(2 * 1024 * kibibytes); // its cells may have ids of twice the bits
     append->Update();
     output->ShallowCopy(append->GetOutput());
   }

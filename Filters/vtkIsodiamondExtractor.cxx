@@ -11,8 +11,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <optional>
-
 vtkStandardNewMacro(vtkIsodiamondExtractor);
 
 //------------------------------------------------------------------------------
@@ -23,7 +21,7 @@ struct vtkIsodiamondExtractor::Execution
   std::optional<vtkIdType> Subdivided;
   std::optional<vtkIdType> Front;
 
-  /** Asks again, and only counts. */
+  /** Asks again, and only counts. @throws std::bad_alloc */
   vtkIdType Count(std::int64_t (isodiamond::RefinedSet::*count)() const, int numberOfThreads) const
   {
     vtkIdType result = 0;
@@ -87,25 +85,35 @@ void vtkIsodiamondExtractor::StoreIsorange(double lower, double upper)
 }
 
 //------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondExtractor::CountOnce(std::optional<vtkIdType> Execution::*result,
+  std::int64_t (isodiamond::RefinedSet::*count)() const)
+{
+  if (!this->Last)
+  {
+    return 0;
+  }
+  std::optional<vtkIdType>& counted = *this->Last.*result;
+  try
+  {
+    counted = counted ? counted : this->Last->Count(count, this->NumberOfThreads);
+  }
+  catch (...)
+  {
+    vtkIsodiamond::ReportException(this);
+  }
+  return counted.value_or(0);
+}
+
+//------------------------------------------------------------------------------
 vtkIdType vtkIsodiamondExtractor::GetNumberOfSubdividedDiamonds()
 {
-  if (this->Last && !this->Last->Subdivided)
-  {
-    this->Last->Subdivided =
-      this->Last->Count(&isodiamond::RefinedSet::Count, this->NumberOfThreads);
-  }
-  return this->Last ? *this->Last->Subdivided : 0;
+  return this->CountOnce(&Execution::Subdivided, &isodiamond::RefinedSet::Count);
 }
 
 //------------------------------------------------------------------------------
 vtkIdType vtkIsodiamondExtractor::GetNumberOfFrontDiamonds()
 {
-  if (this->Last && !this->Last->Front)
-  {
-    this->Last->Front =
-      this->Last->Count(&isodiamond::RefinedSet::CountFront, this->NumberOfThreads);
-  }
-  return this->Last ? *this->Last->Front : 0;
+  return this->CountOnce(&Execution::Front, &isodiamond::RefinedSet::CountFront);
 }
 
 //------------------------------------------------------------------------------

@@ -27,7 +27,9 @@
 #include "vtkIsodiamondFiltersModule.h" // for export macro
 #include "vtkIsodiamondHierarchy.h"     // for the shapes
 
-#include <memory> // for the last execution
+#include <cstdint>  // for counts
+#include <memory>   // for the last execution
+#include <optional> // for counts
 
 namespace isodiamond
 {
@@ -155,6 +157,9 @@ private:
   /** The hierarchy, query and counts of the last execution. */
   struct Execution;
   std::unique_ptr<Execution> Last;
+
+  vtkIdType CountOnce(std::optional<vtkIdType> Execution::*result,
+    std::int64_t (isodiamond::RefinedSet::*count)() const);
 };
 
 #endif
