@@ -11,6 +11,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <optional>
+
 vtkStandardNewMacro(vtkIsodiamondExtractor);
 
 //------------------------------------------------------------------------------
@@ -21,13 +23,24 @@ struct vtkIsodiamondExtractor::Execution
   std::optional<vtkIdType> Subdivided;
   std::optional<vtkIdType> Front;
 
-  /** Asks again, and only counts. @throws std::bad_alloc */
-  vtkIdType Count(std::int64_t (isodiamond::RefinedSet::*count)() const, int numberOfThreads) const
+  /** Asks again the first time, and only counts. @return 0 after an error */
+  vtkIdType CountOnce(std::optional<vtkIdType>& counted,
+    std::int64_t (isodiamond::RefinedSet::*count)() const, vtkIsodiamondExtractor* filter) const
   {
-    vtkIdType result = 0;
-    vtkIsodiamond::RefineState(*this->State, this->Query, numberOfThreads, vtkIsodiamond::SMPFor(),
-      [&](const isodiamond::RefinedSet& refined) { result = (refined.*count)(); });
-    return result;
+    try
+    {
+      if (!counted)
+      {
+        vtkIsodiamond::RefineState(*this->State, this->Query, filter->GetNumberOfThreads(),
+          vtkIsodiamond::SMPFor(),
+          [&](const isodiamond::RefinedSet& refined) { counted = (refined.*count)(); });
+      }
+    }
+    catch (...)
+    {
+      vtkIsodiamond::ReportException(filter);
+    }
+    return counted.value_or(0);
   }
 };
 
@@ -85,35 +98,19 @@ void vtkIsodiamondExtractor::StoreIsorange(double lower, double upper)
 }
 
 //------------------------------------------------------------------------------
-vtkIdType vtkIsodiamondExtractor::CountOnce(std::optional<vtkIdType> Execution::*result,
-  std::int64_t (isodiamond::RefinedSet::*count)() const)
-{
-  if (!this->Last)
-  {
-    return 0;
-  }
-  std::optional<vtkIdType>& counted = *this->Last.*result;
-  try
-  {
-    counted = counted ? counted : this->Last->Count(count, this->NumberOfThreads);
-  }
-  catch (...)
-  {
-    vtkIsodiamond::ReportException(this);
-  }
-  return counted.value_or(0);
-}
-
-//------------------------------------------------------------------------------
 vtkIdType vtkIsodiamondExtractor::GetNumberOfSubdividedDiamonds()
 {
-  return this->CountOnce(&Execution::Subdivided, &isodiamond::RefinedSet::Count);
+  return this->Last
+    ? this->Last->CountOnce(this->Last->Subdivided, &isodiamond::RefinedSet::Count, this)
+    : 0;
 }
 
 //------------------------------------------------------------------------------
 vtkIdType vtkIsodiamondExtractor::GetNumberOfFrontDiamonds()
 {
-  return this->CountOnce(&Execution::Front, &isodiamond::RefinedSet::CountFront);
+  return this->Last
+    ? this->Last->CountOnce(this->Last->Front, &isodiamond::RefinedSet::CountFront, this)
+    : 0;
 }
 
 //------------------------------------------------------------------------------

@@ -27,9 +27,7 @@
 #include "vtkIsodiamondFiltersModule.h" // for export macro
 #include "vtkIsodiamondHierarchy.h"     // for the shapes
 
-#include <cstdint>  // for counts
-#include <memory>   // for the last execution
-#include <optional> // for counts
+#include <memory> // for the last execution
 
 namespace isodiamond
 {
@@ -157,9 +155,6 @@ private:
   /** The hierarchy, query and counts of the last execution. */
   struct Execution;
   std::unique_ptr<Execution> Last;
-
-  vtkIdType CountOnce(std::optional<vtkIdType> Execution::*result,
-    std::int64_t (isodiamond::RefinedSet::*count)() const);
 };
 
 #endif
