@@ -5,6 +5,7 @@
 #include "vtkIsodiamondCache.h"
 #include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondThreads.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkInformation.h"
@@ -85,7 +86,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   else if (count > 1)
   {
     vtkIsodiamond::ExpectMemory(2 * 1024 * kibibytes); // its cells may have ids of twice the bits
-    append->Update();
+    vtkIsodiamond::RunSerial([&] { append->Update(); });
     output->ShallowCopy(append->GetOutput());
   }
 }

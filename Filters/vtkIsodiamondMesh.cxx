@@ -3,6 +3,7 @@
 
 #include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondCells.h"
+#include "vtkIsodiamondThreads.h"
 
 #include "IntervalExtraction.h"
 #include "SurfaceExtraction.h"
@@ -188,8 +189,12 @@ void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells&
   vtkNew<vtkPoints> points;
   points->SetDataType(mesh.Points->GetDataType());
   mesh.Points->GetPoints(keptPoints, points);
-  KeepTuples(mesh.PointData, keptPoints);
-  KeepTuples(mesh.CellData, keptCells);
+  RunSerial(
+    [&]
+    {
+      KeepTuples(mesh.PointData, keptPoints);
+      KeepTuples(mesh.CellData, keptCells);
+    });
   mesh.Points = points;
   mesh.Cells = cells;
 }

@@ -29,6 +29,7 @@
 #include <random>
 #include <set>
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -334,6 +335,7 @@ int RunLimited(const MakeFilter& make, rlim_t bytes)
 {
   const auto filter = make();
   const auto messages = test::Watch(filter);
+  malloc_trim(0); // or what is free would be used
   rlimit limit{};
   getrlimit(RLIMIT_AS, &limit);
   const rlim_t soft = limit.rlim_cur;
@@ -374,7 +376,7 @@ void ExpectErrorsWithLimits(const MakeFilter& make)
     ASSERT_TRUE(WIFEXITED(status)) << bytes << " bytes: signal " << WTERMSIG(status);
     if (WEXITSTATUS(status) == 3)
     {
-      EXPECT_GT(failures, 3);
+      EXPECT_GT(failures, 0);
       return;
     }
     EXPECT_EQ(WEXITSTATUS(status), 0) << bytes << " bytes";
@@ -418,7 +420,7 @@ TEST(Memory, LimitedContourWithHiddenCells)
 
 TEST(Memory, LimitedIntervalVolume)
 {
-  const auto image = ImageWithAttributes(40);
+  const auto image = ImageWithAttributes(64);
   ExpectErrorsWithLimits(
     [&]
     {
@@ -433,7 +435,7 @@ TEST(Memory, LimitedIntervalVolume)
 
 TEST(Memory, LimitedBuilderAndExtractor)
 {
-  const auto image = ImageWithAttributes(48);
+  const auto image = ImageWithAttributes(96);
   ExpectErrorsWithLimits(
     [&]
     {
@@ -444,6 +446,8 @@ TEST(Memory, LimitedBuilderAndExtractor)
     });
   vtkNew<vtkIsodiamondBuilder> builder;
   builder->SetInputData(image);
+  builder->SetShapeToIntervalVolume();
+  builder->SetIsorange(0.0, 1e9);
   builder->Update();
   ExpectErrorsWithLimits(
     [&]
@@ -452,12 +456,4 @@ TEST(Memory, LimitedBuilderAndExtractor)
       extractor->SetInputData(builder->GetOutput());
       return extractor;
     });
-}
-
-int main(int argc, char* argv[])
-{
-  // One thread: VTK's own threads end the program where one of them cannot be started.
-  setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 1);
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
 }
