@@ -314,6 +314,9 @@ TEST(Memory, CountsOnDemand)
 namespace
 {
 
+/** Arenas of threads reserve memory, which could be used whatever the limit: one for all. */
+[[maybe_unused]] const int OneArena = mallopt(M_ARENA_MAX, 1);
+
 /** What the process has of the address space, in bytes. */
 rlim_t AddressSpace()
 {
