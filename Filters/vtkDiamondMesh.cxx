@@ -2,8 +2,11 @@
 #include "vtkDiamondMesh.h"
 
 #include "DiamondMesh.h"
+#include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondState.h"
 #include "vtkIsodiamondTask.h"
+
+#include "vtkIsodiamondCells.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -26,7 +29,7 @@ void AddArray(vtkUnstructuredGrid* output, const char* name, const std::vector<s
 {
   vtkNew<vtkSignedCharArray> array;
   array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  vtkIsodiamond::AllocateTuples(array, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   output->GetCellData()->AddArray(array);
 }
@@ -50,24 +53,28 @@ void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
   const isodiamond::DiamondMesh mesh = isodiamond::ExtractDiamondMesh(refined);
   const isodiamond::AffineMap& world = state.World;
   vtkNew<vtkPoints> points;
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.Points.size()));
+  points->GetData()->SetNumberOfComponents(3);
+  vtkIsodiamond::AllocateTuples(points->GetData(), static_cast<vtkIdType>(mesh.Points.size()));
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
   {
     const isodiamond::Point& p = mesh.Points[i];
     points->SetPoint(static_cast<vtkIdType>(i), world(p[0], p[1], p[2]).data());
   }
-  vtkNew<vtkCellArray> cells;
-  for (const std::array<std::int64_t, 4>& tetrahedron : mesh.Tetrahedra)
-  {
-    vtkIdType ids[4] = { tetrahedron[0], tetrahedron[1], tetrahedron[2], tetrahedron[3] };
-    if (world.Mirrors())
-    {
-      std::swap(ids[2], ids[3]);
-    }
-    cells->InsertNextCell(4, ids);
-  }
+  const auto cells =
+    vtkIsodiamond::WriteCells(static_cast<std::int64_t>(mesh.Tetrahedra.size()), 4, task.For(),
+      [&](auto* connectivity)
+      {
+        for (std::array<std::int64_t, 4> ids : mesh.Tetrahedra)
+        {
+          if (world.Mirrors())
+          {
+            std::swap(ids[2], ids[3]);
+          }
+          connectivity = std::copy(ids.begin(), ids.end(), connectivity);
+        }
+      });
   output->SetPoints(points);
-  output->SetCells(VTK_TETRA, cells);
+  vtkIsodiamond::GiveCells(output, VTK_TETRA, cells);
   AddArray(output, "Level", mesh.Levels);
   AddArray(output, "Class", mesh.Classes);
 }

@@ -79,6 +79,14 @@ private:
   vtkIdType NumberOfBuilds = 0;
 };
 
+/** Trims a cache at the end of a scope, however that is left. */
+struct CacheTrimmer
+{
+  Cache& Target;
+  std::int64_t Bytes;
+  ~CacheTrimmer() { this->Target.Trim(this->Bytes); }
+};
+
 struct Query;
 
 /** What both one-step filters do: the hierarchy of a region, the refined set of a query, the mesh.

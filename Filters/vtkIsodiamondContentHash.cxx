@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondContentHash.h"
 
+#include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondThreads.h"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ ContentHash HashOf(vtkDataArray* array)
   {
     return {};
   }
-  const char* bytes = static_cast<const char*>(array->GetVoidPointer(0));
+  const char* bytes = static_cast<const char*>(ValuesInRow(array));
   const std::int64_t count = array->GetNumberOfValues() * array->GetDataTypeSize();
   std::vector<ContentHash> blocks((count + BlockBytes - 1) / BlockBytes);
   SMPFor()(static_cast<std::int64_t>(blocks.size()), 16,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondContour.h"
 
+#include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondCache.h"
 #include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondQuery.h"
+#include "vtkIsodiamondThreads.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkInformation.h"
@@ -64,6 +66,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   const int count = this->ContourValues->GetNumberOfContours();
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(this->OutputPointsPrecision);
+  std::int64_t kibibytes = 0;
   for (int i = 0; i < count; ++i)
   {
     vtkIsodiamond::Task part = task.Part(1.0 * i / count, (i + 1.0) / count);
@@ -74,6 +77,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
       *this->Hierarchies, volume, choice.Region(), false, query, wishes, part)
       .Give(contour);
     append->AddInputData(contour);
+    kibibytes += static_cast<std::int64_t>(contour->GetActualMemorySize());
   }
   if (count == 1)
   {
@@ -81,7 +85,8 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   }
   else if (count > 1)
   {
-    append->Update();
+    vtkIsodiamond::ExpectMemory(2 * 1024 * kibibytes); // its cells may have ids of twice the bits
+    vtkIsodiamond::RunSerial([&] { append->Update(); });
     output->ShallowCopy(append->GetOutput());
   }
 }

@@ -24,13 +24,24 @@ struct vtkIsodiamondExtractor::Execution
   std::optional<vtkIdType> Subdivided;
   std::optional<vtkIdType> Front;
 
-  /** Asks again, and only counts. */
-  vtkIdType Count(std::int64_t (isodiamond::RefinedSet::*count)() const, int numberOfThreads) const
+  /** Asks again the first time, and only counts. @return 0 after an error */
+  vtkIdType CountOnce(std::optional<vtkIdType>& counted,
+    std::int64_t (isodiamond::RefinedSet::*count)() const, vtkIsodiamondExtractor* filter) const
   {
-    vtkIdType result = 0;
-    vtkIsodiamond::RefineState(*this->State, this->Query, numberOfThreads, vtkIsodiamond::SMPFor(),
-      [&](const isodiamond::RefinedSet& refined) { result = (refined.*count)(); });
-    return result;
+    try
+    {
+      if (!counted)
+      {
+        vtkIsodiamond::RefineState(*this->State, this->Query, filter->GetNumberOfThreads(),
+          vtkIsodiamond::SMPFor(),
+          [&](const isodiamond::RefinedSet& refined) { counted = (refined.*count)(); });
+      }
+    }
+    catch (...)
+    {
+      vtkIsodiamond::ReportException(filter);
+    }
+    return counted.value_or(0);
   }
 };
 
@@ -90,23 +101,17 @@ void vtkIsodiamondExtractor::StoreIsorange(double lower, double upper)
 //------------------------------------------------------------------------------
 vtkIdType vtkIsodiamondExtractor::GetNumberOfSubdividedDiamonds()
 {
-  if (this->Last && !this->Last->Subdivided)
-  {
-    this->Last->Subdivided =
-      this->Last->Count(&isodiamond::RefinedSet::Count, this->NumberOfThreads);
-  }
-  return this->Last ? *this->Last->Subdivided : 0;
+  return this->Last
+    ? this->Last->CountOnce(this->Last->Subdivided, &isodiamond::RefinedSet::Count, this)
+    : 0;
 }
 
 //------------------------------------------------------------------------------
 vtkIdType vtkIsodiamondExtractor::GetNumberOfFrontDiamonds()
 {
-  if (this->Last && !this->Last->Front)
-  {
-    this->Last->Front =
-      this->Last->Count(&isodiamond::RefinedSet::CountFront, this->NumberOfThreads);
-  }
-  return this->Last ? *this->Last->Front : 0;
+  return this->Last
+    ? this->Last->CountOnce(this->Last->Front, &isodiamond::RefinedSet::CountFront, this)
+    : 0;
 }
 
 //------------------------------------------------------------------------------

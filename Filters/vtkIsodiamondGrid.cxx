@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondGrid.h"
 
+#include "vtkIsodiamondArrays.h"
+
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -102,6 +104,8 @@ Geometry GeometryOf(vtkStructuredGrid* grid, int padding)
   if (!geometry.Positions->HasStandardMemoryLayout() || (type != VTK_FLOAT && type != VTK_DOUBLE))
   {
     geometry.Positions = vtkSmartPointer<vtkDoubleArray>::New();
+    geometry.Positions->SetNumberOfComponents(3);
+    AllocateTuples(geometry.Positions, points->GetNumberOfPoints());
     geometry.Positions->DeepCopy(points->GetData());
   }
   isodiamond::SamplePositions positions;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondInput.h"
 
+#include "vtkIsodiamondArrays.h"
+
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -54,7 +56,7 @@ vtkSmartPointer<vtkDataArray> PaddedCopy(
   const std::array<int, 3> padded = { dimensions[0] + 2, dimensions[1] + 2, dimensions[2] + 2 };
   auto copy = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
   copy->SetNumberOfComponents(1);
-  copy->SetNumberOfTuples(vtkIdType{ 1 } * padded[0] * padded[1] * padded[2]);
+  AllocateTuples(copy, vtkIdType{ 1 } * padded[0] * padded[1] * padded[2]);
   copy->Fill(minimum);
   for (int z = 0; z < dimensions[2]; ++z)
   {
@@ -213,6 +215,7 @@ Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoun
   {
     volume.Array =
       vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array->GetDataType()));
+    AllocateTuples(volume.Array, array->GetNumberOfTuples());
     volume.Array->DeepCopy(array);
   }
   if (!ViewSamples(volume.Array, dimensions, volume.Samples))

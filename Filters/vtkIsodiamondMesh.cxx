@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondMesh.h"
 
+#include "vtkIsodiamondArrays.h"
+#include "vtkIsodiamondCells.h"
+#include "vtkIsodiamondThreads.h"
+
 #include "IntervalExtraction.h"
 #include "SurfaceExtraction.h"
 #include "vtkIsodiamondShare.h"
@@ -15,12 +19,9 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSignedCharArray.h"
-#include "vtkTypeInt32Array.h"
-#include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace vtkIsodiamond
@@ -28,46 +29,11 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** Cells of one size: the offsets are known, write(connectivity) fills in the point ids. */
-template <typename Array, typename Write>
-vtkSmartPointer<vtkCellArray> WriteCells(
-  std::int64_t count, int size, const isodiamond::ParallelFor& parallelFor, const Write& write)
-{
-  using Id = typename Array::ValueType;
-  vtkSmartPointer<Array> offsets = vtkSmartPointer<Array>::New();
-  offsets->SetNumberOfValues(count + 1);
-  Id* offset = offsets->GetPointer(0);
-  parallelFor(count + 1, 65536,
-    [offset, size](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        offset[i] = size * static_cast<Id>(i);
-      }
-    });
-  vtkSmartPointer<Array> connectivity = vtkSmartPointer<Array>::New();
-  connectivity->SetNumberOfValues(size * count);
-  write(connectivity->GetPointer(0));
-  vtkSmartPointer<vtkCellArray> cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, connectivity);
-  return cells;
-}
-
-/** In 32 bits where they fit: half the bytes. */
-template <typename Write>
-vtkSmartPointer<vtkCellArray> WriteCells(
-  std::int64_t count, int size, const isodiamond::ParallelFor& parallelFor, const Write& write)
-{
-  return size * count <= std::numeric_limits<std::int32_t>::max()
-    ? WriteCells<vtkTypeInt32Array>(count, size, parallelFor, write)
-    : WriteCells<vtkTypeInt64Array>(count, size, parallelFor, write);
-}
-
 vtkSmartPointer<vtkSignedCharArray> NewArray(const char* name, std::int64_t count)
 {
   vtkSmartPointer<vtkSignedCharArray> array = vtkSmartPointer<vtkSignedCharArray>::New();
   array->SetName(name);
-  array->SetNumberOfValues(count);
+  AllocateTuples(array, count);
   return array;
 }
 
@@ -77,7 +43,7 @@ vtkSmartPointer<vtkPoints> WritePoints(
 {
   vtkSmartPointer<Array> coordinates = vtkSmartPointer<Array>::New();
   coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(extraction.PointCount());
+  AllocateTuples(coordinates, extraction.PointCount());
   auto* values = coordinates->GetPointer(0);
   if (const isodiamond::AffineMap* map = world.Affine())
   {
@@ -133,7 +99,7 @@ void AddValues(
 {
   vtkSmartPointer<Array> values = vtkSmartPointer<Array>::New();
   values->SetName(name.c_str());
-  values->SetNumberOfValues(extraction.PointCount());
+  AllocateTuples(values, extraction.PointCount());
   const auto surfaces = NewArray("Surface", extraction.PointCount());
   extraction.WriteValues(values->GetPointer(0), surfaces->GetPointer(0));
   mesh.PointData->SetScalars(values);
@@ -163,11 +129,24 @@ isodiamond::Point CellOfGrid(
   return cell;
 }
 
+/** @throws std::bad_alloc if there is none for the copy of a mesh, whose cells have ids of 64 bits
+ *  in arrays that grow to twice of what they hold, out of others that still exist */
+void ExpectMemoryToLeaveOut(const Mesh& mesh)
+{
+  constexpr std::int64_t kibibyte = 1024;
+  const std::int64_t ids =
+    mesh.Cells->GetNumberOfConnectivityIds() + mesh.Cells->GetNumberOfCells() + 1;
+  const auto others = static_cast<std::int64_t>(mesh.Points->GetActualMemorySize() +
+    mesh.PointData->GetActualMemorySize() + mesh.CellData->GetActualMemorySize());
+  ExpectMemory(3 * ids * static_cast<std::int64_t>(sizeof(vtkIdType)) + kibibyte * others);
+}
+
 /** Leaves out the cells that lie in hidden ones of the grid, and points that no cell has then.
  *  Cells there are of full resolution, so each lies in one. */
 template <typename Extraction>
 void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells& hidden, Mesh& mesh)
 {
+  ExpectMemoryToLeaveOut(mesh);
   std::vector<isodiamond::Vector> positions(extraction.PointCount());
   extraction.ForEachPoint(
     [&](const isodiamond::MeshPoint& point) { positions[point.Id] = point.Index; });
@@ -196,8 +175,12 @@ void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells&
   vtkNew<vtkPoints> points;
   points->SetDataType(mesh.Points->GetDataType());
   mesh.Points->GetPoints(keptPoints, points);
-  KeepTuples(mesh.PointData, keptPoints);
-  KeepTuples(mesh.CellData, keptCells);
+  RunSerial(
+    [&]
+    {
+      KeepTuples(mesh.PointData, keptPoints);
+      KeepTuples(mesh.CellData, keptCells);
+    });
   mesh.Points = points;
   mesh.Cells = cells;
 }
@@ -248,7 +231,7 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshWishes& wis
   {
     vtkNew<vtkFloatArray> values;
     values->SetName(wishes.ArrayName.c_str());
-    values->SetNumberOfValues(extraction.PointCount());
+    AllocateTuples(values, extraction.PointCount());
     values->Fill(refined.Hierarchy().Region().Isovalue());
     mesh.PointData->SetScalars(values);
   }
@@ -268,7 +251,7 @@ void Mesh::Give(vtkPolyData* triangles) const
 void Mesh::Give(vtkUnstructuredGrid* output, bool isVolume) const
 {
   output->SetPoints(this->Points);
-  output->SetCells(isVolume ? VTK_TETRA : VTK_TRIANGLE, this->Cells);
+  GiveCells(output, isVolume ? VTK_TETRA : VTK_TRIANGLE, this->Cells);
   output->GetPointData()->ShallowCopy(this->PointData);
   output->GetCellData()->ShallowCopy(this->CellData);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondPointData.h"
 
+#include "vtkIsodiamondArrays.h"
+
 #include "Gradients.h"
 #include "Trilinear.h"
 
@@ -28,7 +30,7 @@ vtkSmartPointer<vtkFloatArray> NewVectors(const char* name, vtkIdType count)
   vtkSmartPointer<vtkFloatArray> vectors = vtkSmartPointer<vtkFloatArray>::New();
   vectors->SetName(name);
   vectors->SetNumberOfComponents(3);
-  vectors->SetNumberOfTuples(count);
+  AllocateTuples(vectors, count);
   return vectors;
 }
 
@@ -66,6 +68,39 @@ bool CanBeInterpolated(vtkDataArray* array, int attribute)
     attribute != vtkDataSetAttributes::GLOBALIDS && attribute != vtkDataSetAttributes::PEDIGREEIDS;
 }
 
+/** Like ArrayList::AddArrayPair, which would allocate in its own way. @return the array that the
+ * list writes, under the same name */
+vtkSmartPointer<vtkDataArray> AddPair(
+  ArrayList& list, vtkDataArray* from, vtkIdType count, bool integersAsFloats)
+{
+  const int type = from->GetDataType();
+  const bool isFloating = type == VTK_FLOAT || type == VTK_DOUBLE;
+  const bool converts = integersAsFloats && !isFloating;
+  const auto to =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(converts ? VTK_FLOAT : type));
+  const int components = from->GetNumberOfComponents();
+  to->SetName(from->GetName());
+  to->SetNumberOfComponents(components);
+  AllocateTuples(to, count);
+  void* read = ValuesInRow(from);
+  void* written = to->GetVoidPointer(0);
+  if (converts)
+  {
+    switch (type)
+    {
+      vtkTemplateMacro(CreateRealArrayPair(&list, static_cast<VTK_TT*>(read),
+        static_cast<float*>(written), count, components, to, 0.0F));
+    }
+    return to;
+  }
+  switch (type)
+  {
+    vtkTemplateMacro(CreateArrayPair(&list, static_cast<VTK_TT*>(read),
+      static_cast<VTK_TT*>(written), count, components, to, VTK_TT()));
+  }
+  return to;
+}
+
 /** The arrays of the grid that are wanted, but those that the output has under the same name;
  *  integers as floats. */
 PointWriter WriteOthers(const Volume& volume, const std::vector<std::string>& names,
@@ -83,8 +118,7 @@ PointWriter WriteOthers(const Volume& volume, const std::vector<std::string>& na
     {
       continue;
     }
-    vtkStdString name = array->GetName();
-    vtkAbstractArray* made = arrays->AddArrayPair(count, array, name, 0.0, true);
+    const auto made = AddPair(*arrays, array, count, true);
     output->AddArray(made);
     if (attribute >= 0 && !output->GetAbstractAttribute(attribute))
     {
@@ -152,8 +186,7 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
     const auto arrays = std::make_shared<ArrayList>();
     for (vtkDataArray* array : stored)
     {
-      vtkStdString name = array->GetName();
-      output->AddArray(arrays->AddArrayPair(count, array, name, 0.0, false));
+      output->AddArray(AddPair(*arrays, array, count, false));
     }
     if (output->HasArray(NormalsName))
     {

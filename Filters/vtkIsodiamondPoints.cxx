@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondPoints.h"
 
+#include "vtkIsodiamondCells.h"
 #include "vtkIsodiamondHierarchy.h"
 #include "vtkIsodiamondShare.h"
 #include "vtkIsodiamondState.h"
+#include "vtkIsodiamondTask.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -15,9 +17,25 @@
 #include "vtkPoints.h"
 #include "vtkSignedCharArray.h"
 
+#include <numeric>
 #include <stdexcept>
+#include <type_traits>
 
 vtkStandardNewMacro(vtkIsodiamondPoints);
+
+namespace
+{
+
+template <typename Array>
+vtkSmartPointer<Array> NewArray(const char* name, vtkIdType count)
+{
+  vtkSmartPointer<Array> array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  vtkIsodiamond::AllocateTuples(array, count);
+  return array;
+}
+
+}
 
 //------------------------------------------------------------------------------
 vtkIsodiamondPoints::vtkIsodiamondPoints() = default;
@@ -66,34 +84,44 @@ int vtkIsodiamondPoints::RequestData(
                                   "relevant or minimal hierarchy from it.");
     }
     const isodiamond::IsodiamondHierarchy& hierarchy = *state->Isodiamonds;
-    vtkNew<vtkPoints> points;
-    vtkNew<vtkCellArray> vertices;
-    vtkNew<vtkSignedCharArray> kinds;
-    vtkNew<vtkSignedCharArray> classes;
-    vtkNew<vtkSignedCharArray> levels;
-    vtkNew<vtkDoubleArray> errors;
-    kinds->SetName("Kind");
-    classes->SetName("Class");
-    levels->SetName("Level");
-    errors->SetName("Error");
     const int depth = hierarchy.Domain().Depth();
-    hierarchy.Diamonds().ForEach(
+    // The corners of the base cube are not diamonds.
+    const auto forEach = [&](auto&& body)
+    {
+      hierarchy.Diamonds().ForEach(
+        [&](const isodiamond::Place& place, std::uint32_t rank)
+        {
+          if (place.Scale != depth)
+          {
+            body(place, rank);
+          }
+        });
+    };
+    vtkIdType count = 0;
+    forEach([&](const isodiamond::Place&, std::uint32_t) { ++count; });
+    vtkNew<vtkPoints> points;
+    points->GetData()->SetNumberOfComponents(3);
+    vtkIsodiamond::AllocateTuples(points->GetData(), count);
+    const auto kinds = NewArray<vtkSignedCharArray>("Kind", count);
+    const auto classes = NewArray<vtkSignedCharArray>("Class", count);
+    const auto levels = NewArray<vtkSignedCharArray>("Level", count);
+    const auto errors = NewArray<vtkDoubleArray>("Error", count);
+    vtkIdType id = 0;
+    forEach(
       [&](const isodiamond::Place& place, std::uint32_t rank)
       {
-        if (place.Scale == depth)
-        {
-          return; // the corners of the base cube are not diamonds
-        }
         const isodiamond::Point centre = isodiamond::Centre(place);
-        const vtkIdType id =
-          points->InsertNextPoint(state->World(centre[0], centre[1], centre[2]).data());
-        vertices->InsertNextCell(1, &id);
-        kinds->InsertNextValue(static_cast<signed char>(hierarchy.KindOf(rank)));
-        classes->InsertNextValue(
-          static_cast<signed char>(isodiamond::ShapeOf(place.Position).DiamondClass));
-        levels->InsertNextValue(static_cast<signed char>(depth - 1 - place.Scale));
-        errors->InsertNextValue(hierarchy.Codes().Decode(hierarchy.Threshold(rank)));
+        points->SetPoint(id, state->World(centre[0], centre[1], centre[2]).data());
+        kinds->SetValue(id, static_cast<signed char>(hierarchy.KindOf(rank)));
+        classes->SetValue(
+          id, static_cast<signed char>(isodiamond::ShapeOf(place.Position).DiamondClass));
+        levels->SetValue(id, static_cast<signed char>(depth - 1 - place.Scale));
+        errors->SetValue(id, hierarchy.Codes().Decode(hierarchy.Threshold(rank)));
+        ++id;
       });
+    const auto vertices = vtkIsodiamond::WriteCells(count, 1, isodiamond::SerialFor,
+      [count](auto* connectivity)
+      { std::iota(connectivity, connectivity + count, std::decay_t<decltype(*connectivity)>{}); });
     output->SetPoints(points);
     output->SetVerts(vertices);
     output->GetPointData()->SetScalars(kinds);
@@ -102,10 +130,9 @@ int vtkIsodiamondPoints::RequestData(
     output->GetPointData()->AddArray(errors);
     vtkIsodiamond::KeepShare(output, this->Share);
   }
-  catch (const std::exception& problem)
+  catch (...)
   {
-    output->Initialize();
-    vtkErrorMacro(<< problem.what());
+    vtkIsodiamond::HandleException(this, output);
   }
   return 1;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondShare.h"
 
+#include "vtkIsodiamondArrays.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -167,6 +169,8 @@ void KeepShare(vtkDataObject* mesh, const int share[2])
   {
     return;
   }
+  constexpr std::int64_t kibibyte = 1024;
+  ExpectMemory(kibibyte * static_cast<std::int64_t>(mesh->GetActualMemorySize())); // of the copy
   Part part;
   if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(mesh))
   {

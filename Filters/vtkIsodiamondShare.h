@@ -48,6 +48,7 @@ void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const i
  *
  * @param mesh a vtkPolyData or vtkUnstructuredGrid, whose cells are of one kind
  * @param share piece, and number of pieces
+ * @throws std::bad_alloc if there is no memory for a copy
  */
 void KeepShare(vtkDataObject* mesh, const int share[2]);
 

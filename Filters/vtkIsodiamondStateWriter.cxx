@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondFormat.h"
 #include "vtkIsodiamondState.h"
 
@@ -30,7 +31,7 @@ void AddArray(vtkFieldData* fieldData, const char* name, const std::vector<T>& v
 {
   vtkNew<Array> array;
   array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  AllocateTuples(array, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   fieldData->AddArray(array);
 }
@@ -41,7 +42,7 @@ void AddSamples(
 {
   auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
   array->SetName(name);
-  array->SetNumberOfTuples(count);
+  AllocateTuples(array, count);
   const char* bytes = static_cast<const char*>(values);
   std::copy(
     bytes, bytes + count * array->GetDataTypeSize(), static_cast<char*>(array->GetVoidPointer(0)));

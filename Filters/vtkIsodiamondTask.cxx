@@ -46,6 +46,26 @@ void WorkUntil(Clock::time_point end, std::int64_t count, std::int64_t grain,
   }
 }
 
+/** Within a catch. */
+void Report(vtkAlgorithm* filter)
+{
+  try
+  {
+    throw;
+  }
+  catch (const Aborted&)
+  {
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorWithObjectMacro(filter, "There is not enough memory.");
+  }
+  catch (const std::exception& problem)
+  {
+    vtkErrorWithObjectMacro(filter, << problem.what());
+  }
+}
+
 bool IsAborted(vtkAlgorithm* filter)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220901)
@@ -122,24 +142,22 @@ isodiamond::ParallelFor Task::For()
   };
 }
 
-void HandleException(vtkAlgorithm* filter, vtkDataObject* output)
+void ReportException(vtkAlgorithm* filter) noexcept
 {
-  output->Initialize();
   try
   {
-    throw;
-  }
-  catch (const Aborted&)
-  {
+    Report(filter);
   }
   catch (const std::bad_alloc&)
   {
-    vtkErrorWithObjectMacro(filter, "There is not enough memory.");
+    // No memory even to say so. VTK's pipeline expects no exceptions.
   }
-  catch (const std::exception& problem)
-  {
-    vtkErrorWithObjectMacro(filter, << problem.what());
-  }
+}
+
+void HandleException(vtkAlgorithm* filter, vtkDataObject* output)
+{
+  output->Initialize();
+  ReportException(filter);
 }
 
 }

@@ -57,7 +57,11 @@ private:
   std::chrono::steady_clock::time_point Told;
 };
 
-/** Tells a filter's user what went wrong, but for an abortion. The output becomes empty. */
+/** Within a catch: tells a filter's user what went wrong, but for an abortion. No exception leaves
+ *  it. */
+void ReportException(vtkAlgorithm* filter) noexcept;
+
+/** The same, and the output becomes empty. */
 void HandleException(vtkAlgorithm* filter, vtkDataObject* output);
 
 /** Runs work(task) of a filter's execution. @return what RequestData does: a failed execution is

@@ -120,9 +120,11 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       vtkIsodiamond::RunThreaded(this->NumberOfThreads,
         [&]
         {
+          // Trimmed after an abortion or an error, too, or runs of these would fill the memory.
+          const vtkIsodiamond::CacheTrimmer trimmer{ *this->Hierarchies,
+            std::int64_t{ this->CacheSize } << 20 };
           this->Hierarchies->Prepare(array.Array, volume, options);
           this->Extract(volume, query, task, output);
-          this->Hierarchies->Trim(std::int64_t{ this->CacheSize } << 20);
         });
       vtkIsodiamond::KeepShare(output, this->Share);
     });

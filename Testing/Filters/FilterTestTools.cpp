@@ -3,6 +3,8 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkCell.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFeatureEdges.h"
 #include "vtkFloatArray.h"
@@ -11,9 +13,12 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 
 namespace test
@@ -204,6 +209,99 @@ double LargestDistance(vtkPolyData* from, vtkPolyData* to)
     largest = std::max(largest, std::fabs(distance->EvaluateFunction(from->GetPoint(i))));
   }
   return largest;
+}
+
+namespace
+{
+
+bool AreEqual(vtkAbstractArray* a, vtkAbstractArray* b)
+{
+  if (!a || !b)
+  {
+    return a == b;
+  }
+  if (a->GetDataType() != b->GetDataType() || a->GetNumberOfValues() != b->GetNumberOfValues() ||
+    a->GetNumberOfComponents() != b->GetNumberOfComponents())
+  {
+    return false;
+  }
+  if (!vtkDataArray::SafeDownCast(a))
+  {
+    return a->GetNumberOfValues() == 0 || a->GetVariantValue(0) == b->GetVariantValue(0);
+  }
+  const std::size_t bytes = static_cast<std::size_t>(a->GetNumberOfValues()) * a->GetDataTypeSize();
+  return bytes == 0 || std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0), bytes) == 0;
+}
+
+bool AreEqual(vtkCellArray* a, vtkCellArray* b)
+{
+  return a->GetNumberOfCells() == b->GetNumberOfCells() &&
+    (a->GetNumberOfCells() == 0 ||
+      (AreEqual(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
+        AreEqual(a->GetConnectivityArray(), b->GetConnectivityArray())));
+}
+
+bool HaveEqualCells(vtkDataSet* a, vtkDataSet* b)
+{
+  vtkPolyData* polyData = vtkPolyData::SafeDownCast(a);
+  vtkPolyData* otherPolyData = vtkPolyData::SafeDownCast(b);
+  if (polyData && otherPolyData)
+  {
+    return AreEqual(polyData->GetPolys(), otherPolyData->GetPolys()) &&
+      AreEqual(polyData->GetVerts(), otherPolyData->GetVerts()) &&
+      AreEqual(polyData->GetLines(), otherPolyData->GetLines());
+  }
+  vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(a);
+  vtkUnstructuredGrid* otherGrid = vtkUnstructuredGrid::SafeDownCast(b);
+  if (!grid || !otherGrid || grid->GetNumberOfCells() == 0)
+  {
+    return grid && otherGrid && otherGrid->GetNumberOfCells() == 0;
+  }
+  return AreEqual(grid->GetCells(), otherGrid->GetCells()) &&
+    AreEqual(grid->GetCellTypesArray(), otherGrid->GetCellTypesArray());
+}
+
+std::string DifferentArray(vtkFieldData* a, vtkFieldData* b)
+{
+  if (a->GetNumberOfArrays() != b->GetNumberOfArrays())
+  {
+    return "numbers of arrays ";
+  }
+  for (int i = 0; i < a->GetNumberOfArrays(); ++i)
+  {
+    const char* name = a->GetArrayName(i);
+    if (!AreEqual(a->GetAbstractArray(i), b->GetAbstractArray(name)))
+    {
+      return std::string("array ") + name + " ";
+    }
+  }
+  return {};
+}
+
+}
+
+std::string Difference(vtkDataSet* a, vtkDataSet* b)
+{
+  vtkPointSet* pointsA = vtkPointSet::SafeDownCast(a);
+  vtkPointSet* pointsB = vtkPointSet::SafeDownCast(b);
+  if (!pointsA || !pointsB || a->GetDataObjectType() != b->GetDataObjectType())
+  {
+    return "types of data ";
+  }
+  std::string difference;
+  if (a->GetNumberOfPoints() != b->GetNumberOfPoints() ||
+    (a->GetNumberOfPoints() > 0 &&
+      !AreEqual(pointsA->GetPoints()->GetData(), pointsB->GetPoints()->GetData())))
+  {
+    difference += "points ";
+  }
+  if (!HaveEqualCells(a, b))
+  {
+    difference += "cells ";
+  }
+  return difference + DifferentArray(a->GetPointData(), b->GetPointData()) +
+    DifferentArray(a->GetCellData(), b->GetCellData()) +
+    DifferentArray(a->GetFieldData(), b->GetFieldData());
 }
 
 vtkIdType BoundaryEdges(vtkPolyData* mesh)

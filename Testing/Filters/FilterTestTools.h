@@ -67,6 +67,9 @@ Triangles SortedTriangles(vtkPointSet* mesh);
 /** Largest distance of a mesh's points to another mesh. */
 double LargestDistance(vtkPolyData* from, vtkPolyData* to);
 
+/** What is not the same, to the bit, of two data sets: points, cells, arrays. Empty if nothing. */
+std::string Difference(vtkDataSet* a, vtkDataSet* b);
+
 /** Number of edges with one triangle. */
 vtkIdType BoundaryEdges(vtkPolyData* mesh);
 

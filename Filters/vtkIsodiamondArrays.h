@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamondArrays_h
+#define vtkIsodiamondArrays_h
+
+#include "vtkDataArray.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+/**
+ * @file vtkIsodiamondArrays.h
+ * Memory of VTK's arrays, with std::bad_alloc where there is none.
+ *
+ * An array that cannot allocate ends the program if VTK was built without NDEBUG, as Debian's
+ * is. So what can be large is allocated here.
+ */
+namespace vtkIsodiamond
+{
+
+/** Sets the number of tuples of an array with standard memory layout; their values are arbitrary.
+ *  @throws std::bad_alloc */
+inline void AllocateTuples(vtkDataArray* array, vtkIdType count)
+{
+  const vtkIdType values = count * array->GetNumberOfComponents();
+  if (values <= 0)
+  {
+    array->SetNumberOfTuples(0);
+    return;
+  }
+  void* memory = std::malloc(static_cast<std::size_t>(values) * array->GetDataTypeSize());
+  if (!memory)
+  {
+    throw std::bad_alloc();
+  }
+  array->SetVoidArray(memory, values, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+}
+
+/** For what only VTK can allocate. @throws std::bad_alloc if so much is not to be had now */
+inline void ExpectMemory(std::int64_t bytes)
+{
+  void* volatile memory = std::malloc(static_cast<std::size_t>(bytes)); // or it would be left out
+  if (!memory && bytes > 0)
+  {
+    throw std::bad_alloc();
+  }
+  std::free(memory);
+}
+
+/** The values of an array in a row. @throws std::bad_alloc where VTK has no memory to copy one of
+ *  another layout */
+inline void* ValuesInRow(vtkDataArray* array)
+{
+  void* values = array->GetVoidPointer(0);
+  if (!values && array->GetNumberOfValues() > 0)
+  {
+    throw std::bad_alloc();
+  }
+  return values;
+}
+
+}
+
+#endif
