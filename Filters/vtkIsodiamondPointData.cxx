@@ -76,7 +76,7 @@ vtkSmartPointer<vtkDataArray> AddPair(
   const int type = from->GetDataType();
   const bool isFloating = type == VTK_FLOAT || type == VTK_DOUBLE;
   const bool converts = integersAsFloats && !isFloating;
-  const auto to =
+  auto to =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(converts ? VTK_FLOAT : type));
   const int components = from->GetNumberOfComponents();
   to->SetName(from->GetName());
