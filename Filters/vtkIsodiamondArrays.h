@@ -3,6 +3,7 @@
 #define vtkIsodiamondArrays_h
 
 #include "vtkDataArray.h"
+#include "vtkSmartPointer.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,17 @@ inline void AllocateTuples(vtkDataArray* array, vtkIdType count)
     throw std::bad_alloc();
   }
   array->SetVoidArray(memory, values, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+}
+
+/** A named array; its values are arbitrary. @throws std::bad_alloc */
+template <typename Array>
+vtkSmartPointer<Array> NewArray(const char* name, vtkIdType count, int components = 1)
+{
+  vtkSmartPointer<Array> array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  AllocateTuples(array, count);
+  return array;
 }
 
 /** For what only VTK can allocate. @throws std::bad_alloc if so much is not to be had now */

@@ -29,14 +29,6 @@ namespace vtkIsodiamond
 namespace
 {
 
-vtkSmartPointer<vtkSignedCharArray> NewArray(const char* name, std::int64_t count)
-{
-  vtkSmartPointer<vtkSignedCharArray> array = vtkSmartPointer<vtkSignedCharArray>::New();
-  array->SetName(name);
-  AllocateTuples(array, count);
-  return array;
-}
-
 template <typename Array, typename Extraction>
 vtkSmartPointer<vtkPoints> WritePoints(
   const Extraction& extraction, const isodiamond::GridGeometry& world)
@@ -97,10 +89,8 @@ template <typename Array>
 void AddValues(
   const isodiamond::IntervalExtraction& extraction, const std::string& name, Mesh& mesh)
 {
-  vtkSmartPointer<Array> values = vtkSmartPointer<Array>::New();
-  values->SetName(name.c_str());
-  AllocateTuples(values, extraction.PointCount());
-  const auto surfaces = NewArray("Surface", extraction.PointCount());
+  const auto values = NewArray<Array>(name.c_str(), extraction.PointCount());
+  const auto surfaces = NewArray<vtkSignedCharArray>("Surface", extraction.PointCount());
   extraction.WriteValues(values->GetPointer(0), surfaces->GetPointer(0));
   mesh.PointData->SetScalars(values);
   mesh.PointData->AddArray(surfaces);
@@ -201,7 +191,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshWishes& wish
 {
   const isodiamond::IntervalExtraction extraction(refined, parallelFor);
   AddPoints(extraction, wishes, true, mesh);
-  const auto levels = NewArray("Level", extraction.TetrahedronCount());
+  const auto levels = NewArray<vtkSignedCharArray>("Level", extraction.TetrahedronCount());
   mesh.Cells = WriteCells(extraction.TetrahedronCount(), 4, parallelFor,
     [&](auto* connectivity)
     { extraction.WriteTetrahedra(wishes.World.Mirrors(), connectivity, levels->GetPointer(0)); });
@@ -222,16 +212,14 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshWishes& wis
 {
   const isodiamond::SurfaceExtraction extraction(refined, parallelFor);
   AddPoints(extraction, wishes, false, mesh);
-  const auto levels = NewArray("Level", extraction.TriangleCount());
+  const auto levels = NewArray<vtkSignedCharArray>("Level", extraction.TriangleCount());
   mesh.Cells = WriteCells(extraction.TriangleCount(), 3, parallelFor,
     [&](auto* connectivity)
     { extraction.WriteTriangles(wishes.World.Mirrors(), connectivity, levels->GetPointer(0)); });
   mesh.CellData->AddArray(levels);
   if (wishes.WithValues)
   {
-    vtkNew<vtkFloatArray> values;
-    values->SetName(wishes.ArrayName.c_str());
-    AllocateTuples(values, extraction.PointCount());
+    const auto values = NewArray<vtkFloatArray>(wishes.ArrayName.c_str(), extraction.PointCount());
     values->Fill(refined.Hierarchy().Region().Isovalue());
     mesh.PointData->SetScalars(values);
   }

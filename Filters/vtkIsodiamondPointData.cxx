@@ -25,15 +25,6 @@ namespace
 
 constexpr const char* NormalsName = "Normals";
 
-vtkSmartPointer<vtkFloatArray> NewVectors(const char* name, vtkIdType count)
-{
-  vtkSmartPointer<vtkFloatArray> vectors = vtkSmartPointer<vtkFloatArray>::New();
-  vectors->SetName(name);
-  vectors->SetNumberOfComponents(3);
-  AllocateTuples(vectors, count);
-  return vectors;
-}
-
 /** @param normals,gradients may be null */
 PointWriter WriteGradients(const Volume& volume, vtkFloatArray* normals, vtkFloatArray* gradients)
 {
@@ -156,8 +147,9 @@ PointDataMaker FromVolume(const Volume& volume, const VolumePointData& wanted)
   return [&volume, wanted](vtkIdType count, vtkPointData* output)
   {
     std::vector<PointWriter> writers;
-    const auto normals = wanted.Normals ? NewVectors(NormalsName, count) : nullptr;
-    const auto gradients = wanted.Gradients ? NewVectors("Gradient", count) : nullptr;
+    const auto normals = wanted.Normals ? NewArray<vtkFloatArray>(NormalsName, count, 3) : nullptr;
+    const auto gradients =
+      wanted.Gradients ? NewArray<vtkFloatArray>("Gradient", count, 3) : nullptr;
     if (normals)
     {
       output->SetNormals(normals);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondPoints.h"
 
+#include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondCells.h"
 #include "vtkIsodiamondHierarchy.h"
 #include "vtkIsodiamondShare.h"
@@ -22,20 +23,6 @@
 #include <type_traits>
 
 vtkStandardNewMacro(vtkIsodiamondPoints);
-
-namespace
-{
-
-template <typename Array>
-vtkSmartPointer<Array> NewArray(const char* name, vtkIdType count)
-{
-  vtkSmartPointer<Array> array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  vtkIsodiamond::AllocateTuples(array, count);
-  return array;
-}
-
-}
 
 //------------------------------------------------------------------------------
 vtkIsodiamondPoints::vtkIsodiamondPoints() = default;
@@ -102,10 +89,10 @@ int vtkIsodiamondPoints::RequestData(
     vtkNew<vtkPoints> points;
     points->GetData()->SetNumberOfComponents(3);
     vtkIsodiamond::AllocateTuples(points->GetData(), count);
-    const auto kinds = NewArray<vtkSignedCharArray>("Kind", count);
-    const auto classes = NewArray<vtkSignedCharArray>("Class", count);
-    const auto levels = NewArray<vtkSignedCharArray>("Level", count);
-    const auto errors = NewArray<vtkDoubleArray>("Error", count);
+    const auto kinds = vtkIsodiamond::NewArray<vtkSignedCharArray>("Kind", count);
+    const auto classes = vtkIsodiamond::NewArray<vtkSignedCharArray>("Class", count);
+    const auto levels = vtkIsodiamond::NewArray<vtkSignedCharArray>("Level", count);
+    const auto errors = vtkIsodiamond::NewArray<vtkDoubleArray>("Error", count);
     vtkIdType id = 0;
     forEach(
       [&](const isodiamond::Place& place, std::uint32_t rank)
