@@ -102,7 +102,9 @@ void ExpectStops(const MakeFilter& make, int moments, unsigned int seed)
     const auto messages = test::Watch(filter);
     vtkNew<Stopper> stopper;
     filter->AddObserver(vtkCommand::ProgressEvent, stopper);
-    const int event = moment % 2 == 0 ? static_cast<int>(random() % watch->Count) : -1;
+    // The first is surely at work: how many events there are besides those of phases, time tells.
+    const int any = static_cast<int>(random() % watch->Count);
+    const int event = moment == 0 ? 2 : (moment % 2 == 0 ? any : -1);
     const double part = std::uniform_real_distribution<double>(0.0, 1.0)(random);
     stopper->StopAt(event, event < 0 ? part * length : Seconds(1e9));
     SCOPED_TRACE("event " + std::to_string(event) + ", at " + std::to_string(part));
