@@ -378,7 +378,7 @@ private:
     }
     const std::array<int, 3>& d = this->Field.Dimensions;
     const double whole = (d[0] - 1.0) * (d[1] - 1.0) * (d[2] - 1.0);
-    EXPECT_NEAR(sum, whole, 1e-3 * whole);
+    EXPECT_NEAR(sum, whole, 2.0 / 256.0 * whole);
   }
 
   Random Numbers;
