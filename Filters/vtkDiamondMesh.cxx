@@ -27,9 +27,8 @@ namespace
 
 void AddArray(vtkUnstructuredGrid* output, const char* name, const std::vector<std::int8_t>& values)
 {
-  vtkNew<vtkSignedCharArray> array;
-  array->SetName(name);
-  vtkIsodiamond::AllocateTuples(array, static_cast<vtkIdType>(values.size()));
+  const auto array =
+    vtkIsodiamond::NewArray<vtkSignedCharArray>(name, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   output->GetCellData()->AddArray(array);
 }

@@ -3,7 +3,6 @@
 
 #include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondCells.h"
-#include "vtkIsodiamondThreads.h"
 
 #include "IntervalExtraction.h"
 #include "SurfaceExtraction.h"
@@ -165,12 +164,8 @@ void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells&
   vtkNew<vtkPoints> points;
   points->SetDataType(mesh.Points->GetDataType());
   mesh.Points->GetPoints(keptPoints, points);
-  RunSerial(
-    [&]
-    {
-      KeepTuples(mesh.PointData, keptPoints);
-      KeepTuples(mesh.CellData, keptCells);
-    });
+  KeepTuples(mesh.PointData, keptPoints);
+  KeepTuples(mesh.CellData, keptCells);
   mesh.Points = points;
   mesh.Cells = cells;
 }

@@ -2,6 +2,7 @@
 #include "vtkIsodiamondShare.h"
 
 #include "vtkIsodiamondArrays.h"
+#include "vtkIsodiamondThreads.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
@@ -84,7 +85,7 @@ void KeepRange(vtkDataSetAttributes* data, vtkIdType first, vtkIdType last)
   data->Initialize();
   data->CopyAllOn();
   data->CopyAllocate(all, last - first);
-  data->CopyData(all, 0, last - first, first);
+  RunSerial([&] { data->CopyData(all, 0, last - first, first); });
 }
 
 void KeepPart(vtkCellArray* cells, const int share[2], vtkPointSet* mesh, Part& part)
@@ -203,7 +204,7 @@ void KeepTuples(vtkDataSetAttributes* data, vtkIdList* ids)
   vtkNew<vtkIdList> newIds; // VTK 9.1 has no CopyData without
   newIds->SetNumberOfIds(ids->GetNumberOfIds());
   std::iota(newIds->begin(), newIds->end(), vtkIdType{ 0 });
-  data->CopyData(all, ids, newIds);
+  RunSerial([&] { data->CopyData(all, ids, newIds); });
 }
 
 }

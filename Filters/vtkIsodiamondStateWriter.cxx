@@ -29,9 +29,7 @@ using namespace format;
 template <typename Array, typename T>
 void AddArray(vtkFieldData* fieldData, const char* name, const std::vector<T>& values)
 {
-  vtkNew<Array> array;
-  array->SetName(name);
-  AllocateTuples(array, static_cast<vtkIdType>(values.size()));
+  const auto array = NewArray<Array>(name, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   fieldData->AddArray(array);
 }

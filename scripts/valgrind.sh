@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The tests of the VTK filters under valgrind's memcheck: errors and definite leaks are failures.
-# Takes half an hour. Arguments go to the tests, e.g. --gtest_filter=Contour*
+# Slow: Distance.IsAPromiseOnAnalyticVolumes alone took 15 minutes beside other work. Arguments go to the tests, e.g. --gtest_filter=Contour*
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
