@@ -4,6 +4,7 @@
 #include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondThreads.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -16,6 +17,8 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -41,9 +44,13 @@ struct Part
 
 /** Ids of the whole's points become ids of the part's, in the same order. */
 template <typename Array>
-void MakePart(Array* offsets, Array* connectivity, vtkIdType pointCount, Part& part)
+void MakePart(vtkCellArray* cells, vtkIdType pointCount, Part& part)
 {
   using Id = typename Array::ValueType;
+  // As they were given to SetData: none but our own cells come here.
+  auto* offsets = vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetOffsetsArray());
+  auto* connectivity =
+    vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetConnectivityArray());
   const Id* offset = offsets->GetPointer(0);
   const Id* begin = connectivity->GetPointer(0) + offset[part.FirstCell];
   const Id* end = connectivity->GetPointer(0) + offset[part.LastCell];
@@ -96,13 +103,11 @@ void KeepPart(vtkCellArray* cells, const int share[2], vtkPointSet* mesh, Part& 
   part.LastCell = count * std::min(piece + 1, share[1]) / share[1];
   if (cells->IsStorage64Bit())
   {
-    MakePart(
-      cells->GetOffsetsArray64(), cells->GetConnectivityArray64(), mesh->GetNumberOfPoints(), part);
+    MakePart<vtkTypeInt64Array>(cells, mesh->GetNumberOfPoints(), part);
   }
   else
   {
-    MakePart(
-      cells->GetOffsetsArray32(), cells->GetConnectivityArray32(), mesh->GetNumberOfPoints(), part);
+    MakePart<vtkTypeInt32Array>(cells, mesh->GetNumberOfPoints(), part);
   }
   vtkNew<vtkPoints> points;
   points->SetDataType(mesh->GetPoints()->GetDataType());

@@ -1,13 +1,18 @@
 # The VTK module IsodiamondFilters, on ParaView's VTK or on a plain one.
+include(cmake/PythonTargets.cmake)
 if(ISODIAMONDS_BUILD_PARAVIEW_PLUGIN)
-  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingServerManager)
+  isodiamonds_mend_python_targets(ParaView 5.11)
+  isodiamonds_find(ParaView
+    "its development files, 5.11 or later (Debian: paraview-dev python3-paraview), or -DParaView_DIR=FOLDER of a ParaView's paraview-config.cmake"
+    5.11 COMPONENTS RemotingCore RemotingServerManager)
 else()
-  find_package(VTK 9.1 REQUIRED
-    COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc FiltersCore)
+  isodiamonds_find(VTK "its development files, 9.1 or later (Debian: libvtk9-dev)"
+    9.1 COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc FiltersCore)
 endif()
 if(BUILD_TESTING)
   # What the tests use besides: here, because imported targets belong to the folder that finds them.
-  find_package(VTK REQUIRED
+  isodiamonds_find(VTK
+    "what its rendering tests need (Debian: libglew-dev libfreetype-dev), or BUILD_TESTING=OFF"
     COMPONENTS CommonExecutionModel FiltersCore FiltersExtraction FiltersGeneral ImagingCore IOXML
       InteractionStyle RenderingCore RenderingFreeType RenderingOpenGL2 TestingRendering
     PATHS "${VTK_DIR}" NO_DEFAULT_PATH) # the VTK that ParaView brought

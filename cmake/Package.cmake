@@ -7,8 +7,11 @@ configure_package_config_file(
 write_basic_package_version_file(
   "${CMAKE_BINARY_DIR}/${package_destination}/IsodiamondsConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
+configure_file(
+  cmake/PythonTargets.cmake "${CMAKE_BINARY_DIR}/${package_destination}/PythonTargets.cmake" COPYONLY)
 install(
   FILES
+    cmake/PythonTargets.cmake
     "${CMAKE_BINARY_DIR}/${package_destination}/IsodiamondsConfig.cmake"
     "${CMAKE_BINARY_DIR}/${package_destination}/IsodiamondsConfigVersion.cmake"
   DESTINATION "${package_destination}")

@@ -2,12 +2,20 @@
 #
 # paraview_plugin_build adds the folder of the plugin file as a subdirectory, which cannot be the
 # top one; Plugin/paraview.plugin is a link to the file on top.
+
+# Help pages, the "?" button of the property panel: with Qt 5 and its tools.
 find_program(ISODIAMONDS_QHELPGENERATOR qhelpgenerator)
 find_program(ISODIAMONDS_XMLPATTERNS xmlpatterns PATHS /usr/lib/qt5/bin NO_DEFAULT_PATH)
 set(no_xml_documentation ON)
-if(ISODIAMONDS_QHELPGENERATOR AND ISODIAMONDS_XMLPATTERNS)
-  set(no_xml_documentation OFF) # the "?" button of the property panel
+if(PARAVIEW_QT_MAJOR_VERSION EQUAL 6) # 5.11 does not tell, and has Qt 5
+  message(NOTICE "The plugin comes without help pages: ParaView makes them with Qt 5 only.")
+elseif(NOT ISODIAMONDS_QHELPGENERATOR OR NOT ISODIAMONDS_XMLPATTERNS)
+  message(NOTICE "The plugin comes without help pages: qhelpgenerator or xmlpatterns is missing "
+    "(Debian 12: qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools).")
+else()
+  set(no_xml_documentation OFF)
 endif()
+
 # The plugin's own VTK module: what ParaView asks of properties.
 vtk_module_scan(
   MODULE_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/ServerManager/vtk.module"

@@ -2,8 +2,9 @@
 if(NOT VTK_WRAP_PYTHON)
   message(FATAL_ERROR "This VTK has no Python wrapping; set ISODIAMONDS_WRAP_PYTHON to OFF.")
 endif()
-find_package(Python3 COMPONENTS Interpreter Development REQUIRED)
-set(python_destination "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
+isodiamonds_find(Python3 "its headers (Debian: python3-dev), or ISODIAMONDS_WRAP_PYTHON=OFF"
+  COMPONENTS Interpreter Development)
+set(python_destination "lib/python3/dist-packages") # Debian's, also where libraries are in lib/ARCHITECTURE
 # The target's name must not end in ::Python: that would install a header named Python.h.
 vtk_module_wrap_python(
   MODULES ${isodiamond_modules}

@@ -6,8 +6,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/../scripts/common.sh"
 
 output=${1:-$root/docs/pictures}
 # shellcheck disable=SC2086 # lists of words
-install_packages $build_packages $render_packages
+install_packages $render_packages
+install_build_packages
 configure_and_build release >/dev/null
 mkdir -p "$output"
-PYTHONPATH=$build/lib/python3/dist-packages xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" \
+PYTHONPATH=$build/lib/python3/dist-packages on_display \
   pvpython "$root/docs/figures.py" "$output"

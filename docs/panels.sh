@@ -21,10 +21,12 @@ if [ ${#filters[@]} -eq 0 ]; then
 fi
 
 # shellcheck disable=SC2086 # lists of words
-install_packages $build_packages $render_packages $demo_packages paraview xdotool imagemagick libqt5svg5 fonts-dejavu-core
+install_packages $render_packages $demo_packages paraview xdotool imagemagick libqt5svg5 fonts-dejavu-core
+install_build_packages
 configure_and_build release >/dev/null
 
-export ISODIAMONDS_PLUGIN=$build/lib/paraview-5.11/plugins/Isodiamonds/Isodiamonds.so
+export ISODIAMONDS_PLUGIN
+ISODIAMONDS_PLUGIN=$(find_plugin)
 export ISODIAMONDS_HEAD=/usr/share/mricron/templates/ch2.nii.gz ISODIAMONDS_DATA=$data
 export PYTHONPATH=$build/lib/python3/dist-packages
 settings=$(mktemp -d) # nobody's own settings in the pictures

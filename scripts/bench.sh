@@ -46,8 +46,9 @@ for argument in "$@"; do
 done
 
 # shellcheck disable=SC2086 # lists of words
-install_packages $build_packages $benchmark_packages
-(cd "$root" && cmake --preset release -B "$build" --log-level=WARNING -DBUILD_TESTING=OFF \
+install_packages $benchmark_packages
+install_build_packages
+(cd "$root" && cmake --preset release -B "$build" --log-level=WARNING \
   -DISODIAMONDS_WRAP_PYTHON=OFF -DISODIAMONDS_BUILD_BENCHMARKS=ON >/dev/null)
 cmake --build "$build" --target IsodiamondBenchmark
 

@@ -19,11 +19,6 @@ at five error tolerances and with a region of interest.
 END
 }
 
-fail() {
-  echo "demo.sh: $*" >&2
-  exit 1
-}
-
 # Arguments are checked before anything is installed or built: that takes minutes.
 check_isovalue() {
   [[ $1 =~ ^[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?$ ]] || fail "--isovalue: '$1' is not a finite number"
@@ -75,8 +70,10 @@ if [ ${#files[@]} -eq 1 ]; then
 fi
 
 # shellcheck disable=SC2086 # lists of words
-install_packages $build_packages $render_packages $demo_packages
+install_packages $compile_packages $render_packages $demo_packages
+install_build_packages
 configure_and_build release
 
-PYTHONPATH=$build/lib/python3/dist-packages xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" \
+PYTHONPATH=$build/lib/python3/dist-packages on_display \
   pvpython "$root/scripts/demo.py" "${arguments[@]}" "--output=$output" "${files[@]}"
+echo "The plugin for ParaView: $(find_plugin)"

@@ -13,7 +13,8 @@ if [ ${#targets[@]} -eq 0 ]; then
 fi
 
 # shellcheck disable=SC2086 # a list of words
-install_packages $build_packages $render_packages $test_packages clang libclang-rt-14-dev
+install_packages $render_packages $test_packages clang libclang-rt-14-dev
+install_build_packages
 configure_and_build fuzz >/dev/null
 
 cd "$root"

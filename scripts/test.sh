@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# Installs what a fresh Debian 12 lacks, builds everything and runs all tests.
+# Installs what a fresh Debian lacks, builds everything and runs all tests.
 # Arguments go to ctest, e.g. scripts/test.sh -R Surface
+# ISODIAMONDS_PRESET is the preset to build by, one that builds into build/ [test].
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-install_packages $build_packages $render_packages $test_packages
-configure_and_build release -DISODIAMONDS_BUILD_BENCHMARKS=ON
+# shellcheck disable=SC2086 # lists of words
+install_packages $compile_packages $render_packages $test_packages
+install_build_packages
+configure_and_build "${ISODIAMONDS_PRESET:-test}"
 
-# One display for all tests: several xvfb-run at once get into each other's way.
 cd "$build"
-exec xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" ctest --output-on-failure "$@"
+on_display ctest --output-on-failure "$@"

@@ -6,8 +6,9 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 # shellcheck disable=SC2086 # lists of words
-install_packages $build_packages $render_packages $test_packages valgrind
-configure_and_build release >/dev/null
+install_packages $render_packages $test_packages valgrind
+install_build_packages
+configure_and_build test >/dev/null
 
 arguments=("$@")
 if [ ${#arguments[@]} -eq 0 ]; then

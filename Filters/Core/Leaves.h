@@ -74,10 +74,11 @@ class LeafFinder
 public:
   LeafFinder(const RefinedSet& refined, const RefinedBrick& brick)
     : Same(refined.Diamonds().Level(brick.Scale()), brick.Origin())
+    , HasFiner(brick.Scale() > 0)
   {
-    if (brick.Scale() > 0)
+    if (this->HasFiner)
     {
-      this->Finer.emplace(
+      this->Finer = FinerWindow(
         refined.Diamonds().Level(brick.Scale() - 1), 2 * brick.Origin() + Point{ -1, -1, -1 });
     }
   }
@@ -85,9 +86,9 @@ public:
   /** Of a refined diamond's subdivision edges, those that are edges of the current mesh. */
   std::uint32_t AliveEdges(const Place& place, std::uint32_t edges) const
   {
-    return this->Finer ? edges &
-        ~this->Finer->Around(2 * place.Position, tables::MiddleDistances[Parity(place.Position)])
-                       : edges;
+    return this->HasFiner ? edges &
+        ~this->Finer.Around(2 * place.Position, tables::MiddleDistances[Parity(place.Position)])
+                          : edges;
   }
 
   /** The children of a refined diamond that are not refined, as a mask.
@@ -101,16 +102,17 @@ public:
     {
       return children & ~this->Same.Around(place.Position, tables::ChildDistances[type]);
     }
-    return this->Finer
-      ? children & ~this->Finer->Around(2 * place.Position, tables::ChildDistances[type])
+    return this->HasFiner
+      ? children & ~this->Finer.Around(2 * place.Position, tables::ChildDistances[type])
       : children;
   }
 
 private:
   /** Children of classes 0 and 1. */
   SameScaleWindow Same;
-  /** What is centred on edges, and children of class 2. */
-  std::optional<FinerWindow> Finer;
+  /** What is centred on edges, and children of class 2: at scale 0 there is no such. */
+  bool HasFiner;
+  FinerWindow Finer;
 };
 
 /** A refined diamond whose children are not all refined: the parent of leaves. */

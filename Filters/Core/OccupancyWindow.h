@@ -21,6 +21,9 @@ template <int Width>
 class OccupancyWindow
 {
 public:
+  /** Nothing is there. */
+  OccupancyWindow() = default;
+
   /** @param first position of the window */
   OccupancyWindow(const BrickLevel& level, const Point& first)
     : First(first)
@@ -61,7 +64,7 @@ public:
 private:
   int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
 
-  Point First;
+  Point First{};
   std::array<std::uint8_t, std::size_t{ Width } * Width * Width> Bytes{};
 };
 
