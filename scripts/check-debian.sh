@@ -92,8 +92,7 @@ else
   echo "Making a bare $suite in $folder"
   eval "$(apt-config shell proxy Acquire::http::Proxy)"
   http_proxy=${http_proxy:-${proxy:-}} debootstrap --variant=minbase "$suite" "$folder" "$debian" \
-    >"$folder.log" || { tail -n 20 "$folder.log" >&2; fail "debootstrap failed"; }
-  rm "$folder.log"
+    >/dev/null || fail "debootstrap failed; $folder/debootstrap/debootstrap.log tells why"
 fi
 use_apt_of_host "$folder"
 
