@@ -60,16 +60,24 @@ inline void ExpectMemory(std::int64_t bytes)
   std::free(memory);
 }
 
-/** The values of an array in a row. @throws std::bad_alloc where VTK has no memory to copy one of
- *  another layout */
-inline void* ValuesInRow(vtkDataArray* array)
+/**
+ * The array, if its values are in a row as vtkAOSDataArrayTemplate has them, or else (structures of
+ * arrays, implicit arrays) a copy that has: as many bytes as there are values.
+ *
+ * @throws std::bad_alloc
+ */
+inline vtkSmartPointer<vtkDataArray> InRow(vtkDataArray* array)
 {
-  void* values = array->GetVoidPointer(0);
-  if (!values && array->GetNumberOfValues() > 0)
+  if (array->HasStandardMemoryLayout())
   {
-    throw std::bad_alloc();
+    return array;
   }
-  return values;
+  auto copy =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array->GetDataType()));
+  copy->SetNumberOfComponents(array->GetNumberOfComponents());
+  AllocateTuples(copy, array->GetNumberOfTuples());
+  copy->DeepCopy(array);
+  return copy;
 }
 
 }

@@ -61,7 +61,8 @@ ContentHash HashOf(vtkDataArray* array)
   {
     return {};
   }
-  const char* bytes = static_cast<const char*>(ValuesInRow(array));
+  const vtkSmartPointer<vtkDataArray> row = InRow(array);
+  const char* bytes = static_cast<const char*>(row->GetVoidPointer(0));
   const std::int64_t count = array->GetNumberOfValues() * array->GetDataTypeSize();
   std::vector<ContentHash> blocks((count + BlockBytes - 1) / BlockBytes);
   SMPFor()(static_cast<std::int64_t>(blocks.size()), 16,

@@ -99,9 +99,9 @@ Geometry GeometryOf(vtkStructuredGrid* grid, int padding)
     throw std::invalid_argument("The grid does not have one position for each sample.");
   }
   Geometry geometry;
-  geometry.Positions = points->GetData();
+  geometry.Positions = InRow(points->GetData());
   const int type = geometry.Positions->GetDataType();
-  if (!geometry.Positions->HasStandardMemoryLayout() || (type != VTK_FLOAT && type != VTK_DOUBLE))
+  if (type != VTK_FLOAT && type != VTK_DOUBLE)
   {
     geometry.Positions = vtkSmartPointer<vtkDoubleArray>::New();
     geometry.Positions->SetNumberOfComponents(3);

@@ -209,15 +209,8 @@ Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoun
   volume.Grid = grid;
   volume.Dimensions = dimensions;
   volume.Padding = closeBoundary ? 1 : 0;
-  volume.Array = array;
+  volume.Array = InRow(array);
   volume.ArrayName = array->GetName() ? array->GetName() : "";
-  if (!array->HasStandardMemoryLayout())
-  {
-    volume.Array =
-      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array->GetDataType()));
-    AllocateTuples(volume.Array, array->GetNumberOfTuples());
-    volume.Array->DeepCopy(array);
-  }
   if (!ViewSamples(volume.Array, dimensions, volume.Samples))
   {
     throw std::invalid_argument(

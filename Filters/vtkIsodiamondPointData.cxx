@@ -59,10 +59,17 @@ bool CanBeInterpolated(vtkDataArray* array, int attribute)
     attribute != vtkDataSetAttributes::GLOBALIDS && attribute != vtkDataSetAttributes::PEDIGREEIDS;
 }
 
+/** Arrays to read, their values in a row, and for each one to write. */
+struct ArrayPairs
+{
+  ArrayList Values;
+  std::vector<vtkSmartPointer<vtkDataArray>> Read; ///< the list has no hold on them
+};
+
 /** Like ArrayList::AddArrayPair, which would allocate in its own way. @return the array that the
  * list writes, under the same name */
 vtkSmartPointer<vtkDataArray> AddPair(
-  ArrayList& list, vtkDataArray* from, vtkIdType count, bool integersAsFloats)
+  ArrayPairs& pairs, vtkDataArray* from, vtkIdType count, bool integersAsFloats)
 {
   const int type = from->GetDataType();
   const bool isFloating = type == VTK_FLOAT || type == VTK_DOUBLE;
@@ -73,20 +80,22 @@ vtkSmartPointer<vtkDataArray> AddPair(
   to->SetName(from->GetName());
   to->SetNumberOfComponents(components);
   AllocateTuples(to, count);
-  void* read = ValuesInRow(from);
+  pairs.Read.push_back(InRow(from));
+  ArrayList* list = &pairs.Values;
+  void* read = pairs.Read.back()->GetVoidPointer(0);
   void* written = to->GetVoidPointer(0);
   if (converts)
   {
     switch (type)
     {
-      vtkTemplateMacro(CreateRealArrayPair(&list, static_cast<VTK_TT*>(read),
+      vtkTemplateMacro(CreateRealArrayPair(list, static_cast<VTK_TT*>(read),
         static_cast<float*>(written), count, components, to, 0.0F));
     }
     return to;
   }
   switch (type)
   {
-    vtkTemplateMacro(CreateArrayPair(&list, static_cast<VTK_TT*>(read),
+    vtkTemplateMacro(CreateArrayPair(list, static_cast<VTK_TT*>(read),
       static_cast<VTK_TT*>(written), count, components, to, VTK_TT()));
   }
   return to;
@@ -98,7 +107,7 @@ PointWriter WriteOthers(const Volume& volume, const std::vector<std::string>& na
   vtkIdType count, vtkPointData* output)
 {
   vtkPointData* input = volume.Grid->GetPointData();
-  const auto arrays = std::make_shared<ArrayList>();
+  const auto arrays = std::make_shared<ArrayPairs>();
   for (int i = 0; i < input->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = input->GetArray(i);
@@ -136,7 +145,7 @@ PointWriter WriteOthers(const Volume& volume, const std::vector<std::string>& na
             (vtkIdType{ sample[2] } * dimensions[1] + sample[1]) * dimensions[0] + sample[0];
           weights[corners++] = weight;
         });
-    arrays->Interpolate(corners, ids.data(), weights.data(), vtkIdType{ point.Id });
+    arrays->Values.Interpolate(corners, ids.data(), weights.data(), vtkIdType{ point.Id });
   };
 }
 
@@ -175,7 +184,7 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
 {
   return [&hierarchy, &stored](vtkIdType count, vtkPointData* output) -> std::vector<PointWriter>
   {
-    const auto arrays = std::make_shared<ArrayList>();
+    const auto arrays = std::make_shared<ArrayPairs>();
     for (vtkDataArray* array : stored)
     {
       output->AddArray(AddPair(*arrays, array, count, false));
@@ -185,7 +194,7 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
       output->SetActiveNormals(NormalsName);
     }
     return { [&hierarchy, arrays](const isodiamond::MeshPoint& point) {
-      arrays->Copy(vtkIdType{ isodiamond::StoredNumber(hierarchy, point) }, vtkIdType{ point.Id });
+      arrays->Values.Copy(vtkIdType{ isodiamond::StoredNumber(hierarchy, point) }, vtkIdType{ point.Id });
     } };
   };
 }

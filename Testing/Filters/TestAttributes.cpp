@@ -14,6 +14,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkProbeFilter.h"
+#include "vtkSOADataArrayTemplate.h"
 #include "vtkShortArray.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLPolyDataReader.h"
@@ -51,6 +52,21 @@ vtkSmartPointer<vtkImageData> ImageWithArrays()
   return image;
 }
 
+/** A copy whose components are in an array each: values are not in a row. */
+template <typename T>
+vtkSmartPointer<vtkDataArray> AsStructureOfArrays(vtkDataArray* array)
+{
+  const auto copy = vtkSmartPointer<vtkSOADataArrayTemplate<T>>::New();
+  copy->SetName(array->GetName());
+  copy->SetNumberOfComponents(array->GetNumberOfComponents());
+  copy->SetNumberOfTuples(array->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    copy->SetTuple(i, array->GetTuple(i));
+  }
+  return copy;
+}
+
 /** Expects a mesh to have what VTK's probe finds in an image at the mesh's points. */
 void ExpectProbed(vtkPointSet* mesh, vtkImageData* image, const char* name, double tolerance)
 {
@@ -83,6 +99,33 @@ void ExpectProbed(vtkPointSet* mesh, vtkImageData* image, const char* name, doub
   EXPECT_LE(worst, tolerance) << name;
 }
 
+}
+
+TEST(Attributes, ArraysOfAnyLayoutGiveTheSameMesh)
+{
+  const auto image = ImageWithArrays();
+  vtkPointData* arrays = image->GetPointData();
+  vtkNew<vtkImageData> other;
+  other->CopyStructure(image);
+  other->GetPointData()->SetScalars(AsStructureOfArrays<float>(arrays->GetScalars()));
+  other->GetPointData()->SetVectors(AsStructureOfArrays<float>(arrays->GetVectors()));
+  other->GetPointData()->AddArray(AsStructureOfArrays<short>(arrays->GetArray("count")));
+  ASSERT_FALSE(other->GetPointData()->GetScalars()->HasStandardMemoryLayout());
+
+  const auto meshOf = [](vtkImageData* input)
+  {
+    vtkNew<vtkIsodiamondContour> contour; // one for each: it keeps what it has built
+    contour->SetInputData(input);
+    contour->SetValue(0, 0.0);
+    contour->SetErrorTolerance(0.2);
+    contour->Update();
+    return vtkSmartPointer<vtkPolyData>(contour->GetOutput());
+  };
+  const auto expected = meshOf(image);
+  ASSERT_GT(expected->GetNumberOfCells(), 0);
+  ASSERT_NE(expected->GetPointData()->GetArray("flow"), nullptr);
+  ASSERT_NE(expected->GetPointData()->GetArray("count"), nullptr);
+  EXPECT_EQ(test::Difference(expected, meshOf(other)), "");
 }
 
 TEST(Attributes, OtherArraysAreWhatTheProbeFinds)
