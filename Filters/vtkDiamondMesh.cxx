@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDiamondMesh.h"
 
-#include "DiamondMesh.h"
+#include "Mesh/DiamondMesh.h"
 #include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondState.h"
 #include "vtkIsodiamondTask.h"

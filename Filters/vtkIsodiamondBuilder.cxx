@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondBuilder.h"
 
-#include "Builder.h"
+#include "Build/Builder.h"
 #include "vtkIsodiamondInput.h"
 #include "vtkIsodiamondPointData.h"
 #include "vtkIsodiamondShare.h"

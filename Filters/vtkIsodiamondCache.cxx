@@ -100,7 +100,7 @@ void Cache::Trim(std::int64_t bytes)
 }
 
 Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
-  bool refineInterior, const Query& query, const MeshWishes& wishes, Task& task)
+  bool refineInterior, const Query& query, const MeshOptions& wishes, Task& task)
 {
   constexpr double buildShare = 0.8;
   Task building = task.Part(0.0, buildShare);

@@ -7,7 +7,7 @@
 #include "vtkIsodiamondMesh.h"
 #include "vtkIsodiamondTask.h"
 
-#include "Builder.h"
+#include "Build/Builder.h"
 
 #include "vtkType.h"
 
@@ -92,7 +92,7 @@ struct Query;
 /** What both one-step filters do: the hierarchy of a region, the refined set of a query, the mesh.
  */
 Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
-  bool refineInterior, const Query& query, const MeshWishes& wishes, Task& task);
+  bool refineInterior, const Query& query, const MeshOptions& wishes, Task& task);
 
 }
 

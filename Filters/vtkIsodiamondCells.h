@@ -4,7 +4,7 @@
 
 #include "vtkIsodiamondArrays.h"
 
-#include "Parallel.h"
+#include "Field/Parallel.h"
 
 #include "vtkCellArray.h"
 #include "vtkNew.h"

@@ -2,7 +2,7 @@
 #ifndef vtkIsodiamondChoice_h
 #define vtkIsodiamondChoice_h
 
-#include "Isoregion.h"
+#include "Field/Isoregion.h"
 
 #include <array>
 #include <cmath>

@@ -57,7 +57,7 @@ int vtkIsodiamondContour::FillOutputPortInformation(int, vtkInformation* info)
 void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   const vtkIsodiamond::Query& query, vtkIsodiamond::Task& task, vtkDataObject* output)
 {
-  vtkIsodiamond::MeshWishes wishes{ volume.Place.World, volume.ArrayName };
+  vtkIsodiamond::MeshOptions wishes{ volume.Place.World, volume.ArrayName };
   wishes.WithValues = this->ComputeScalars != 0;
   wishes.PointsPrecision = this->OutputPointsPrecision;
   wishes.Hidden = &volume.Hidden;

@@ -209,7 +209,7 @@ void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
   const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkUnstructuredGrid* output)
 {
   const isodiamond::GridGeometry world = state.World;
-  vtkIsodiamond::MeshWishes wishes{ world, state.ArrayName };
+  vtkIsodiamond::MeshOptions wishes{ world, state.ArrayName };
   wishes.PointsPrecision = this->OutputPointsPrecision;
   if (state.Isodiamonds && !state.PointArrays.empty())
   {

@@ -2,8 +2,8 @@
 #ifndef vtkIsodiamondGrid_h
 #define vtkIsodiamondGrid_h
 
-#include "GridGeometry.h"
-#include "HiddenCells.h"
+#include "Field/GridGeometry.h"
+#include "Field/HiddenCells.h"
 
 #include "vtkSmartPointer.h"
 

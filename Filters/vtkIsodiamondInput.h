@@ -2,8 +2,8 @@
 #ifndef vtkIsodiamondInput_h
 #define vtkIsodiamondInput_h
 
-#include "IsodiamondHierarchy.h"
-#include "Samples.h"
+#include "Field/Samples.h"
+#include "Hierarchy/IsodiamondHierarchy.h"
 #include "vtkIsodiamondGrid.h"
 
 #include "vtkDataSet.h"

@@ -67,7 +67,7 @@ void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   };
   const bool refineInterior =
     this->InteriorTolerance < VTK_DOUBLE_MAX && this->InteriorTolerance < extent();
-  vtkIsodiamond::MeshWishes wishes{ volume.Place.World, volume.ArrayName };
+  vtkIsodiamond::MeshOptions wishes{ volume.Place.World, volume.ArrayName };
   wishes.PointsPrecision = this->OutputPointsPrecision;
   wishes.Hidden = &volume.Hidden;
   wishes.MorePointData =

@@ -4,8 +4,8 @@
 #include "vtkIsodiamondArrays.h"
 #include "vtkIsodiamondCells.h"
 
-#include "IntervalExtraction.h"
-#include "SurfaceExtraction.h"
+#include "Mesh/IntervalExtraction.h"
+#include "Mesh/SurfaceExtraction.h"
 #include "vtkIsodiamondShare.h"
 
 #include "vtkCellArray.h"
@@ -58,7 +58,7 @@ vtkSmartPointer<vtkPoints> WritePoints(
 }
 
 template <typename Extraction>
-void AddPoints(const Extraction& extraction, const MeshWishes& wishes, bool isDouble, Mesh& mesh)
+void AddPoints(const Extraction& extraction, const MeshOptions& wishes, bool isDouble, Mesh& mesh)
 {
   if (wishes.PointsPrecision != vtkAlgorithm::DEFAULT_PRECISION)
   {
@@ -69,7 +69,7 @@ void AddPoints(const Extraction& extraction, const MeshWishes& wishes, bool isDo
 }
 
 template <typename Extraction>
-void AddMorePointData(const Extraction& extraction, const MeshWishes& wishes, Mesh& mesh)
+void AddMorePointData(const Extraction& extraction, const MeshOptions& wishes, Mesh& mesh)
 {
   if (!wishes.MorePointData)
   {
@@ -172,7 +172,7 @@ void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells&
 
 /** What comes after points, cells and values. */
 template <typename Extraction>
-void Complete(const Extraction& extraction, const MeshWishes& wishes, Mesh& mesh)
+void Complete(const Extraction& extraction, const MeshOptions& wishes, Mesh& mesh)
 {
   AddMorePointData(extraction, wishes, mesh);
   if (wishes.Hidden != nullptr && wishes.Hidden->Any())
@@ -181,7 +181,7 @@ void Complete(const Extraction& extraction, const MeshWishes& wishes, Mesh& mesh
   }
 }
 
-void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshWishes& wishes,
+void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& wishes,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
   const isodiamond::IntervalExtraction extraction(refined, parallelFor);
@@ -202,7 +202,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshWishes& wish
   Complete(extraction, wishes, mesh);
 }
 
-void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshWishes& wishes,
+void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& wishes,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
   const isodiamond::SurfaceExtraction extraction(refined, parallelFor);
@@ -239,7 +239,7 @@ void Mesh::Give(vtkUnstructuredGrid* output, bool isVolume) const
   output->GetCellData()->ShallowCopy(this->CellData);
 }
 
-Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshWishes& wishes, Task& task)
+Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& wishes, Task& task)
 {
   task.Begin("Extracting the mesh", 0.0, 1.0);
   Mesh mesh;

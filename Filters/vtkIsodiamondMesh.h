@@ -2,7 +2,7 @@
 #ifndef vtkIsodiamondMesh_h
 #define vtkIsodiamondMesh_h
 
-#include "RefinedSet.h"
+#include "Refinement/RefinedSet.h"
 #include "vtkIsodiamondPointData.h"
 #include "vtkIsodiamondTask.h"
 
@@ -36,7 +36,7 @@ struct Mesh
 };
 
 /** What is wanted of a mesh. */
-struct MeshWishes
+struct MeshOptions
 {
   const isodiamond::GridGeometry& World;
   std::string ArrayName;  ///< the field's values get it
@@ -49,7 +49,7 @@ struct MeshWishes
 };
 
 /** Extracts a mesh. Runs in the calling thread's vtkSMPTools scope. */
-Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshWishes& wishes, Task& task);
+Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& wishes, Task& task);
 
 }
 

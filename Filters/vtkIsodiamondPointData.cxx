@@ -3,8 +3,8 @@
 
 #include "vtkIsodiamondArrays.h"
 
-#include "Gradients.h"
-#include "Trilinear.h"
+#include "Field/Gradients.h"
+#include "Field/Trilinear.h"
 
 #include "vtkArrayListTemplate.h"
 #include "vtkDataArray.h"
@@ -193,9 +193,11 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
     {
       output->SetActiveNormals(NormalsName);
     }
-    return { [&hierarchy, arrays](const isodiamond::MeshPoint& point) {
-      arrays->Values.Copy(vtkIdType{ isodiamond::StoredNumber(hierarchy, point) }, vtkIdType{ point.Id });
-    } };
+    return { [&hierarchy, arrays](const isodiamond::MeshPoint& point)
+      {
+        arrays->Values.Copy(
+          vtkIdType{ isodiamond::StoredNumber(hierarchy, point) }, vtkIdType{ point.Id });
+      } };
   };
 }
 

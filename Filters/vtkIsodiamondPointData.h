@@ -4,7 +4,7 @@
 
 #include "vtkIsodiamondInput.h"
 
-#include "MeshPoints.h"
+#include "Mesh/MeshPoints.h"
 
 #include "vtkSmartPointer.h"
 

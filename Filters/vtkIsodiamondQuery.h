@@ -2,7 +2,7 @@
 #ifndef vtkIsodiamondQuery_h
 #define vtkIsodiamondQuery_h
 
-#include "RefinedSet.h"
+#include "Refinement/RefinedSet.h"
 #include "vtkIsodiamondHierarchy.h"
 #include "vtkIsodiamondState.h"
 #include "vtkIsodiamondThreads.h"

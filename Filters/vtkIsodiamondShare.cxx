@@ -49,8 +49,7 @@ void MakePart(vtkCellArray* cells, vtkIdType pointCount, Part& part)
   using Id = typename Array::ValueType;
   // As they were given to SetData: none but our own cells come here.
   auto* offsets = vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetOffsetsArray());
-  auto* connectivity =
-    vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetConnectivityArray());
+  auto* connectivity = vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetConnectivityArray());
   const Id* offset = offsets->GetPointer(0);
   const Id* begin = connectivity->GetPointer(0) + offset[part.FirstCell];
   const Id* end = connectivity->GetPointer(0) + offset[part.LastCell];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondState.h"
 
-#include "MeshPoints.h"
+#include "Mesh/MeshPoints.h"
 #include "vtkIsodiamondFormat.h"
 #include "vtkIsodiamondThreads.h"
 

@@ -2,8 +2,8 @@
 #ifndef vtkIsodiamondState_h
 #define vtkIsodiamondState_h
 
-#include "AffineMap.h"
-#include "Builder.h"
+#include "Build/Builder.h"
+#include "Field/AffineMap.h"
 #include "vtkIsodiamondChoice.h"
 #include "vtkIsodiamondInput.h"
 

@@ -2,7 +2,7 @@
 #ifndef vtkIsodiamondTask_h
 #define vtkIsodiamondTask_h
 
-#include "Parallel.h"
+#include "Field/Parallel.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

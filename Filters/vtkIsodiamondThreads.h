@@ -2,7 +2,7 @@
 #ifndef vtkIsodiamondThreads_h
 #define vtkIsodiamondThreads_h
 
-#include "Parallel.h"
+#include "Field/Parallel.h"
 
 #include "vtkSMPTools.h"
 

@@ -8,7 +8,7 @@
 #include "vtkIsodiamondTask.h"
 #include "vtkIsodiamondThreads.h"
 
-#include "WorldMetric.h"
+#include "Patches/WorldLengths.h"
 
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -112,7 +112,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       // Full resolution is the same by either metric: grids without distances have it, too.
       const isodiamond::GridGeometry& world = volume.Place.World;
       if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
-        (world.Affine() || !query.IsFull() || isodiamond::FaultOfMetric(world).empty()))
+        (world.Affine() || !query.IsFull() || isodiamond::FaultOfLengths(world).empty()))
       {
         options.Metric = isodiamond::ErrorMetric::Distance;
         options.World = world;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes files that include eight sources each, with compile commands of their own.
+"""Makes files that include eight sources each, with compile commands of their own. Directories count with
+their sub-directories, but for those named before them.
 
 Usage: merge-sources.py COMPILE_COMMANDS OUTPUT_DIRECTORY SOURCE_DIRECTORY...
 """
@@ -14,7 +15,11 @@ with open(commands_file) as file:
 
 merged = []
 for directory in directories:
-    own = [c for c in commands if os.path.dirname(c["file"]) == os.path.abspath(directory)]
+    inside = os.path.abspath(directory) + os.sep
+    own = [c for c in commands if c["file"].startswith(inside)]
+    commands = [c for c in commands if c not in own]  # each file once: inner directories come first
+    if not own:
+        sys.exit(f"merge-sources.py: nothing is compiled in {directory}")
     for first in range(0, len(own), 8):
         sources = [c["file"] for c in own[first : first + 8]]
         name = f"{output}/{len(merged)}.cpp"

@@ -2,8 +2,8 @@
 #ifndef CoreTestTools_h
 #define CoreTestTools_h
 
-#include "Builder.h"
-#include "SurfaceExtraction.h"
+#include "Build/Builder.h"
+#include "Mesh/SurfaceExtraction.h"
 
 #include "ReferenceMesh.h"
 

@@ -3,7 +3,7 @@
 #define IntervalTestTools_h
 
 #include "CoreTestTools.h"
-#include "IntervalExtraction.h"
+#include "Mesh/IntervalExtraction.h"
 
 #include "ReferenceInterval.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Kinds and counts against the reference; the paper's table 1 and theorem 7.1 over all duets.
-#include "Classification.h"
+#include "Build/Classification.h"
 #include "CoreTestTools.h"
 
 #include <gtest/gtest.h>

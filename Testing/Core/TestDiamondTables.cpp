@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tables against the rules of the lattice and against explicit bisection of tetrahedra.
 #include "CoreTestTools.h"
-#include "DiamondTetrahedra.h"
+#include "Lattice/DiamondTetrahedra.h"
 
 #include <gtest/gtest.h>
 

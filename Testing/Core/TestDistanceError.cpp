@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The distance metric: errors against the reference's definition, the promise on whole meshes. More
 // meshes, in worlds and of real data, are checked with VTK in Testing/Filters/TestDistance.cpp.
-#include "DistanceError.h"
+#include "DistanceError/DistanceError.h"
 #include "IntervalTestTools.h"
-#include "Leaves.h"
-#include "PatchBound.h"
-#include "PatchDistance.h"
-#include "SurfacePatch.h"
-#include "WorldMetric.h"
+#include "Mesh/CurrentMesh.h"
+#include "Patches/PatchBound.h"
+#include "Patches/PatchDistance.h"
+#include "Patches/SurfacePatch.h"
+#include "Patches/WorldLengths.h"
 
 #include "ReferenceDistance.h"
 
@@ -546,7 +546,7 @@ void ExpectBounds(const Metric& metric, int round, std::mt19937& random, BoundCo
   const SurfacePatch& patch = tables::IsosurfacePatches[1 + random() % 7];
   PatchDistance exact;
   exact.Reset(patch, [&](int edge) { return metric(corners[edge]); });
-  const BoundMetric<Metric> boundMetric(metric);
+  const BoundLengths<Metric> boundMetric(metric);
   PatchBound<Metric> bound;
   bound.Reset(boundMetric, patch, [&](int edge) { return corners[edge]; });
   std::array<FinePosition, PatchBound<Metric>::Width> positions{};
@@ -588,7 +588,7 @@ TEST(PatchBound, IsNeverLessThanTheDistanceAndNearToItMostly)
           size * (row == column ? 1.0 + 0.9 * part(random) : 0.4 * part(random));
       }
     }
-    ExpectBounds(AffineMetric(map), i, random, count);
+    ExpectBounds(AffineLengths(map), i, random, count);
   }
   EXPECT_GT(count.Near, count.All / 2);
 }
@@ -614,7 +614,7 @@ TEST(PatchBound, IsSoAlongUnevenAxes)
         at += sign * size * std::pow(10.0, spread * part(random));
       }
     }
-    const AxesMetric metric(axes, i % 2);
+    const AxesLengths metric(axes, i % 2);
     ASSERT_TRUE(metric.IsValid());
     ExpectBounds(metric, i, random, count);
   }

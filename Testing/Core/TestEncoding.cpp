@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The encoding: its size, and that damaged ones are refused.
+#include "Hierarchy/IsovertexPlacement.h"
 #include "IntervalTestTools.h"
-#include "IsovertexPlacement.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ErrorCode.h"
+#include "Hierarchy/ErrorCode.h"
 
 #include <gtest/gtest.h>
 

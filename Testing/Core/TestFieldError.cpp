@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors and ranges of the HD against brute force over all lattice points of every diamond.
 #include "CoreTestTools.h"
-#include "FieldError.h"
+#include "FieldError/FieldError.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where samples are in the world, what is hidden of them, and from where they are seen.
-#include "Gradients.h"
-#include "GridGeometry.h"
-#include "HiddenCells.h"
-#include "RegionOfInterest.h"
-#include "Viewpoint.h"
-#include "WorldMetric.h"
+#include "Field/Gradients.h"
+#include "Field/GridGeometry.h"
+#include "Field/HiddenCells.h"
+#include "Patches/WorldLengths.h"
+#include "Refinement/RegionOfInterest.h"
+#include "Refinement/Viewpoint.h"
 
 #include <gtest/gtest.h>
 
@@ -251,7 +251,7 @@ TEST(HiddenCells, TouchesAreThoseOfTheBoxAroundADiamond)
   }
 }
 
-TEST(WorldMetric, OfAxesIsTheGeometrysDistance)
+TEST(WorldLengths, OfAxesIsTheGeometrysDistance)
 {
   const AxisCoordinates axes = { std::vector<double>{ 100.0, 101.0, 103.0, 103.5, 109.0 },
     { 5.0, 4.0, 2.0, 1.0 }, { -1.0, 0.0, 0.5, 0.75, 4.0, 8.0 } };
@@ -259,8 +259,8 @@ TEST(WorldMetric, OfAxesIsTheGeometrysDistance)
   for (const int padding : { 0, 1 })
   {
     const GridGeometry world(axes, padding);
-    const WorldMetric found = WorldMetricOf(world);
-    const AxesMetric& metric = std::get<AxesMetric>(found);
+    const WorldLengths found = WorldLengthsOf(world);
+    const AxesLengths& metric = std::get<AxesLengths>(found);
     const auto anywhere = [&]
     {
       FinePosition position{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Interval volumes: patches, meshes at every tolerance in every model, volumes.
-#include "IntervalPatches.h"
 #include "IntervalTestTools.h"
+#include "Patches/IntervalPatches.h"
 
 #include <gtest/gtest.h>
 

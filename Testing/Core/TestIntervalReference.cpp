@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Interval volumes against the reference: kinds, refined sets, meshes, volumes.
-#include "Classification.h"
+#include "Build/Classification.h"
 #include "IntervalTestTools.h"
 
 #include "ReferenceExact.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Refined sets against the reference's walk and its smallest closed set, diamond by diamond.
-#include "Activation.h"
-#include "Classification.h"
+#include "Build/ActivationThresholds.h"
+#include "Build/Classification.h"
 #include "CoreTestTools.h"
 
 #include "ReferenceMinimal.h"

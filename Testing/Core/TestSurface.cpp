@@ -2,7 +2,7 @@
 // The extracted surfaces: against the reference's marching tetrahedra, and what must hold at
 // every tolerance.
 #include "CoreTestTools.h"
-#include "DiamondMesh.h"
+#include "Mesh/DiamondMesh.h"
 
 #include <gtest/gtest.h>
 

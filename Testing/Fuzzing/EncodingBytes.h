@@ -2,8 +2,8 @@
 #ifndef EncodingBytes_h
 #define EncodingBytes_h
 
-#include "IsodiamondHierarchy.h"
-#include "ScalarHierarchy.h"
+#include "Hierarchy/IsodiamondHierarchy.h"
+#include "Hierarchy/ScalarHierarchy.h"
 
 #include <cstddef>
 #include <cstdint>

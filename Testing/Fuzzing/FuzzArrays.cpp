@@ -2,10 +2,10 @@
 // Hierarchies of any arrays: refused, or else every query gives a mesh whose cells have points.
 #include "EncodingBytes.h"
 
-#include "Builder.h"
-#include "DiamondMesh.h"
-#include "IntervalExtraction.h"
-#include "SurfaceExtraction.h"
+#include "Build/Builder.h"
+#include "Mesh/DiamondMesh.h"
+#include "Mesh/IntervalExtraction.h"
+#include "Mesh/SurfaceExtraction.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes where the fuzzer of arrays begins: small hierarchies of each kind.
-#include "Builder.h"
+#include "Build/Builder.h"
 #include "EncodingBytes.h"
 
 #include <cmath>

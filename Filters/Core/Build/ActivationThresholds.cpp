@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Build/ActivationThresholds.h"
+
+#include <algorithm>
+#include <atomic>
+#include <queue>
+#include <utility>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** The ranks of the parents that a diamond has below scale N. */
+class ParentRanks
+{
+public:
+  /** @param window of bricks of the parents' scale, around the parents */
+  ParentRanks(const BrickWindow& window, const Place& place)
+  {
+    const TypeTable& shape = ShapeOf(place.Position);
+    for (int i = 0; i < shape.ParentCount; ++i)
+    {
+      const std::int64_t rank = window.Rank(ParentPlace(shape, place, i).Position);
+      if (rank != DiamondSet::None) // else it lies outside of the grid
+      {
+        this->Ranks[this->Count++] = static_cast<std::uint32_t>(rank);
+      }
+    }
+  }
+
+  const std::uint32_t* begin() const { return this->Ranks.data(); }
+  const std::uint32_t* end() const { return this->Ranks.data() + this->Count; }
+
+private:
+  std::array<std::uint32_t, 4> Ranks;
+  int Count = 0;
+};
+
+/** A diamond that a sweep visits. */
+struct Visit
+{
+  std::int64_t BrickIndex = 0; ///< in the list of the level
+  Place Diamond;
+  std::uint32_t Rank = 0;
+  const BrickWindow& ParentWindow;
+
+  /** Takes most of the time. */
+  ParentRanks Parents() const { return ParentRanks(this->ParentWindow, this->Diamond); }
+};
+
+/** A diamond whose code rises. */
+struct Rise
+{
+  ErrorCode::Type Code = 0;
+  Place Diamond;
+
+  bool operator<(const Rise& other) const { return this->Code < other.Code; }
+};
+
+/**
+ * Codes that rise to the least solution.
+ *
+ * A sweep down gives each diamond what it has by its parents alone, one up raises the ancestors.
+ * Only the few diamonds whose parents a sibling's descendants have raised are left then; from them
+ * the paper's own walk goes on, with a falling tolerance.
+ */
+class RisingCodes
+{
+public:
+  RisingCodes(const Grid& grid, const DiamondSet& members, std::vector<ErrorCode::Type> own,
+    const ParallelFor& parallelFor)
+    : Depth(grid.Depth())
+    , Members(members)
+    , Own(std::move(own))
+    , Parallel(parallelFor)
+    , Codes(members.Size())
+  {
+  }
+
+  std::vector<ErrorCode::Type> Thresholds()
+  {
+    const std::int64_t root = this->Members.Rank({ this->Depth - 1, { 1, 1, 1 } });
+    if (root != DiamondSet::None)
+    {
+      this->Raise(root, this->Own[root]);
+      this->SweepDown();
+      this->SweepUp();
+      this->FindRising();
+      this->Walk();
+    }
+    return this->Result();
+  }
+
+  std::vector<ErrorCode::Type> Saturated()
+  {
+    std::copy(this->Own.begin(), this->Own.end(), this->Codes.begin());
+    this->SweepUp();
+    return this->Result();
+  }
+
+private:
+  // Diamonds of one class raise parents that they share, in any order: the maximum is the same.
+  ErrorCode::Type Code(std::int64_t rank) const
+  {
+    return this->Codes[rank].load(std::memory_order_relaxed);
+  }
+
+  void Raise(std::int64_t rank, ErrorCode::Type code)
+  {
+    ErrorCode::Type current = this->Code(rank);
+    while (current < code &&
+      !this->Codes[rank].compare_exchange_weak(current, code, std::memory_order_relaxed))
+    {
+    }
+  }
+
+  /** The code that a diamond has by its own error, once a parent is subdivided. */
+  ErrorCode::Type CodeBelowParents(const Visit& visit) const
+  {
+    ErrorCode::Type highest = 0;
+    for (const std::uint32_t parent : visit.Parents())
+    {
+      highest = std::max(highest, this->Code(parent));
+    }
+    return std::min(highest, this->Own[visit.Rank]);
+  }
+
+  /** Calls body(visit) for the members of one scale and class. */
+  template <typename Body>
+  void ForEachOfClass(int scale, int diamondClass, const Body& body) const
+  {
+    const int step = diamondClass == 0 ? 1 : 0;
+    if (scale + step == this->Depth)
+    {
+      return; // the root: its parents, the corners of the base cube, are always subdivided
+    }
+    const BrickLevel& level = this->Members.Level(scale);
+    const BrickLevel& parentLevel = this->Members.Level(scale + step);
+    this->Parallel(static_cast<std::int64_t>(level.Bricks.size()), 16,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t index = begin; index < end; ++index)
+        {
+          const Brick& brick = level.Bricks[index];
+          const Point origin = level.Box.Origin(brick.BoxIndex);
+          const BrickWindow window(
+            parentLevel, Point{ origin[0] >> step, origin[1] >> step, origin[2] >> step });
+          for (int z = 0; z < 8; ++z)
+          {
+            ForEachBit(brick.Occupancy[z] & tables::ClassBits[diamondClass][z & 1],
+              [&](int bit)
+              {
+                const Place place{ scale, PositionOf(origin, z, bit) };
+                body(Visit{ index, place, brick.Rank(z, bit), window });
+              });
+          }
+        }
+      });
+  }
+
+  /** From the old to the young: parents are of an older class or of the next coarser scale. */
+  void SweepDown()
+  {
+    for (int scale = this->Depth - 1; scale >= 0; --scale)
+    {
+      for (int diamondClass = 0; diamondClass < 3; ++diamondClass)
+      {
+        this->ForEachOfClass(scale, diamondClass,
+          [&](const Visit& visit)
+          {
+            if (this->Own[visit.Rank] != 0)
+            {
+              this->Raise(visit.Rank, this->CodeBelowParents(visit));
+            }
+          });
+      }
+    }
+  }
+
+  /** From the young to the old. */
+  void SweepUp()
+  {
+    for (int scale = 0; scale < this->Depth; ++scale)
+    {
+      for (int diamondClass = 2; diamondClass >= 0; --diamondClass)
+      {
+        this->ForEachOfClass(scale, diamondClass,
+          [&](const Visit& visit)
+          {
+            const ErrorCode::Type code = this->Code(visit.Rank);
+            if (code != 0)
+            {
+              for (const std::uint32_t parent : visit.Parents())
+              {
+                this->Raise(parent, code);
+              }
+            }
+          });
+      }
+    }
+  }
+
+  /** Queues the diamonds that do not have yet what they have by their parents. */
+  void FindRising()
+  {
+    for (int scale = 0; scale < this->Depth; ++scale)
+    {
+      std::vector<std::vector<Rise>> found(this->Members.Level(scale).Bricks.size());
+      for (int diamondClass = 0; diamondClass < 3; ++diamondClass)
+      {
+        this->ForEachOfClass(scale, diamondClass,
+          [&](const Visit& visit)
+          {
+            const ErrorCode::Type code = this->Code(visit.Rank);
+            if (code < this->Own[visit.Rank] && code < this->CodeBelowParents(visit))
+            {
+              found[visit.BrickIndex].push_back({ this->CodeBelowParents(visit), visit.Diamond });
+            }
+          });
+      }
+      for (const std::vector<Rise>& ofBrick : found)
+      {
+        for (const Rise& rise : ofBrick)
+        {
+          this->Queue.push(rise);
+        }
+      }
+    }
+  }
+
+  void Walk()
+  {
+    while (!this->Queue.empty())
+    {
+      const Rise rise = this->Queue.top();
+      this->Queue.pop();
+      const std::int64_t rank = this->Members.Rank(rise.Diamond);
+      if (this->Code(rank) >= rise.Code)
+      {
+        continue;
+      }
+      this->Raise(rank, rise.Code);
+      const TypeTable& shape = ShapeOf(rise.Diamond.Position);
+      for (int i = 0; i < shape.ParentCount; ++i)
+      {
+        this->Reach(ParentPlace(shape, rise.Diamond, i), rise.Code, true);
+      }
+      for (int i = 0; i < shape.ChildCount; ++i)
+      {
+        this->Reach(ChildPlace(shape, rise.Diamond, i), rise.Code, false);
+      }
+    }
+  }
+
+  /** Queues a parent, which closure needs, or a child, which has to be refined by its own error. */
+  void Reach(const Place& place, ErrorCode::Type code, bool needed)
+  {
+    const bool isDiamond = place.Scale >= 0 && place.Scale < this->Depth;
+    const std::int64_t rank = isDiamond ? this->Members.Rank(place) : DiamondSet::None;
+    if (rank != DiamondSet::None)
+    {
+      code = needed ? code : std::min(code, this->Own[rank]);
+      if (this->Code(rank) < code)
+      {
+        this->Queue.push({ code, place });
+      }
+    }
+  }
+
+  std::vector<ErrorCode::Type> Result()
+  {
+    std::copy(this->Codes.begin(), this->Codes.end(), this->Own.begin());
+    return std::move(this->Own);
+  }
+
+  int Depth;
+  const DiamondSet& Members;
+  std::vector<ErrorCode::Type> Own; ///< in the end the result, to spare memory
+  const ParallelFor& Parallel;
+  std::vector<std::atomic<ErrorCode::Type>> Codes;
+  std::priority_queue<Rise> Queue;
+};
+
+}
+
+std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
+  std::vector<ErrorCode::Type> triggers, const ParallelFor& parallelFor)
+{
+  return RisingCodes(grid, members, std::move(triggers), parallelFor).Thresholds();
+}
+
+std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
+  std::vector<ErrorCode::Type> codes, const ParallelFor& parallelFor)
+{
+  return RisingCodes(grid, members, std::move(codes), parallelFor).Saturated();
+}
+
+}

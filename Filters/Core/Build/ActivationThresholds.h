@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_ActivationThresholds_h
+#define isodiamond_ActivationThresholds_h
+
+#include "Field/Parallel.h"
+#include "Hierarchy/ErrorCode.h"
+#include "Lattice/DiamondSet.h"
+
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The activation thresholds of a closed set of diamonds.
+ *
+ * The paper refines top-down: a diamond of the front is subdivided if its own error exceeds the
+ * tolerance t, or if a diamond that must be subdivided needs it (closure over all parents). The
+ * sets R(t) that this reaches are nested, so every diamond has a *threshold* theta with
+ * R(t) = {theta > t}. They are the least solution of
+ *
+ *   theta(root) = own(root),
+ *   theta(d) = max(min(own(d), max of theta over parents), max of theta over children).
+ *
+ * (Paper, sections 4.2 and 7.3; theta keeps the relevant diamonds' part in closure when MI drops
+ * them.)
+ *
+ * @param members a set that holds all ancestors of each of its diamonds (below scale N)
+ * @param triggers by rank, the code of a diamond's own error; 0 where only closure subdivides it
+ * @return by rank, the threshold's code; 0 for what is never reached (nothing, if the members are
+ *         the ancestors of diamonds with a trigger)
+ */
+std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
+  std::vector<ErrorCode::Type> triggers, const ParallelFor& parallelFor);
+
+/** Raises codes to the greatest of their descendants': what is subdivided where any of these is.
+ *  @param members, codes as above */
+std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
+  std::vector<ErrorCode::Type> codes, const ParallelFor& parallelFor);
+
+}
+
+#endif

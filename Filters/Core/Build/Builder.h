@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Builder_h
+#define isodiamond_Builder_h
+
+#include "Field/GridGeometry.h"
+#include "Field/HiddenCells.h"
+#include "Hierarchy/IsodiamondHierarchy.h"
+#include "Hierarchy/ScalarHierarchy.h"
+
+namespace isodiamond
+{
+
+/** How a hierarchy is built. */
+struct BuildOptions
+{
+  ErrorMetric Metric = ErrorMetric::Field;
+  /** Isovertices on the full-resolution surface, else the paper's linear ones; see
+   *  IsovertexPlacement.h. */
+  bool ExactIsovertices = true;
+  /** With the distance metric, whether every feature is kept at any tolerance. */
+  bool PreserveFeatures = true;
+  /** Of an interval volume: keep every diamond that has all vertices inside, with its field error,
+   *  so that queries can have an interior tolerance. */
+  bool RefineInterior = false;
+  /** From index space to the world, where distances are measured; not of a curvilinear grid. */
+  GridGeometry World = AffineMap();
+  /** Cells that count as absent, if there are any. What carries something and touches one is always
+   *  subdivided, so that whoever has the mesh can leave out what lies in it. */
+  const HiddenCells* Hidden = nullptr;
+  /** Is told what is being done; may throw to stop. */
+  Progress Report = nullptr;
+};
+
+/**
+ * Builds an RI or MI hierarchy from the samples:
+ * samples -> signs -> isodiamonds -> own errors -> activation thresholds -> encoding.
+ *
+ * @param model Model::Relevant or Model::Minimal
+ */
+Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
+  const ParallelFor& parallelFor, const BuildOptions& options = {});
+
+/** The same from an HD, which has the field errors already; the result is the same to the bit. */
+Encoding BuildIsodiamonds(Model model, const ScalarHierarchy& hierarchy, const Isoregion& region,
+  const ParallelFor& parallelFor, const BuildOptions& options = {});
+
+}
+
+#endif

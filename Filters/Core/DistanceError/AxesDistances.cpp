@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceError/DistanceWalk.h"
+#include "DistanceError/ScaleZeroDistances.h"
+
+namespace isodiamond
+{
+
+void MeasureCoarse(const IsovertexClusters& clusters, const AxesLengths& lengths,
+  ErrorMaxima& errors, const ParallelFor& parallelFor)
+{
+  DistanceWalk(clusters, lengths, errors).Run(parallelFor);
+}
+
+void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& lengths,
+  ErrorMaxima& errors, const ParallelFor& parallelFor)
+{
+  ScaleZeroDistances<AxesLengths>::Run(clusters, lengths, errors, parallelFor);
+}
+
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Bisection_h
+#define isodiamond_Bisection_h
+
+#include "DistanceError/SpineNeighbourhood.h"
+#include "Patches/ExactPlane.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+/**
+ * @file Bisection.h
+ * The tree of bisected tetrahedra, and what lies in which of them; exact.
+ */
+namespace isodiamond
+{
+
+/** Whether a tetrahedron's bounding box shares volume with the grid's: if it belongs to the grid.
+ */
+inline bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
+{
+  const int h = 1 << tetrahedron.Parent.Scale;
+  const TypeTable& shape = tetrahedron.Shape();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    int low = 0; // offsets from the centre, which is a corner
+    int high = 0;
+    for (const std::uint8_t vertex : tetrahedron.Half->Vertices)
+    {
+      low = std::min(low, shape.Offsets[vertex][axis]);
+      high = std::max(high, shape.Offsets[vertex][axis]);
+    }
+    const int centre = h * tetrahedron.Parent.Position[axis];
+    if (centre + h * low >= grid.Last(axis) || centre + h * high <= 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/** A closed tetrahedron: what lies in it, exactly. */
+class ClosedTetrahedron
+{
+public:
+  explicit ClosedTetrahedron(const HalfPlace& tetrahedron)
+  {
+    const TypeTable& shape = tetrahedron.Shape();
+    const Point centre = Centre(tetrahedron.Parent);
+    const int h = 1 << tetrahedron.Parent.Scale;
+    std::array<Point, 4> corners{}; // as offsets from the centre
+    for (int i = 0; i < 3; ++i)
+    {
+      corners[i + 1] = shape.Offsets[tetrahedron.Half->Vertices[i]];
+    }
+    for (int opposite = 0; opposite < 4; ++opposite)
+    {
+      const Point& origin = corners[(opposite + 1) % 4];
+      ExactPlane& face = this->Faces[opposite];
+      face = ExactPlane(centre + h * origin, corners[(opposite + 2) % 4] + -1 * origin,
+        corners[(opposite + 3) % 4] + -1 * origin);
+      face.TurnTo(centre + h * corners[opposite]);
+    }
+  }
+
+  bool Holds(const FinePosition& position) const
+  {
+    return std::all_of(this->Faces.begin(), this->Faces.end(),
+      [&](const ExactPlane& face) { return face.Side(position) >= 0; });
+  }
+
+  /** The corners of the least face, edge or vertex of it that a position in it lies on, as a mask:
+   *  bit 0 for the centre, then the vertices. */
+  std::uint32_t CornersAround(const FinePosition& position) const
+  {
+    std::uint32_t corners = 0;
+    for (int opposite = 0; opposite < 4; ++opposite)
+    {
+      corners |= (this->Faces[opposite].Side(position) != 0 ? 1U : 0U) << opposite;
+    }
+    return corners;
+  }
+
+  /** Whether all of a box lies in it. */
+  bool HoldsAll(const FineBox& box) const
+  {
+    return std::all_of(this->Faces.begin(), this->Faces.end(),
+      [&](const ExactPlane& face) { return face.Sides(box)[0] >= 0; });
+  }
+
+  /** False only if nothing of a box lies in it. */
+  bool MayHold(const FineBox& box) const
+  {
+    return std::all_of(this->Faces.begin(), this->Faces.end(),
+      [&](const ExactPlane& face) { return face.Sides(box)[1] >= 0; });
+  }
+
+private:
+  std::array<ExactPlane, 4> Faces; ///< positive inside
+};
+
+/**
+ * Bisects a tetrahedron: calls body(half, plane) for those of its halves that lie in the grid, with
+ * the plane between them, whose positive side is the half's.
+ *
+ * @param diamond,rank that the tetrahedron lies in; its centre is the halves' youngest vertex
+ */
+template <typename Body>
+void ForEachHalf(const Grid& grid, const HalfPlace& tetrahedron, const Place& diamond,
+  std::uint32_t rank, Body&& body)
+{
+  // The corners of the tetrahedron among the diamond's vertices.
+  const TypeTable& shape = ShapeOf(diamond.Position);
+  const int ratio = 1 << (tetrahedron.Parent.Scale - diamond.Scale);
+  const Point toParent = ratio * tetrahedron.Parent.Position + -1 * diamond.Position;
+  const auto vertexAt = [&](const Point& offset)
+  { return 1U << VertexIndex(diamond.Position, offset); };
+  std::uint32_t corners = vertexAt(toParent);
+  for (int i = 0; i < 3; ++i)
+  {
+    const Point& offset = tetrahedron.Shape().Offsets[tetrahedron.Half->Vertices[i]];
+    corners |= vertexAt(toParent + ratio * offset);
+  }
+  const std::uint32_t ends = (1U << shape.Spine[0]) | (1U << shape.Spine[1]);
+  const std::uint32_t ring = corners & ~ends;
+  ExactPlane plane(
+    Centre(diamond), shape.Offsets[LowestBit(ring)], shape.Offsets[LowestBit(ring & (ring - 1))]);
+  for (int i = 0; i < shape.HalfTetrahedronCount; ++i)
+  {
+    const HalfTetrahedron& half = shape.HalfTetrahedra[i];
+    if ((half.Mask & ring) == ring)
+    {
+      const int end = (half.Mask >> shape.Spine[0] & 1U) != 0 ? 0 : 1;
+      const Point at = Centre(diamond) + (1 << diamond.Scale) * shape.Offsets[shape.Spine[end]];
+      const HalfPlace place{ diamond, rank, &half };
+      if (IsInGrid(grid, place))
+      {
+        plane.TurnTo(at);
+        body(place, plane);
+      }
+    }
+  }
+}
+
+}
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceError/DistanceError.h"
+
+#include "DistanceError/DistanceWalk.h"
+#include "DistanceError/ScaleZeroDistances.h"
+
+#include <cmath>
+#include <variant>
+
+namespace isodiamond
+{
+
+double DistanceErrorScale(const Grid& grid, const GridGeometry& world)
+{
+  const Point last = { grid.Last(0), grid.Last(1), grid.Last(2) };
+  const Vector diagonal = std::visit(
+    [&](const auto& lengths) {
+      return lengths.Between({ 0, 0, 0 }, last);
+    },
+    WorldLengthsOf(world));
+  return ErrorCode(std::sqrt(Dot(diagonal, diagonal))).Scale();
+}
+
+std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
+  const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
+  const ParallelFor& parallelFor)
+{
+  ErrorMaxima errors(
+    relevant, samples, world, DistanceErrorScale(relevant.Domain(), world), preserveFeatures);
+  for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
+  {
+    for (const auto ends : { IsovertexClusters::Ends::Finite, IsovertexClusters::Ends::NotFinite })
+    {
+      if (ends == IsovertexClusters::Ends::NotFinite && errors.IsFinite().All())
+      {
+        continue; // there are none
+      }
+      const IsovertexClusters clusters(relevant, errors.IsFinite(), surface, ends, parallelFor);
+      std::visit(
+        [&](const auto& lengths)
+        {
+          MeasureCoarse(clusters, lengths, errors, parallelFor);
+          MeasureScaleZero(clusters, lengths, errors, parallelFor);
+        },
+        errors.Lengths());
+    }
+  }
+  return errors.Result();
+}
+
+}

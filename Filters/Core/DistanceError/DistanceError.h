@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DistanceError_h
+#define isodiamond_DistanceError_h
+
+#include "Field/GridGeometry.h"
+#include "Field/Samples.h"
+#include "Hierarchy/IsodiamondHierarchy.h"
+
+#include <vector>
+
+/**
+ * @file DistanceError.h
+ * The distance metric: how far the surface of full resolution lies from a diamond's patches, in
+ * world units.
+ *
+ * The error of a diamond is the largest distance from a full-resolution isovertex in its closed
+ * domain to the nearest patch of the diamond, as extraction would make it, that is sure to be in a
+ * mesh together with the tetrahedron that holds the isovertex. So if every leaf of a mesh lies in a
+ * diamond with an error of at most t, no full-resolution isovertex is farther than t from the mesh:
+ * the tolerance is a promise. An isovertex on a border counts for every tetrahedron that has it; of
+ * an interval volume both surfaces count, each against its own patches.
+ *
+ * What is sure to be there: the tetrahedron itself and its *mate*, which the same parent made. In
+ * the place of another one, made by another parent, there can be coarser tetrahedra around the
+ * spine, those that it comes from, as long as that parent is not subdivided: of what can be in one
+ * place the farthest patch counts. A place where there may be none does not count. If no place is
+ * left, the diamond is always subdivided: features never vanish.
+ *
+ * So are diamonds that stick out of the grid, that have a vertex that is not finite, or that hold
+ * an isovertex on an edge with such an end.
+ */
+namespace isodiamond
+{
+
+/** The scale of distance error codes: the diagonal of the grid in the world.
+ *  @throws std::invalid_argument if there are no distances in the world: FaultOfLengths() */
+double DistanceErrorScale(const Grid& grid, const GridGeometry& world);
+
+/**
+ * The distance errors of all diamonds.
+ *
+ * @param relevant an RI of the surface, whatever its error codes
+ * @param samples that it was built from, to tell which are finite
+ * @param world from index space to the world; lengths count there
+ * @param preserveFeatures otherwise isovertices without a patch to count with count with the
+ *        diameter of the diamond, so that features that are thinner than the tolerance may vanish
+ * @return codes by rank, scaled by DistanceErrorScale(); 0 without an isovertex in the domain
+ */
+std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
+  const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
+  const ParallelFor& parallelFor);
+
+}
+
+#endif

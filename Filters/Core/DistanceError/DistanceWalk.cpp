@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceError/DistanceWalk.h"
+
+namespace isodiamond
+{
+
+void MeasureCoarse(const IsovertexClusters& clusters, const AffineLengths& lengths,
+  ErrorMaxima& errors, const ParallelFor& parallelFor)
+{
+  DistanceWalk(clusters, lengths, errors).Run(parallelFor);
+}
+
+}

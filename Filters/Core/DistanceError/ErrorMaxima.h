@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_ErrorMaxima_h
+#define isodiamond_ErrorMaxima_h
+
+#include "Field/Samples.h"
+#include "Patches/WorldLengths.h"
+#include "Hierarchy/IsodiamondHierarchy.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <variant>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** Distances are rounded up by more than the arithmetic's own rounding. */
+inline constexpr double DistanceMargin = 1.0 + 1e-12;
+
+/** The farthest isovertex of a diamond so far. */
+struct Farthest
+{
+  double Squared = 0.0; ///< its distance; infinite if there is nothing that it is near to
+  bool IsAny = false;   ///< whether there is an isovertex at all
+};
+
+/**
+ * The distance errors of all diamonds while they are being found. Each is a maximum over
+ * isovertices and only rises: in the end it is the same whatever the order of the threads.
+ */
+class ErrorMaxima
+{
+public:
+  /** Hierarchy and samples must outlive it. @throws std::invalid_argument without distances */
+  ErrorMaxima(const IsodiamondHierarchy& hierarchy, const AnySamples& samples,
+    const GridGeometry& world, double scale, bool preserveFeatures)
+    : Source(hierarchy)
+    , Finite(samples)
+    , InWorld(WorldLengthsOf(world))
+    , Code(scale)
+    , PreserveFeatures(preserveFeatures)
+    , Codes(hierarchy.Diamonds().Size())
+  {
+  }
+
+  const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
+  const Finiteness& IsFinite() const { return this->Finite; }
+  const WorldLengths& Lengths() const { return this->InWorld; }
+
+  /** By rank; 0 without an isovertex. */
+  std::vector<ErrorCode::Type> Result() const { return { this->Codes.begin(), this->Codes.end() }; }
+
+  bool IsAlways(std::uint32_t rank) const
+  {
+    return this->Codes[rank].load(std::memory_order_relaxed) == ErrorCode::Always;
+  }
+  void RaiseToAlways(std::uint32_t rank) { this->Raise(rank, ErrorCode::Always); }
+
+  /** Whether a diamond that holds an isovertex must not be a leaf, wherever it lies. */
+  bool HasNoInterpolant(const Place& diamond) const
+  {
+    return this->Source.Domain().SticksOut(diamond.Position, diamond.Scale) ||
+      !(this->Finite.All() || this->HasFiniteVertices(diamond));
+  }
+
+  /** Raises an error to the distance of the farthest isovertex, as find(farthest) finds it. */
+  template <typename Find>
+  void RaiseToFarthest(const Place& diamond, std::uint32_t rank, Find&& find)
+  {
+    // Only what exceeds the error so far is of interest. What would only just not raise the code
+    // counts too, or the order of threads would.
+    const ErrorCode::Type code = this->Codes[rank].load(std::memory_order_relaxed);
+    const double known =
+      code == 0 ? 0.0 : this->Code.Decode(code) / (DistanceMargin * DistanceMargin);
+    Farthest farthest{ known * known, code != 0 };
+    find(farthest);
+    if (farthest.Squared == std::numeric_limits<double>::infinity() && !this->PreserveFeatures)
+    {
+      farthest.Squared =
+        std::visit([&](const auto& lengths) { return this->SquaredDiameter(lengths, diamond); },
+          this->InWorld);
+    }
+    if (farthest.IsAny && (farthest.Squared > known * known || code == 0))
+    {
+      this->Raise(rank, this->Code.Encode(std::sqrt(farthest.Squared) * DistanceMargin));
+    }
+  }
+
+private:
+  bool HasFiniteVertices(const Place& diamond) const
+  {
+    const TypeTable& shape = ShapeOf(diamond.Position);
+    bool finite = true;
+    ForEachBit(SampledVertices(this->Source.Domain(), diamond, shape),
+      [&](int i) {
+        finite =
+          finite && this->Finite((1 << diamond.Scale) * (diamond.Position + shape.Offsets[i]));
+      });
+    return finite;
+  }
+
+  template <typename Lengths>
+  double SquaredDiameter(const Lengths& lengths, const Place& diamond) const
+  {
+    const TypeTable& shape = ShapeOf(diamond.Position);
+    const std::uint32_t vertices = SampledVertices(this->Source.Domain(), diamond, shape);
+    double largest = 0.0;
+    const auto vertexAt = [&](int i)
+    { return (1 << diamond.Scale) * (diamond.Position + shape.Offsets[i]); };
+    const auto measure = [&](int a, int b)
+    {
+      const Vector vector = lengths.Between(vertexAt(b), vertexAt(a));
+      largest = std::max(largest, Dot(vector, vector));
+    };
+    ForEachBit(vertices, [&](int a) { ForEachBit(vertices, [&](int b) { measure(a, b); }); });
+    return largest;
+  }
+
+  /** A maximum: the same whatever the order of the threads. */
+  void Raise(std::uint32_t rank, ErrorCode::Type code)
+  {
+    std::atomic<ErrorCode::Type>& current = this->Codes[rank];
+    ErrorCode::Type seen = current.load(std::memory_order_relaxed);
+    while (seen < code && !current.compare_exchange_weak(seen, code, std::memory_order_relaxed))
+    {
+    }
+  }
+
+  const IsodiamondHierarchy& Source;
+  Finiteness Finite;
+  WorldLengths InWorld;
+  ErrorCode Code;
+  bool PreserveFeatures;
+  std::vector<std::atomic<ErrorCode::Type>> Codes;
+};
+
+}
+
+#endif

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_IsovertexClusters_h
+#define isodiamond_IsovertexClusters_h
+
+#include "Field/Parallel.h"
+#include "Field/Samples.h"
+#include "Hierarchy/IsodiamondHierarchy.h"
+#include "Patches/ExactPlane.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** The isovertex of a stored diamond on one of its subdivision edges. */
+inline FinePosition IsovertexAt(const IsodiamondHierarchy& hierarchy, const Place& place,
+  std::uint32_t rank, int edge, int surface)
+{
+  const std::uint32_t lower = hierarchy.Edges(rank);
+  const std::uint32_t before = (1U << edge) - 1U;
+  const int index = surface == 0 ? PopCount(lower & before)
+                                 : PopCount(lower) + PopCount(hierarchy.UpperEdges(rank) & before);
+  const std::int32_t along = hierarchy.Isovertices(rank)[index];
+  const Point& offset = tables::Parities[Parity(place.Position)].Offsets[edge];
+  return (1 << place.Scale) * (FineUnits * place.Position + along * offset);
+}
+
+/** Isovertices of full resolution that lie near to each other: those of an eighth of a brick. */
+struct IsovertexCluster
+{
+  std::uint32_t Brick = 0; ///< index in the bricks of scale 0
+  std::int32_t Octant = 0; ///< of the brick, bit 0 for x
+  FineBox Box;
+};
+
+/**
+ * The isovertices of full resolution on a surface, those of scale 0, in clusters. Only the clusters
+ * are kept; their isovertices are read from the hierarchy when they are asked for.
+ */
+class IsovertexClusters
+{
+public:
+  /** Those on edges whose ends both are finite, or the others: these always subdivide the diamonds
+   *  that hold them. */
+  enum class Ends
+  {
+    Finite,
+    NotFinite
+  };
+
+  /** Hierarchy and finiteness must outlive it. */
+  IsovertexClusters(const IsodiamondHierarchy& hierarchy, const Finiteness& isFinite, int surface,
+    Ends ends, const ParallelFor& parallelFor)
+    : Hierarchy(hierarchy)
+    , IsFinite(isFinite)
+    , OnSurface(surface)
+    , Wanted(ends)
+  {
+    // Some bricks at once: of most eighths there is nothing to keep.
+    constexpr std::size_t some = 4096;
+    std::vector<std::array<IsovertexCluster, 8>> found;
+    const std::size_t bricks = hierarchy.Diamonds().Level(0).Bricks.size();
+    for (std::size_t first = 0; first < bricks; first += some)
+    {
+      found.assign(std::min(some, bricks - first), {});
+      parallelFor(static_cast<std::int64_t>(found.size()), 16,
+        [&](std::int64_t begin, std::int64_t end)
+        {
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            this->Find(static_cast<std::uint32_t>(first + i), found[i]);
+          }
+        });
+      for (const std::array<IsovertexCluster, 8>& eighths : found)
+      {
+        std::copy_if(eighths.begin(), eighths.end(), std::back_inserter(this->Clusters),
+          [](const IsovertexCluster& cluster) { return !cluster.Box.IsEmpty(); });
+      }
+    }
+  }
+
+  int Surface() const { return this->OnSurface; }
+  bool AlwaysSubdivide() const { return this->Wanted == Ends::NotFinite; }
+  const std::vector<IsovertexCluster>& All() const { return this->Clusters; }
+
+  /** Calls body(position) for the isovertices of a cluster. */
+  template <typename Body>
+  void ForEach(const IsovertexCluster& cluster, Body&& body) const
+  {
+    const BrickLevel& level = this->Hierarchy.Diamonds().Level(0);
+    const Brick& brick = level.Bricks[cluster.Brick];
+    const Point origin = level.Box.Origin(brick.BoxIndex);
+    const std::uint64_t column = 0x0f0f0f0fULL
+      << ((cluster.Octant & 1) * 4 + ((cluster.Octant >> 1) & 1) * 32);
+    const int first = 4 * (cluster.Octant >> 2);
+    for (int z = first; z < first + 4; ++z)
+    {
+      ForEachBit(brick.Occupancy[z] & column,
+        [&](int bit)
+        {
+          const Place place{ 0, PositionOf(origin, z, bit) };
+          const std::uint32_t rank = brick.Rank(z, bit);
+          ForEachBit(
+            this->OnSurface == 0 ? this->Hierarchy.Edges(rank) : this->Hierarchy.UpperEdges(rank),
+            [&](int edge)
+            {
+              if (this->IsWanted(place, edge))
+              {
+                body(IsovertexAt(this->Hierarchy, place, rank, edge, this->OnSurface));
+              }
+            });
+        });
+    }
+  }
+
+  /** Whether the isovertex on an edge of a diamond of scale 0 is one of these. */
+  bool IsWanted(const Place& place, int edge) const
+  {
+    const Point& offset = tables::Parities[Parity(place.Position)].Offsets[edge];
+    const bool isFinite = this->IsFinite(place.Position) && this->IsFinite(place.Position + offset);
+    return isFinite == (this->Wanted == Ends::Finite);
+  }
+
+private:
+  /** Finds the clusters of a brick, some of them empty. */
+  void Find(std::uint32_t brick, std::array<IsovertexCluster, 8>& eighths) const
+  {
+    for (int octant = 0; octant < 8; ++octant)
+    {
+      IsovertexCluster& cluster = eighths[octant];
+      cluster.Brick = brick;
+      cluster.Octant = octant;
+      this->ForEach(cluster, [&](const FinePosition& position) { cluster.Box.Add(position); });
+    }
+  }
+
+  const IsodiamondHierarchy& Hierarchy;
+  const Finiteness& IsFinite;
+  int OnSurface;
+  Ends Wanted;
+  std::vector<IsovertexCluster> Clusters;
+};
+
+}
+
+#endif

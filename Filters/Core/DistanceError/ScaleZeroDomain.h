@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_ScaleZeroDomain_h
+#define isodiamond_ScaleZeroDomain_h
+
+#include "Lattice/DiamondTetrahedra.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The edges of full resolution in the closed domain of a diamond of scale 0: for most diamonds that
+ * is where the isovertices are which their error depends on. By the diamonds that own the edges.
+ */
+struct ScaleZeroDomain
+{
+  /** An edge, and the diamond's tetrahedra that hold it. */
+  struct Edge
+  {
+    std::uint8_t OwnerEdge = 0;   ///< of the owner's subdivision edges
+    std::uint16_t Tetrahedra = 0; ///< mask of their numbers
+    /** The edge of the tetrahedra that it lies on, or those of the triangle, as SpineEdges counts;
+     *  none if it lies inside of a tetrahedron. */
+    std::uint32_t Around = 0;
+  };
+
+  struct Owner
+  {
+    Point Offset{};             ///< from the diamond
+    std::uint32_t EdgeMask = 0; ///< of its subdivision edges, those in the domain
+    std::vector<Edge> Edges;    ///< by OwnerEdge
+    /** Whether its edges are edges of the tetrahedra: their isovertices are corners of patches. */
+    bool IsOlder = false;
+  };
+
+  std::vector<Owner> Owners;
+};
+
+/** The table of the type of a position. */
+const ScaleZeroDomain& ScaleZeroDomainOf(const Point& position);
+
+}
+
+#endif

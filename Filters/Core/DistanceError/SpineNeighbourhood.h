@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_SpineNeighbourhood_h
+#define isodiamond_SpineNeighbourhood_h
+
+#include "Lattice/DiamondTetrahedra.h"
+#include "Hierarchy/IsodiamondHierarchy.h"
+
+#include <cstdint>
+
+namespace isodiamond
+{
+
+/** The tetrahedra around the spine of a diamond in an RI: its own, and those that can take their
+ *  place in a mesh. */
+class SpineNeighbourhood
+{
+public:
+  explicit SpineNeighbourhood(const IsodiamondHierarchy& hierarchy)
+    : Hierarchy(hierarchy)
+  {
+  }
+
+  /** Calls body(number, tetrahedron) for the tetrahedra of a diamond, those of stored parents; the
+   *  index as ForEachParentHalf() counts.
+   *  @param onlySampled those that have samples at all of their vertices */
+  template <typename Body>
+  void ForEachTetrahedron(const Place& diamond, bool onlySampled, Body&& body) const
+  {
+    const Grid& grid = this->Hierarchy.Domain();
+    const int h = 1 << diamond.Scale;
+    const bool allSampled = grid.IsSampled(Centre(diamond) + Point{ -h, -h, -h }) &&
+      grid.IsSampled(Centre(diamond) + Point{ h, h, h });
+    Place last{ -1, {} };
+    std::int64_t rank = DiamondSet::None;
+    ForEachParentHalf(diamond,
+      [&](int number, const Place& parent, const HalfTetrahedron& half)
+      {
+        if (parent.Scale != last.Scale || parent.Position != last.Position)
+        {
+          last = parent;
+          rank = grid.IsValid(parent.Position, parent.Scale)
+            ? this->Hierarchy.Diamonds().Rank(parent)
+            : DiamondSet::None;
+        }
+        const HalfPlace tetrahedron{ parent, static_cast<std::uint32_t>(rank), &half };
+        if (rank != DiamondSet::None &&
+          (!onlySampled || allSampled || this->IsSampled(tetrahedron)))
+        {
+          body(number, tetrahedron);
+        }
+      });
+  }
+
+  /** Replaces a tetrahedron by the one that it is half of. @return false if that is in no mesh with
+   *  the diamond's spine */
+  bool Coarsen(HalfPlace& tetrahedron, const Place& diamond) const
+  {
+    const Place parent = tetrahedron.Parent;
+    if (parent.Scale == this->Hierarchy.Domain().Depth() || IsSpineEnd(diamond, Centre(parent)))
+    {
+      return false;
+    }
+    tetrahedron = TetrahedronOf(parent, NumberOfWhole(parent.Position, *tetrahedron.Half));
+    const std::int64_t rank =
+      this->Hierarchy.Domain().IsValid(tetrahedron.Parent.Position, tetrahedron.Parent.Scale)
+      ? this->Hierarchy.Diamonds().Rank(tetrahedron.Parent)
+      : DiamondSet::None;
+    tetrahedron.Rank = static_cast<std::uint32_t>(rank);
+    return rank != DiamondSet::None && this->IsSampled(tetrahedron);
+  }
+
+private:
+  static bool IsSpineEnd(const Place& diamond, const Point& point)
+  {
+    const TypeTable& shape = ShapeOf(diamond.Position);
+    const auto isAt = [&](int vertex)
+    { return (1 << diamond.Scale) * (diamond.Position + shape.Offsets[vertex]) == point; };
+    return isAt(shape.Spine[0]) || isAt(shape.Spine[1]);
+  }
+
+  /** Whether a tetrahedron has samples at all of its vertices. */
+  bool IsSampled(const HalfPlace& tetrahedron) const
+  {
+    const Grid& grid = this->Hierarchy.Domain();
+    const std::uint32_t sampled = SampledVertices(grid, tetrahedron.Parent, tetrahedron.Shape());
+    return (tetrahedron.Half->Mask & ~sampled) == 0 && grid.IsSampled(Centre(tetrahedron.Parent));
+  }
+
+  const IsodiamondHierarchy& Hierarchy;
+};
+
+}
+
+#endif

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Field/GridGeometry.h"
+
+#include "Field/Trilinear.h"
+
+#include <algorithm>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** Each coordinate depends on the index on its own axis only, rounding included. */
+Vector AlongAxes(const AxisCoordinates& coordinates, const CellPosition& position)
+{
+  Vector along{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* from = coordinates[axis].data() + position.Cell[axis];
+    const double fraction = position.Fraction[axis];
+    // What has no weight does not count, even if it is no number.
+    along[axis] = (fraction != 1.0 ? (1.0 - fraction) * from[0] : 0.0) +
+      (fraction != 0.0 ? fraction * from[1] : 0.0);
+  }
+  return along;
+}
+
+}
+
+std::array<int, 3> GridGeometry::Dimensions() const
+{
+  if (const auto* axes = std::get_if<AxisCoordinates>(&this->Map))
+  {
+    return { static_cast<int>((*axes)[0].size()), static_cast<int>((*axes)[1].size()),
+      static_cast<int>((*axes)[2].size()) };
+  }
+  return std::get<SamplePositions>(this->Map).Dimensions;
+}
+
+Vector GridGeometry::SampleAt(const Point& sample) const
+{
+  if (const auto* axes = std::get_if<AxisCoordinates>(&this->Map))
+  {
+    return { (*axes)[0][sample[0]], (*axes)[1][sample[1]], (*axes)[2][sample[2]] };
+  }
+  const auto& positions = std::get<SamplePositions>(this->Map);
+  const std::array<int, 3>& size = positions.Dimensions;
+  const std::int64_t at =
+    3 * ((std::int64_t{ sample[2] } * size[1] + sample[1]) * size[0] + sample[0]);
+  return std::visit(
+    [at](const auto* coordinates) -> Vector
+    {
+      return { static_cast<double>(coordinates[at]), static_cast<double>(coordinates[at + 1]),
+        static_cast<double>(coordinates[at + 2]) };
+    },
+    positions.Coordinates);
+}
+
+Vector GridGeometry::operator()(const Vector& index) const
+{
+  if (const AffineMap* map = this->Affine())
+  {
+    return (*map)(index[0], index[1], index[2]);
+  }
+  const double shift = this->Shift;
+  const CellPosition cell(
+    { index[0] - shift, index[1] - shift, index[2] - shift }, this->Dimensions());
+  if (const AxisCoordinates* axes = this->Axes())
+  {
+    return AlongAxes(*axes, cell);
+  }
+  Vector position{};
+  cell.ForEachCorner(
+    [&](const Point& sample, double weight)
+    {
+      const Vector corner = this->SampleAt(sample);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        position[axis] += weight * corner[axis];
+      }
+    });
+  return position;
+}
+
+std::array<Vector, 3> GridGeometry::DerivativesAt(const Point& sample) const
+{
+  std::array<Vector, 3> derivatives{};
+  const AffineMap* map = this->Affine();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (map != nullptr)
+    {
+      derivatives[axis] = { map->Rows[0][axis], map->Rows[1][axis], map->Rows[2][axis] };
+      continue;
+    }
+    const std::array<int, 3> size = this->Dimensions();
+    Point middle = sample;
+    for (int i = 0; i < 3; ++i)
+    {
+      middle[i] = std::clamp(sample[i] - this->Shift, 0, size[i] - 1);
+    }
+    Point before = middle;
+    Point after = middle;
+    before[axis] = std::max(middle[axis] - 1, 0);
+    after[axis] = std::min(middle[axis] + 1, size[axis] - 1);
+    derivatives[axis] =
+      (1.0 / (after[axis] - before[axis])) * (this->SampleAt(after) - this->SampleAt(before));
+  }
+  return derivatives;
+}
+
+bool GridGeometry::Mirrors() const
+{
+  if (const AffineMap* map = this->Affine())
+  {
+    return map->Mirrors();
+  }
+  const std::array<int, 3> size = this->Dimensions();
+  const std::array<Vector, 3> d = this->DerivativesAt(
+    { size[0] / 2 + this->Shift, size[1] / 2 + this->Shift, size[2] / 2 + this->Shift });
+  return Dot(d[0], Cross(d[1], d[2])) < 0.0;
+}
+
+}

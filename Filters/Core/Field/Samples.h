@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Samples_h
+#define isodiamond_Samples_h
+
+#include "Lattice/Lattice.h"
+
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * A view of a volume of samples: dimensions and a pointer, x fastest. It owns nothing.
+ *
+ * Values are compared and interpolated in double precision: 64-bit integers beyond 2^53 are
+ * rounded.
+ */
+template <typename T>
+class SampleView
+{
+public:
+  using Value = T;
+
+  SampleView() = default;
+  SampleView(const T* data, const std::array<int, 3>& dimensions)
+    : Data(data)
+    , Dims(dimensions)
+  {
+  }
+
+  const T* Pointer() const { return this->Data; }
+  const std::array<int, 3>& Dimensions() const { return this->Dims; }
+  std::int64_t Size() const
+  {
+    return std::int64_t{ 1 } * this->Dims[0] * this->Dims[1] * this->Dims[2];
+  }
+
+  std::int64_t Index(const Point& point) const
+  {
+    return (std::int64_t{ point[2] } * this->Dims[1] + point[1]) * this->Dims[0] + point[0];
+  }
+
+  double operator()(const Point& point) const
+  {
+    return static_cast<double>(this->Data[this->Index(point)]);
+  }
+
+private:
+  const T* Data = nullptr;
+  std::array<int, 3> Dims{};
+};
+
+/** A view of samples of any of the scalar types. */
+using AnySamples = std::variant<SampleView<float>, SampleView<double>, SampleView<std::int8_t>,
+  SampleView<std::uint8_t>, SampleView<std::int16_t>, SampleView<std::uint16_t>,
+  SampleView<std::int32_t>, SampleView<std::uint32_t>, SampleView<std::int64_t>,
+  SampleView<std::uint64_t>>;
+
+/** Owned values of any of the scalar types. */
+using AnyValues = std::variant<std::vector<float>, std::vector<double>, std::vector<std::int8_t>,
+  std::vector<std::uint8_t>, std::vector<std::int16_t>, std::vector<std::uint16_t>,
+  std::vector<std::int32_t>, std::vector<std::uint32_t>, std::vector<std::int64_t>,
+  std::vector<std::uint64_t>>;
+
+/** A view of owned values as a row of samples. */
+AnySamples ViewOf(const AnyValues& values);
+
+/** The number of samples, and of bytes of one. */
+std::int64_t SizeOf(const AnySamples& samples);
+int BytesOfSample(const AnySamples& samples);
+
+/** The sample at a lattice point of the grid. */
+inline double SampleAt(const AnySamples& samples, const Point& point)
+{
+  return std::visit([&](const auto& view) { return view(point); }, samples);
+}
+
+/** Tells which samples are finite; fast where all are. The samples must outlive it. */
+class Finiteness
+{
+public:
+  explicit Finiteness(const AnySamples& samples);
+
+  bool All() const { return this->AreAll; }
+  bool operator()(const Point& point) const
+  {
+    return this->AreAll || std::isfinite(SampleAt(this->Samples, point));
+  }
+
+private:
+  const AnySamples& Samples;
+  bool AreAll;
+};
+
+/** Smallest and largest finite sample; {0, 0} if there is none. */
+struct ValueRange
+{
+  double Minimum = 0.0;
+  double Maximum = 0.0;
+};
+
+/** The range of all finite samples. */
+ValueRange FiniteRange(const AnySamples& samples);
+
+}
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Field/SignLattice.h"
+
+#include <algorithm>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** Threshold one row of samples into bits. */
+template <typename T, typename IsAbove>
+void PackRow(const T* row, int count, const IsAbove& isAbove, std::uint64_t* words)
+{
+  for (int begin = 0; begin < count; begin += 64)
+  {
+    const int end = std::min(begin + 64, count);
+    std::uint64_t word = 0;
+    for (int x = begin; x < end; ++x)
+    {
+      word |= static_cast<std::uint64_t>(isAbove(static_cast<double>(row[x]))) << (x - begin);
+    }
+    words[begin / 64] = word;
+  }
+}
+
+/** The even bits of a word, packed into its lower half. */
+std::uint64_t EvenBits(std::uint64_t word)
+{
+  word &= 0x5555555555555555ULL;
+  word = (word | (word >> 1)) & 0x3333333333333333ULL;
+  word = (word | (word >> 2)) & 0x0f0f0f0f0f0f0f0fULL;
+  word = (word | (word >> 4)) & 0x00ff00ff00ff00ffULL;
+  word = (word | (word >> 8)) & 0x0000ffff0000ffffULL;
+  return (word | (word >> 16)) & 0x00000000ffffffffULL;
+}
+
+}
+
+SignLattice::SignLattice(const Grid& grid, const AnySamples& samples, const Isoregion& region,
+  const ParallelFor& parallelFor)
+  : Surfaces(region.SurfaceCount())
+  , Levels(grid.Depth() + 1)
+{
+  for (int scale = 0; scale <= grid.Depth(); ++scale)
+  {
+    Level& level = this->Levels[scale];
+    level.Count = grid.SampledPositions(scale);
+    level.Words = (level.Count[0] + 63) / 64;
+    for (int surface = 0; surface < this->Surfaces; ++surface)
+    {
+      level.Bits[surface].resize(level.Words * level.Count[1] * level.Count[2]);
+    }
+  }
+  for (int surface = 0; surface < this->Surfaces; ++surface)
+  {
+    this->PackSamples(samples, region, surface, parallelFor);
+    for (int scale = 1; scale <= grid.Depth(); ++scale)
+    {
+      Coarsen(this->Levels[scale - 1], surface, this->Levels[scale]);
+    }
+  }
+}
+
+/** The samples' own scale: a threshold. */
+void SignLattice::PackSamples(
+  const AnySamples& samples, const Isoregion& region, int surface, const ParallelFor& parallelFor)
+{
+  Level& finest = this->Levels[0];
+  const double isovalue = region.Isovalue(surface);
+  const bool closed = region.IsAbove(surface, isovalue); // the region's own rule for equal values
+  const auto pack = [&](const auto& view, const auto& isAbove)
+  {
+    parallelFor(std::int64_t{ 1 } * finest.Count[1] * finest.Count[2], 256,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t row = begin; row < end; ++row)
+        {
+          PackRow(view.Pointer() + row * finest.Count[0], finest.Count[0], isAbove,
+            finest.Bits[surface].data() + row * finest.Words);
+        }
+      });
+  };
+  std::visit(
+    [&](const auto& view)
+    {
+      if (closed)
+      {
+        pack(view, [isovalue](double value) { return value >= isovalue; });
+      }
+      else
+      {
+        pack(view, [isovalue](double value) { return value > isovalue; });
+      }
+    },
+    samples);
+}
+
+/** Every second bit of every second row of every second slice. */
+void SignLattice::Coarsen(const Level& fine, int surface, Level& level)
+{
+  for (int z = 0; z < level.Count[2]; ++z)
+  {
+    for (int y = 0; y < level.Count[1]; ++y)
+    {
+      const std::uint64_t* from = fine.Bits[surface].data() + fine.RowIndex(2 * y, 2 * z);
+      std::uint64_t* to = level.Bits[surface].data() + level.RowIndex(y, z);
+      for (std::int64_t word = 0; word < fine.Words; ++word)
+      {
+        to[word / 2] |= EvenBits(from[word]) << (32 * (word % 2));
+      }
+    }
+  }
+}
+
+SignLattice::Row SignLattice::Load(int scale, int x0, int y, int z) const
+{
+  const Level& level = this->Levels[scale];
+  Row row;
+  if (y < 0 || z < 0 || y >= level.Count[1] || z >= level.Count[2])
+  {
+    return row;
+  }
+  const std::int64_t first = level.RowIndex(y, z);
+  for (int i = 0; i < 3; ++i) // the sign before the brick's row, its eight, the one after
+  {
+    const int x = i == 0 ? x0 - 1 : (i == 1 ? x0 : x0 + 8);
+    if (x < 0 || x >= level.Count[0])
+    {
+      continue;
+    }
+    const int at = i == 0 ? 0 : (i == 1 ? 1 : 9);
+    const int count = i == 1 ? std::min(8, level.Count[0] - x0) : 1;
+    const std::uint32_t mask = (1U << count) - 1U;
+    for (int surface = 0; surface < this->Surfaces; ++surface)
+    {
+      const std::uint64_t word = level.Bits[surface][first + (x >> 6)];
+      row.Above[surface] |= (static_cast<std::uint32_t>(word >> (x & 63)) & mask) << at;
+    }
+    row.Sampled |= mask << at;
+  }
+  return row;
+}
+
+}

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DomainSearch_h
+#define isodiamond_DomainSearch_h
+
+#include "FieldError/BlockFits.h"
+#include "FieldError/DomainSummary.h"
+#include "Lattice/KuhnTetrahedron.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The summary of a large domain by branch and bound.
+ *
+ * Bisecting a diamond's tetrahedra down to class 0 leaves tetrahedra that lie in cubes of the
+ * lattice, each along a path of three of its cube's edges, from one corner to the opposite. The
+ * linear fit to the samples in the cube bounds the error in the tetrahedron. Only where the bound
+ * or the range of the samples exceeds what was found is a tetrahedron cut into eight of half the
+ * size; in the smallest cubes its samples are visited.
+ */
+template <typename T>
+class DomainSearch
+{
+public:
+  /** The least scale of diamonds with tetrahedra that fill cubes of the finest fits. */
+  static constexpr int LeastScale = 3;
+
+  DomainSearch(
+    const Grid& grid, const SampleView<T>& samples, const BlockFits& fits, const Place& place)
+    : Domain(grid)
+    , Samples(samples)
+    , Fits(fits)
+    , TopLevel(place.Scale - LeastScale)
+    , SticksOut(grid.SticksOut(place.Position, place.Scale))
+    , Sums(this->SticksOut ? SummaryBuilder::Infinity : 0.0)
+  {
+    const TypeTable& shape = ShapeOf(place.Position);
+    std::array<Corner, MaximumVertices> vertices;
+    for (int i = 0; i < shape.VertexCount; ++i)
+    {
+      const Point vertex = (1 << place.Scale) * (place.Position + shape.Offsets[i]);
+      vertices[i] = { vertex, grid.IsSampled(vertex) ? samples(vertex) : 0.0 };
+    }
+    CutIntoPaths(shape, vertices, MiddleCorner,
+      [&](const KuhnTetrahedron<Corner>& path)
+      {
+        Part root;
+        root.Path = path;
+        if (this->FindBound(root, this->TopLevel))
+        {
+          this->Roots.push_back(root);
+        }
+      });
+  }
+
+  DomainSummary Run()
+  {
+    std::sort(this->Roots.begin(), this->Roots.end(), HasGreaterBound);
+    for (const Part& root : this->Roots)
+    {
+      this->Search(root, this->TopLevel);
+    }
+    return this->Sums.Result();
+  }
+
+private:
+  static constexpr int FinestEdge = BlockFits::FinestEdge;
+
+  struct Corner
+  {
+    Point Position{};
+    double Value = 0.0; ///< the interpolant's
+  };
+
+  static Corner MiddleCorner(const Corner& a, const Corner& b)
+  {
+    return { MiddleOf(a.Position, b.Position), 0.5 * (a.Value + b.Value) };
+  }
+
+  /** A tetrahedron of the domain in a cube with a fit. */
+  struct Part
+  {
+    KuhnTetrahedron<Corner> Path{};
+    const BlockFit* Cube = nullptr;
+    double Bound = 0.0; ///< of the error
+  };
+
+  static bool HasGreaterBound(const Part& a, const Part& b) { return a.Bound > b.Bound; }
+
+  /** Finds a tetrahedron's cube and bound. @return whether it can hold samples of its own: cubes
+   *  that begin where the grid ends share theirs, unless the domain has no other part there. */
+  bool FindBound(Part& part, int level) const
+  {
+    Point first{};
+    Point cube{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      first[axis] = std::min(part.Path[0].Position[axis], part.Path[3].Position[axis]);
+      const int last = this->Domain.Last(axis) - (this->SticksOut ? 0 : 1);
+      if (first[axis] < 0 || first[axis] > last)
+      {
+        return false;
+      }
+      cube[axis] = std::min(first[axis], this->Domain.Last(axis) - 1) / (FinestEdge << level);
+    }
+    part.Cube = &this->Fits(level, cube);
+    double apart = 0.0;
+    for (int i = 0; i < 4; ++i)
+    {
+      const double fitted = part.Cube->At(part.Path[i].Position + -1 * first);
+      apart = std::max(apart, std::fabs(fitted - part.Path[i].Value));
+    }
+    part.Bound = apart + part.Cube->Residual;
+    return true;
+  }
+
+  /** Looks into a tetrahedron if that can matter. */
+  void Search(const Part& part, int level)
+  {
+    const BlockFit& cube = *part.Cube;
+    if (cube.IsFinite() && !this->Sums.CanGrow(cube.Range, part.Bound))
+    {
+      return;
+    }
+    if (level == 0)
+    {
+      this->Visit(part.Path);
+      return;
+    }
+    std::array<Part, 8> eighths; // greatest bound first
+    auto end = eighths.begin();
+    ForEachEighth(part.Path, MiddleCorner,
+      [&](const KuhnTetrahedron<Corner>& path)
+      {
+        end->Path = path;
+        if (this->FindBound(*end, level - 1))
+        {
+          std::rotate(std::upper_bound(eighths.begin(), end, *end, HasGreaterBound), end, end + 1);
+          ++end;
+        }
+      });
+    std::for_each(
+      eighths.begin(), end, [&](const Part& eighth) { this->Search(eighth, level - 1); });
+  }
+
+  /** Visits the samples of a tetrahedron in one of the smallest cubes: a first steps along the
+   *  path's first edge, b along the second and c along the third, a >= b >= c. */
+  void Visit(const KuhnTetrahedron<Corner>& path)
+  {
+    std::array<Point, 3> steps{};
+    std::array<std::int64_t, 3> strides{};
+    std::array<double, 3> slopes{};
+    for (int i = 0; i < 3; ++i)
+    {
+      const Point edge = path[i + 1].Position + -1 * path[i].Position;
+      steps[i] = { edge[0] / FinestEdge, edge[1] / FinestEdge, edge[2] / FinestEdge };
+      strides[i] = this->Samples.Index(steps[i]);
+      slopes[i] = (path[i + 1].Value - path[i].Value) / FinestEdge;
+    }
+    const bool isCut =
+      !this->Domain.IsSampled(path[0].Position) || !this->Domain.IsSampled(path[3].Position);
+    const T* first = this->Samples.Pointer() + this->Samples.Index(path[0].Position);
+    SummaryBuilder sums = this->Sums;
+    for (int a = 0; a <= FinestEdge; ++a)
+    {
+      for (int b = 0; b <= a; ++b)
+      {
+        const T* row = first + a * strides[0] + b * strides[1];
+        const double start = path[0].Value + a * slopes[0] + b * slopes[1];
+        const Point point = path[0].Position + a * steps[0] + b * steps[1];
+        for (int c = 0; c <= b; ++c)
+        {
+          if (!isCut || this->Domain.IsSampled(point + c * steps[2]))
+          {
+            sums.Add(row[c * strides[2]], start + c * slopes[2]);
+          }
+        }
+      }
+    }
+    this->Sums = sums;
+  }
+
+  const Grid& Domain;
+  const SampleView<T>& Samples;
+  const BlockFits& Fits;
+  int TopLevel;
+  bool SticksOut; ///< then the error is infinite, and only the range is left to find
+  SummaryBuilder Sums;
+  std::vector<Part> Roots;
+};
+
+}
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DomainSummary_h
+#define isodiamond_DomainSummary_h
+
+#include "Field/Samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace isodiamond
+{
+
+/** What the samples in a diamond's closed domain (the union of its tetrahedra) say. */
+struct DomainSummary
+{
+  /** max |F - linear interpolation| over the lattice points of the domain, in field units;
+   *  infinite where the interpolant is undefined: the diamond sticks out of the grid, or a sample
+   *  of the domain is not finite. Paper, section 4.2. */
+  double Error = 0.0;
+  /** Range of the sampled lattice points of the domain; the minimum is NaN if one of them is.
+   *  Without any the minimum is the greater one. */
+  ValueRange Range;
+};
+
+/** Adds up a summary, sample by sample. */
+class SummaryBuilder
+{
+public:
+  static constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+  /** @param error what the error is at least */
+  explicit SummaryBuilder(double error = 0.0)
+    : Error(error)
+  {
+  }
+
+  template <typename T>
+  void Add(T sample, double interpolated)
+  {
+    const auto value = static_cast<double>(sample);
+    const double error = std::fabs(value - interpolated);
+    this->Error = error > this->Error ? error : this->Error; // never NaN
+    this->Low = value < this->Low ? value : this->Low;
+    this->High = value > this->High ? value : this->High;
+    this->HasNaN |= sample != sample;
+  }
+
+  /** Whether samples of a range, with errors up to a bound, can change the summary. */
+  bool CanGrow(const ValueRange& range, double bound) const
+  {
+    return bound > this->Error || range.Minimum < this->Low || range.Maximum > this->High;
+  }
+
+  /** NaN counts as below every surface: it becomes the minimum, and the maximum if it is alone. */
+  DomainSummary Result() const
+  {
+    const bool isFinite = !this->HasNaN && this->Low != -Infinity && this->High != Infinity;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    DomainSummary summary{ isFinite ? this->Error : Infinity, { this->Low, this->High } };
+    if (this->HasNaN)
+    {
+      summary.Range = { nan, this->Low > this->High ? nan : this->High };
+    }
+    return summary;
+  }
+
+private:
+  double Error;
+  double Low = Infinity;
+  double High = -Infinity;
+  bool HasNaN = false;
+};
+
+}
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_MidpointOrder_h
+#define isodiamond_MidpointOrder_h
+
+#include "Lattice/DiamondTables.h"
+
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The lattice points of a small diamond's domain, each after two others in whose middle it lies.
+ *
+ * Bisecting the diamond's tetrahedra again and again meets all of them, each as the middle of an
+ * edge inside of one tetrahedron. There the diamond's interpolant is the mean of its values at the
+ * edge's ends: along the list, all its values cost an addition each.
+ */
+class MidpointOrder
+{
+public:
+  static constexpr int MaximumScale = 3;
+  /** Points of the largest domain, a cube. */
+  static constexpr int MaximumSize = 17 * 17 * 17;
+
+  struct Entry
+  {
+    std::array<std::int8_t, 3> Offset{}; ///< from the central vertex
+    std::array<std::uint16_t, 2> Ends{}; ///< indices of earlier entries; void for vertices
+  };
+
+  /** The order of a diamond of at most the maximum scale. */
+  static const MidpointOrder& Of(const Place& place);
+
+  /** The diamond's vertices, which come first. */
+  int VertexCount() const { return this->Vertices; }
+  const std::vector<Entry>& Entries() const { return this->List; }
+
+private:
+  MidpointOrder() = default;
+  MidpointOrder(const TypeTable& type, int scale);
+
+  class Builder;
+
+  int Vertices = 0;
+  std::vector<Entry> List;
+};
+
+}
+
+#endif

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Hierarchy/Encoder.h"
+
+#include "Hierarchy/IsovertexPlacement.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** Reads signs, isovertices and inside values of diamonds off the samples. */
+template <typename T>
+class DiamondReader
+{
+public:
+  DiamondReader(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples)
+    : Region(header.Region)
+    , Exact(header.ExactIsovertices)
+    , Domain(grid)
+    , Samples(samples)
+  {
+    const std::int64_t row = samples.Dimensions()[0];
+    const std::int64_t slice = row * samples.Dimensions()[1];
+    for (int parity = 1; parity < 8; ++parity)
+    {
+      const ParityTable& shape = tables::Parities[parity];
+      for (int i = 0; i < shape.VertexCount; ++i)
+      {
+        const Point& offset = shape.Offsets[i];
+        this->Strides[parity][i] = offset[0] + offset[1] * row + offset[2] * slice;
+      }
+    }
+  }
+
+  int Sign(const Place& place) const
+  {
+    const Point centre = Centre(place);
+    return this->Domain.IsSampled(centre) ? this->Region.SignOf(this->Samples(centre)) : 0;
+  }
+
+  bool IsInside(const Place& place) const
+  {
+    return this->Region.IsVolume() && this->Sign(place) == InsideSign;
+  }
+
+  T Value(const Place& place) const
+  {
+    return this->Samples.Pointer()[this->Samples.Index(Centre(place))];
+  }
+
+  /** The number of isovertices of a diamond. */
+  int CountIsovertices(const Place& place) const
+  {
+    int count = 0;
+    this->ForEachCrossedEdge(place,
+      [&](std::int64_t /*stride*/, int sign, int otherSign)
+      { count += std::abs(sign - otherSign); });
+    return count;
+  }
+
+  /** Writes the coefficients of a diamond: those on surface 0, then 1. @return the end */
+  std::uint8_t* WriteIsovertices(const Place& place, std::uint8_t* next) const
+  {
+    std::array<std::uint8_t, MaximumVertices> upper{};
+    int upperCount = 0;
+    this->ForEachCrossedEdge(place,
+      [&](std::int64_t stride, int sign, int otherSign)
+      {
+        const EdgeSamples<T> edge = this->Edge(place, stride);
+        if (std::abs(sign - otherSign) == 2)
+        {
+          const std::array<std::uint8_t, 2> both = IsovertexCoefficients(edge, this->Region);
+          *next++ = both[0];
+          upper[upperCount++] = both[1];
+        }
+        else if (std::min(sign, otherSign) == 0)
+        {
+          *next++ = IsovertexCoefficient(edge, this->Region, 0);
+        }
+        else
+        {
+          upper[upperCount++] = IsovertexCoefficient(edge, this->Region, 1);
+        }
+      });
+    return std::copy(upper.begin(), upper.begin() + upperCount, next);
+  }
+
+private:
+  /** Calls body(stride in samples, sign of the centre, sign of the vertex) for edges with an
+   *  isovertex. */
+  template <typename Body>
+  void ForEachCrossedEdge(const Place& place, Body&& body) const
+  {
+    const Point centre = Centre(place);
+    if (!this->Domain.IsSampled(centre))
+    {
+      return;
+    }
+    const int half = 1 << place.Scale;
+    const bool isWhole = this->Domain.IsSampled(centre + Point{ half, half, half }) &&
+      this->Domain.IsSampled(centre + Point{ -half, -half, -half });
+    const T* middle = this->Samples.Pointer() + this->Samples.Index(centre);
+    const int sign = this->Region.SignOf(static_cast<double>(*middle));
+    const int parity = Parity(place.Position);
+    const ParityTable& shape = tables::Parities[parity];
+    for (int i = 0; i < shape.VertexCount; ++i)
+    {
+      if (isWhole || this->Domain.IsSampled(centre + half * shape.Offsets[i]))
+      {
+        const std::int64_t stride = this->Strides[parity][i];
+        const int otherSign = this->Region.SignOf(static_cast<double>(middle[half * stride]));
+        if (sign != otherSign)
+        {
+          body(stride, sign, otherSign);
+        }
+      }
+    }
+  }
+
+  /** An edge in unit steps, or for linear isovertices in one. */
+  EdgeSamples<T> Edge(const Place& place, std::int64_t stride) const
+  {
+    const T* centre = this->Samples.Pointer() + this->Samples.Index(Centre(place));
+    const int length = 1 << place.Scale;
+    return this->Exact ? EdgeSamples<T>(centre, stride, length)
+                       : EdgeSamples<T>(centre, length * stride, 1);
+  }
+
+  const Isoregion& Region;
+  bool Exact;
+  const Grid& Domain;
+  const SampleView<T>& Samples;
+  /** By parity and vertex, in samples. */
+  std::array<std::array<std::int64_t, MaximumVertices>, 8> Strides{};
+};
+
+/** What the bricks before a brick hold. */
+struct BrickOffset
+{
+  std::int64_t Isovertices = 0;
+  std::int64_t InsideValues = 0;
+};
+
+template <typename T>
+void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples,
+  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor, Encoding& encoding)
+{
+  const DiamondReader<T> reader(header, grid, samples);
+  const std::vector<BrickPlace> bricks = AllBricks(set);
+  const std::int64_t brickCount = static_cast<std::int64_t>(bricks.size());
+  const auto forEachDiamond = [&](const auto& body)
+  {
+    parallelFor(brickCount, 16,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          set.ForEachInBrick(bricks[i].Scale, set.Level(bricks[i].Scale).Bricks[bricks[i].Index],
+            [&](const Place& place, std::uint32_t rank) { body(i, place, rank); });
+        }
+      });
+  };
+
+  // Count: records, and what every brick holds.
+  std::vector<BrickOffset> next(brickCount + 1);
+  encoding.Arrays.Records.resize(set.Size());
+  forEachDiamond(
+    [&](std::int64_t i, const Place& place, std::uint32_t rank)
+    {
+      encoding.Arrays.Records[rank] = Record::Pack(code, reader.Sign(place));
+      next[i + 1].Isovertices += reader.CountIsovertices(place);
+      next[i + 1].InsideValues += reader.IsInside(place) ? 1 : 0;
+    });
+
+  // Prefix sum.
+  for (std::int64_t i = 0; i < brickCount; ++i)
+  {
+    next[i + 1].Isovertices += next[i].Isovertices;
+    next[i + 1].InsideValues += next[i].InsideValues;
+  }
+  if (next[brickCount].Isovertices > std::numeric_limits<std::uint32_t>::max())
+  {
+    throw std::length_error("more than 2^32 - 1 isovertices");
+  }
+
+  // Write.
+  std::vector<T> insideValues(next[brickCount].InsideValues);
+  encoding.Arrays.Isovertices.resize(next[brickCount].Isovertices);
+  std::uint8_t* isovertices = encoding.Arrays.Isovertices.data();
+  forEachDiamond(
+    [&](std::int64_t i, const Place& place, std::uint32_t /*rank*/)
+    {
+      next[i].Isovertices =
+        reader.WriteIsovertices(place, isovertices + next[i].Isovertices) - isovertices;
+      if (reader.IsInside(place))
+      {
+        insideValues[next[i].InsideValues++] = reader.Value(place);
+      }
+    });
+  encoding.InsideValues = std::move(insideValues);
+}
+
+}
+
+Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
+  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor)
+{
+  Encoding encoding;
+  encoding.Header = header;
+  std::size_t bricks = 0;
+  for (int scale = 0; scale < set.ScaleCount(); ++scale)
+  {
+    bricks += set.Level(scale).Bricks.size();
+  }
+  encoding.Arrays.BrickIndices.reserve(bricks);
+  encoding.Arrays.BrickMasks.reserve(8 * bricks);
+  for (int scale = set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    const std::vector<Brick>& bricks = set.Level(scale).Bricks;
+    encoding.Arrays.BrickCounts.push_back(static_cast<std::uint32_t>(bricks.size()));
+    for (const Brick& brick : bricks)
+    {
+      encoding.Arrays.BrickIndices.push_back(brick.BoxIndex);
+      encoding.Arrays.BrickMasks.insert(
+        encoding.Arrays.BrickMasks.end(), brick.Occupancy.begin(), brick.Occupancy.end());
+    }
+  }
+  std::visit([&](const auto& view)
+    { EncodeDiamonds(header, grid, view, set, code, parallelFor, encoding); },
+    samples);
+  return encoding;
+}
+
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Encoder_h
+#define isodiamond_Encoder_h
+
+#include "Field/Samples.h"
+#include "Hierarchy/IsodiamondHierarchy.h"
+
+namespace isodiamond
+{
+
+/**
+ * Writes the encoding of a set of isodiamonds, all with the same error code: signs, isovertices and
+ * values inside come from the samples.
+ *
+ * @param set the isodiamonds and the corners of the base cube
+ */
+Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
+  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor);
+
+}
+
+#endif

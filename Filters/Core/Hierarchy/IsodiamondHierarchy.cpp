@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Hierarchy/IsodiamondHierarchy.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace isodiamond
+{
+namespace
+{
+
+void Require(bool condition, const char* message)
+{
+  if (!condition)
+  {
+    throw std::invalid_argument(message);
+  }
+}
+
+/** The grid of an encoding, if its bricks can be looked up in memory that is in proportion: a
+ *  damaged header must not ask for all there is. */
+Grid CheckedGrid(const EncodingView& encoding)
+{
+  const Grid grid(encoding.Header.Dimensions);
+  std::int64_t bytes = 0; // of the tables from boxes to bricks
+  for (int scale = 0; scale <= grid.Depth(); ++scale)
+  {
+    bytes += BrickBox(grid.Positions(scale)).Size() * sizeof(std::int32_t);
+  }
+  constexpr std::int64_t always = std::int64_t{ 1 } << 30;
+  Require(bytes <= always || bytes / 64 <= encoding.StorageSize(),
+    "the dimensions are too large for what is stored");
+  return grid;
+}
+
+/** The positions of a brick that can hold a diamond of its scale. */
+BrickMask AllowedBits(const Grid& grid, int scale, const Point& origin)
+{
+  if (scale == grid.Depth())
+  {
+    return CornerBrick();
+  }
+  const std::array<int, 3> count = grid.Positions(scale);
+  BrickMask mask{};
+  for (int z = 0; z < 8; ++z)
+  {
+    for (int bit = 0; bit < 64; ++bit)
+    {
+      const Point position = PositionOf(origin, z, bit);
+      const bool inside =
+        position[0] < count[0] && position[1] < count[1] && position[2] < count[2];
+      mask[z] |= static_cast<std::uint64_t>(inside && Parity(position) != 0) << bit;
+    }
+  }
+  return mask;
+}
+
+}
+
+std::int64_t EncodingView::StorageSize() const
+{
+  const std::int64_t insideBytes = this->Header.Region.IsVolume()
+    ? SizeOf(this->InsideValues) * BytesOfSample(this->InsideValues)
+    : 0;
+  return 4 * this->Arrays.BrickCounts.Size + 4 * this->Arrays.BrickIndices.Size +
+    8 * this->Arrays.BrickMasks.Size + 2 * this->Arrays.Records.Size +
+    this->Arrays.Isovertices.Size + 2 * this->Arrays.InteriorCodes.Size + insideBytes;
+}
+
+IsodiamondHierarchy::IsodiamondHierarchy(
+  const EncodingView& encoding, const ParallelFor& parallelFor)
+  : View(encoding)
+  , TheGrid(CheckedGrid(encoding))
+  , Set(this->TheGrid)
+  , Code(encoding.Header.ErrorScale)
+  , InteriorCode(encoding.Header.FieldScale)
+{
+  Require(encoding.Header.Kind == Model::Relevant || encoding.Header.Kind == Model::Minimal,
+    "the encoding is not that of a relevant or minimal isodiamond hierarchy");
+  Require(encoding.Header.ErrorScale > 0.0 && std::isfinite(encoding.Header.ErrorScale),
+    "the error scale is not a positive number");
+  Require(encoding.Header.FieldScale > 0.0 && std::isfinite(encoding.Header.FieldScale),
+    "the field scale is not a positive number");
+  this->ReadBricks();
+  this->CheckRecords();
+
+  this->DeriveAllEdges(parallelFor);
+  this->CountByKind();
+  this->CheckOrderOnEdges();
+  this->CountInsideValues();
+  this->FindHighestThresholds();
+}
+
+void IsodiamondHierarchy::DeriveAllEdges(const ParallelFor& parallelFor)
+{
+  this->EdgesAndKinds.resize(this->Set.Size());
+  this->EdgesOfUpper.resize(this->Region().IsVolume() ? this->Set.Size() : 0);
+  for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    const std::vector<Brick>& bricks = this->Set.Level(scale).Bricks;
+    parallelFor(static_cast<std::int64_t>(bricks.size()), 16,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const BrickLevel& level = this->Set.Level(scale);
+          const BrickWindow window(level, level.Box.Origin(bricks[i].BoxIndex));
+          this->Set.ForEachInBrick(scale, bricks[i],
+            [&](const Place& place, std::uint32_t rank)
+            { this->DeriveDiamond(window, place, rank); });
+        }
+      });
+  }
+}
+
+/** Where each diamond's isovertices begin, and the counts by kind. */
+void IsodiamondHierarchy::CountByKind()
+{
+  this->FirstIsovertex.resize(this->Set.Size());
+  std::int64_t isovertices = 0;
+  for (std::int64_t rank = 0; rank < this->Set.Size(); ++rank)
+  {
+    this->FirstIsovertex[rank] = static_cast<std::uint32_t>(isovertices);
+    isovertices += PopCount(this->Edges(rank));
+    isovertices += this->Region().IsVolume() ? PopCount(this->UpperEdges(rank)) : 0;
+    this->Counts[static_cast<int>(this->KindOf(rank))] += rank < 8 ? 0 : 1;
+  }
+  Require(isovertices == this->View.Arrays.Isovertices.Size,
+    "the number of isovertices does not match the signs");
+  Require(this->Header().RelevantCount >= this->Count(Kind::Relevant) + this->Count(Kind::Creation),
+    "there are more relevant isodiamonds than the header says");
+}
+
+/** Where an edge crosses both surfaces of an interval volume, they are in the order of the signs.
+ */
+void IsodiamondHierarchy::CheckOrderOnEdges() const
+{
+  bool valid = true;
+  for (std::int64_t rank = 0; this->Region().IsVolume() && rank < this->Set.Size(); ++rank)
+  {
+    const std::uint32_t lower = this->Edges(rank);
+    const std::uint32_t upper = this->UpperEdges(rank);
+    const std::uint8_t* const coefficients = this->Isovertices(rank);
+    ForEachBit(lower & upper,
+      [&](int edge)
+      {
+        const std::uint32_t before = (1U << edge) - 1U;
+        const int onLower = coefficients[PopCount(lower & before)];
+        const int onUpper = coefficients[PopCount(lower) + PopCount(upper & before)];
+        valid = valid && (this->Sign(rank) == 0 ? onLower <= onUpper : onUpper <= onLower);
+      });
+  }
+  Require(valid, "the isovertices of an edge are in the wrong order");
+}
+
+/** Where each brick's inside values begin. */
+void IsodiamondHierarchy::CountInsideValues()
+{
+  if (!this->Region().IsVolume())
+  {
+    return;
+  }
+  std::int64_t values = 0;
+  for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    for (const Brick& brick : this->Set.Level(scale).Bricks)
+    {
+      this->FirstInside.push_back(values);
+      for (std::uint32_t rank = brick.First; rank < brick.First + brick.Size(); ++rank)
+      {
+        values += this->Sign(rank) == InsideSign ? 1 : 0;
+      }
+    }
+  }
+  this->FirstInside.push_back(values);
+  Require(values == SizeOf(this->View.InsideValues),
+    "the number of inside values does not match the signs");
+}
+
+void IsodiamondHierarchy::FindHighestThresholds()
+{
+  for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    for (const Brick& brick : this->Set.Level(scale).Bricks)
+    {
+      Thresholds highest;
+      for (std::uint32_t rank = brick.First; rank < brick.First + brick.Size(); ++rank)
+      {
+        highest.Surface = std::max(highest.Surface, this->Threshold(rank));
+        if (this->RefinesInterior())
+        {
+          highest.Interior = std::max(highest.Interior, this->InteriorThreshold(rank));
+        }
+      }
+      this->Highest.push_back(highest);
+    }
+  }
+}
+
+std::int64_t IsodiamondHierarchy::DerivedSize() const
+{
+  std::int64_t size = static_cast<std::int64_t>(2 * this->EdgesAndKinds.size() +
+    2 * this->EdgesOfUpper.size() + 8 * this->FirstInside.size() + 4 * this->FirstIsovertex.size() +
+    sizeof(Thresholds) * this->Highest.size());
+  for (int scale = 0; scale < this->Set.ScaleCount(); ++scale)
+  {
+    const BrickLevel& level = this->Set.Level(scale);
+    size +=
+      static_cast<std::int64_t>(4 * level.Lookup.size() + sizeof(Brick) * level.Bricks.size());
+  }
+  return size;
+}
+
+void IsodiamondHierarchy::ReadBricks()
+{
+  const EncodingArrays<ArrayView>& arrays = this->View.Arrays;
+  Require(arrays.BrickCounts.Size == this->TheGrid.Depth() + 1,
+    "the number of scales does not match the dimensions");
+  Require(arrays.BrickMasks.Size == 8 * arrays.BrickIndices.Size,
+    "the numbers of brick masks and of brick indices do not match");
+  std::int64_t brick = 0;
+  for (int scale = this->TheGrid.Depth(); scale >= 0; --scale)
+  {
+    const BrickBox& box = this->Set.Level(scale).Box;
+    const std::int64_t end = brick + arrays.BrickCounts[this->TheGrid.Depth() - scale];
+    Require(end <= arrays.BrickIndices.Size, "there are fewer bricks than the scales need");
+    for (std::int64_t previous = -1; brick < end; ++brick)
+    {
+      const std::int64_t index = arrays.BrickIndices[brick];
+      Require(index > previous && index < box.Size(), "a brick's index is out of order or range");
+      previous = index;
+      const BrickMask allowed = AllowedBits(this->TheGrid, scale, box.Origin(index));
+      BrickMask mask{};
+      std::uint64_t any = 0;
+      for (int z = 0; z < 8; ++z)
+      {
+        mask[z] = arrays.BrickMasks[8 * brick + z];
+        any |= mask[z];
+        Require((mask[z] & ~allowed[z]) == 0, "a brick has a diamond where none can be");
+      }
+      Require(any != 0, "a brick is empty");
+      this->Set.Append(scale, index, mask);
+    }
+  }
+  Require(brick == arrays.BrickIndices.Size, "there are more bricks than the scales need");
+  const std::vector<Brick>& corners = this->Set.Level(this->TheGrid.Depth()).Bricks;
+  Require(corners.size() == 1 && corners[0].Occupancy == CornerBrick(),
+    "the corners of the base cube are missing");
+}
+
+void IsodiamondHierarchy::CheckRecords() const
+{
+  const ArrayView<std::uint16_t>& records = this->View.Arrays.Records;
+  Require(records.Size == this->Set.Size(), "the number of records does not match the bricks");
+  Require(this->View.Arrays.Isovertices.Size <= std::numeric_limits<std::uint32_t>::max(),
+    "more than 2^32 - 1 isovertices");
+  // Without a surface below, only an interior tolerance subdivides a diamond.
+  const bool interior = this->RefinesInterior();
+  Require(!interior ||
+      (this->Region().IsVolume() && this->View.Arrays.InteriorCodes.Size == records.Size),
+    "the number of interior codes does not match the bricks");
+  const ErrorCode::Type least = interior ? ErrorCode::Type{ 0 } : ErrorCode::Least;
+  bool valid = true;
+  for (std::int64_t rank = 0; rank < records.Size; ++rank)
+  {
+    valid = valid && Record::Code(records[rank]) >= least &&
+      Record::Sign(records[rank]) <= this->Region().SurfaceCount();
+  }
+  for (std::int64_t rank = 0; interior && rank < records.Size; ++rank)
+  {
+    valid = valid && this->InteriorThreshold(rank) <= ErrorCode::Always;
+  }
+  this->Set.ForEach([&](const Place& place, std::uint32_t rank)
+    { valid = valid && (this->Sign(rank) == 0 || this->TheGrid.IsSampled(Centre(place))); });
+  Require(valid, "a record has an invalid error code or sign");
+  for (std::int64_t i = 0; i < this->View.Arrays.Isovertices.Size; ++i)
+  {
+    valid = valid && this->View.Arrays.Isovertices[i] != 0;
+  }
+  Require(valid, "an isovertex has the coefficient 0");
+}
+
+int IsodiamondHierarchy::SignAt(const Place& place) const
+{
+  // A diamond that is not stored has one sign, that of each of its vertices (theorem 7.1). Its
+  // vertex with the lowest bit cleared on every axis is sampled where its centre is; the corners
+  // of the base cube end the chain.
+  Point position = place.Position;
+  int scale = place.Scale;
+  while (true)
+  {
+    while (scale < this->TheGrid.Depth() && Parity(position) == 0)
+    {
+      position = { position[0] >> 1, position[1] >> 1, position[2] >> 1 };
+      ++scale;
+    }
+    const std::int64_t rank = this->Set.Rank({ scale, position });
+    if (rank != DiamondSet::None)
+    {
+      return this->Sign(rank);
+    }
+    position = { position[0] & ~1, position[1] & ~1, position[2] & ~1 };
+  }
+}
+
+void IsodiamondHierarchy::DeriveDiamond(
+  const BrickWindow& window, const Place& place, std::int64_t rank)
+{
+  const ParityTable& shape = tables::Parities[Parity(place.Position)];
+  const int surfaces = this->Region().SurfaceCount();
+  std::array<std::uint32_t, 2> above{}; // by surface, the vertices above it
+  std::uint32_t sampled = 0;
+  for (int i = 0; i < shape.VertexCount; ++i)
+  {
+    const Point vertex = place.Position + shape.Offsets[i];
+    if (this->TheGrid.IsSampled((1 << place.Scale) * vertex))
+    {
+      const std::int64_t found =
+        Parity(vertex) != 0 ? window.Rank(vertex) : std::int64_t{ DiamondSet::None };
+      const int sign =
+        found != DiamondSet::None ? this->Sign(found) : this->SignAt({ place.Scale, vertex });
+      sampled |= 1U << i;
+      above[0] |= (sign > 0 ? 1U : 0U) << i;
+      above[1] |= (sign > 1 ? 1U : 0U) << i;
+    }
+  }
+  const bool hasCentre = this->TheGrid.IsSampled(Centre(place));
+  std::array<std::uint32_t, 2> edges{};
+  bool mixed = false;
+  for (int surface = 0; surface < surfaces; ++surface)
+  {
+    const std::uint32_t below = sampled & ~above[surface];
+    mixed = mixed || (above[surface] != 0 && below != 0);
+    edges[surface] = this->Sign(rank) > surface ? below : above[surface];
+    edges[surface] = hasCentre ? edges[surface] : 0;
+  }
+  const bool inside = surfaces == 2 && above[0] != 0 && above[1] == 0;
+  const Kind kind =
+    mixed || inside ? Kind::Active : ((edges[0] | edges[1]) != 0 ? Kind::Creation : Kind::Relevant);
+  this->EdgesAndKinds[rank] =
+    static_cast<std::uint16_t>(edges[0] | (static_cast<std::uint32_t>(kind) << 12));
+  if (surfaces == 2)
+  {
+    this->EdgesOfUpper[rank] = static_cast<std::uint16_t>(edges[1]);
+  }
+}
+
+}

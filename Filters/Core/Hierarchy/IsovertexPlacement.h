@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_IsovertexPlacement_h
+#define isodiamond_IsovertexPlacement_h
+
+#include "Field/Isoregion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+/**
+ * @file IsovertexPlacement.h
+ * Where an isovertex lies on its edge: its *coefficient*, the position in 1/256 of the edge from
+ * the diamond's centre.
+ *
+ * A *linear* isovertex (the paper's) lies where the field would cross the isovalue if it were
+ * linear along the whole edge. An *exact* one lies on the surface of full resolution: an edge of
+ * the hierarchy is a row of edges of the full-resolution mesh, unit steps, on each of which the
+ * field is linear; of their crossings it takes the one nearest to the linear guess, of two equally
+ * near ones that nearer to the centre. So every vertex of every level of detail is on the
+ * full-resolution surface, to one step of its edge's coefficient (two where an edge carries both
+ * surfaces of an interval volume). On edges of one unit step both are the same.
+ *
+ * Coefficients are kept in 1..255, so that isovertices never coincide with lattice vertices; they
+ * are 128 where an end of the edge is not finite.
+ */
+namespace isodiamond
+{
+
+/** The samples along an edge, from the diamond's centre to a vertex, as a row of steps. */
+template <typename T>
+class EdgeSamples
+{
+public:
+  /** @param stride between the samples at the ends of a step */
+  EdgeSamples(const T* centre, std::int64_t stride, int steps)
+    : Centre(centre)
+    , Stride(stride)
+    , Count(steps)
+  {
+  }
+
+  int Steps() const { return this->Count; }
+  double operator()(int i) const { return static_cast<double>(this->Centre[i * this->Stride]); }
+
+private:
+  const T* Centre;
+  std::int64_t Stride;
+  int Count;
+};
+
+namespace placement
+{
+
+/** The crossing on the step that begins at sample i, in steps from the centre; in the middle of
+ *  the step if an end is not finite. */
+template <typename Edge>
+double Crossing(const Edge& edge, int i, double isovalue)
+{
+  const double begin = edge(i);
+  const double end = edge(i + 1);
+  const double along = (isovalue - begin) / (end - begin);
+  return i + (std::isfinite(begin) && std::isfinite(end) && along == along ? along : 0.5);
+}
+
+/** A position on an edge, in steps, as coefficient. */
+inline std::uint8_t Code(double position, int steps)
+{
+  const double code = std::floor(256.0 * position / steps + 0.5);
+  return static_cast<std::uint8_t>(std::clamp(code, 1.0, 255.0));
+}
+
+template <typename Edge>
+bool HasFiniteEnds(const Edge& edge)
+{
+  return std::isfinite(edge(0)) && std::isfinite(edge(edge.Steps()));
+}
+
+}
+
+/** The coefficient of the isovertex on an edge whose ends lie on both sides of one surface. */
+template <typename Edge>
+std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int surface = 0)
+{
+  const int steps = edge.Steps();
+  const double isovalue = region.Isovalue(surface);
+  if (steps == 1 || !placement::HasFiniteEnds(edge))
+  {
+    return placement::HasFiniteEnds(edge)
+      ? placement::Code(placement::Crossing(edge, 0, isovalue), 1)
+      : std::uint8_t{ 128 };
+  }
+  const double along = (isovalue - edge(0)) / (edge(steps) - edge(0));
+  const double guess = steps * (along == along ? along : 0.5); // huge values overflow
+  constexpr double tie = 1e-9; // equal distances may differ by rounding: the first crossing wins
+  double nearest = guess;
+  double distance = HUGE_VAL;
+  bool above = region.IsAbove(surface, edge(0));
+  for (int i = 0; i < steps; ++i)
+  {
+    const bool nextAbove = region.IsAbove(surface, edge(i + 1));
+    if (above != nextAbove)
+    {
+      const double crossing = placement::Crossing(edge, i, isovalue);
+      if (std::fabs(crossing - guess) < distance - tie)
+      {
+        nearest = crossing;
+        distance = std::fabs(crossing - guess);
+      }
+    }
+    above = nextAbove;
+  }
+  return placement::Code(nearest, steps);
+}
+
+/**
+ * The coefficients of both isovertices of an edge that leads from below an interval volume to above
+ * it, for the lower and the upper surface: from the lower end the first crossing of the upper
+ * surface, then the last one of the lower surface before it. They are different, and in that order.
+ */
+template <typename Edge>
+std::array<std::uint8_t, 2> IsovertexCoefficients(const Edge& edge, const Isoregion& region)
+{
+  const int steps = edge.Steps();
+  const bool rising = region.SignOf(edge(0)) == 0;
+  std::array<std::uint8_t, 2> both = { 128, 128 };
+  if (placement::HasFiniteEnds(edge))
+  {
+    const auto isAbove = [&](int surface, int i)
+    { return region.IsAbove(surface, edge(rising ? i : steps - i)); };
+    int upper = 0; // the steps that cross, counted from the lower end
+    while (!isAbove(1, upper + 1))
+    {
+      ++upper;
+    }
+    int lower = upper;
+    while (isAbove(0, lower))
+    {
+      --lower;
+    }
+    const auto code = [&](int surface, int step)
+    {
+      return placement::Code(
+        placement::Crossing(edge, rising ? step : steps - 1 - step, region.Isovalue(surface)),
+        steps);
+    };
+    both = { code(0, lower), code(1, upper) };
+  }
+  std::uint8_t& nearer = both[rising ? 0 : 1];
+  std::uint8_t& farther = both[rising ? 1 : 0];
+  if (farther <= nearer)
+  {
+    nearer = nearer < 255 ? nearer : std::uint8_t{ 254 };
+    farther = static_cast<std::uint8_t>(nearer + 1);
+  }
+  return both;
+}
+
+}
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_OccupancyWindow_h
+#define isodiamond_OccupancyWindow_h
+
+#include "Lattice/DiamondSet.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace isodiamond
+{
+
+/**
+ * Which lattice points of a cube are centres of a scale's diamonds, a byte each.
+ *
+ * A pass that asks for many neighbours of all diamonds of a brick finds them at fixed distances in
+ * the array, without a search and without a branch.
+ */
+template <int Width>
+class OccupancyWindow
+{
+public:
+  /** Nothing is there. */
+  OccupancyWindow() = default;
+
+  /** @param first position of the window */
+  OccupancyWindow(const BrickLevel& level, const Point& first)
+    : First(first)
+  {
+    const Point last = first + Point{ Width - 1, Width - 1, Width - 1 };
+    level.ForEachBrickBetween(first, last,
+      [&](std::int64_t index, const Point& origin)
+      {
+        ForEachWordBetween(level.Bricks[index].Occupancy, origin, first, last,
+          [&](int z, std::uint64_t bits)
+          {
+            std::uint8_t* start = this->Bytes.data() + this->IndexAt(origin + Point{ 0, 0, z });
+            ForEachBit(bits, [&](int bit) { start[(bit & 7) + Width * (bit >> 3)] = 1; });
+          });
+      });
+  }
+
+  /** Of the lattice points at distances from a position, those with a diamond, as a mask. */
+  template <std::size_t Count>
+  std::uint32_t Around(
+    const Point& position, const std::array<std::int16_t, Count>& distances) const
+  {
+    const std::uint8_t* centre = this->Bytes.data() + this->IndexAt(position);
+    std::uint32_t mask = 0;
+    for (std::size_t i = 0; i < Count; ++i)
+    {
+      mask |= static_cast<std::uint32_t>(centre[distances[i]]) << i;
+    }
+    return mask;
+  }
+
+  /** @param offset of a lattice point from a position */
+  static constexpr int Distance(const Point& offset)
+  {
+    return offset[0] + Width * (offset[1] + Width * offset[2]);
+  }
+
+private:
+  int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
+
+  Point First{};
+  std::array<std::uint8_t, std::size_t{ Width } * Width * Width> Bytes{};
+};
+
+}
+
+#endif

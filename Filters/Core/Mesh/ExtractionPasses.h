@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_ExtractionPasses_h
+#define isodiamond_ExtractionPasses_h
+
+#include "Mesh/CurrentMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The points of a mesh that belong to one refined diamond, as bits in the order of their ids: its
+ * centre if that lies inside an interval volume, the isovertices on those of its edges that are in
+ * the current mesh, first on surface 0, then on surface 1.
+ */
+struct DiamondPoints
+{
+  std::uint32_t First = 0; ///< id of the first
+  std::uint32_t Bits = 0;
+
+  static constexpr int Centre = 0;
+  static constexpr int Isovertex(int surface, int edge)
+  {
+    return 1 + surface * MaximumVertices + edge;
+  }
+
+  bool HasCentre() const { return (this->Bits & (1U << Centre)) != 0; }
+
+  /** The edges with an isovertex on a surface. */
+  std::uint32_t Edges(int surface) const
+  {
+    return (this->Bits >> Isovertex(surface, 0)) & AllEdges;
+  }
+
+  /** The id of a point that there is not, which only a damaged file asks for, is 0. */
+  std::uint32_t Id(int bit) const
+  {
+    const std::uint32_t before = this->Bits & ((1U << bit) - 1U);
+    return ((this->Bits >> bit) & 1U) != 0
+      ? this->First + static_cast<std::uint32_t>(PopCount(before))
+      : 0;
+  }
+};
+
+/**
+ * What all extractions do: count points and cells in every brick, sum up, write in every brick.
+ *
+ * Only bricks with refined diamonds are visited. They are independent: every brick has a range of
+ * point ids and of cells of its own, and within it everything is in the order of the diamonds, so
+ * order and values of the output do not depend on threads. Counting notes a diamond's points and
+ * those of its children that are leaves; writing asks no more what is refined.
+ */
+class ExtractionPasses
+{
+public:
+  /** What bricks contribute. */
+  struct Counts
+  {
+    std::int64_t Points = 0;
+    std::int64_t Cells = 0;
+  };
+
+  /**
+   * Counts. The refined set must outlive the passes.
+   *
+   * @param cellsOf (leafParent) -> the number of cells in a diamond's leaves
+   * @throws std::length_error beyond 2^32 - 1 points
+   */
+  template <typename CellsOf>
+  ExtractionPasses(const RefinedSet& refined, const ParallelFor& parallelFor, CellsOf&& cellsOf)
+    : ExtractionPasses(refined, parallelFor)
+  {
+    this->ForEachBrick(
+      [&](std::int64_t brick)
+      {
+        if (!this->IsIdle(brick))
+        {
+          Counts& counts = this->First[brick + 1];
+          counts.Points = this->FillSlots(this->BrickAt(brick));
+          this->ForEachLeafParent(
+            brick, [&](const LeafParent& parent) { counts.Cells += cellsOf(parent); });
+        }
+      });
+    this->SumUp();
+  }
+
+  const RefinedSet& Refined() const { return this->Set; }
+  const IsodiamondHierarchy& Hierarchy() const { return this->Set.Hierarchy(); }
+
+  /** Points and cells of all bricks. */
+  const Counts& Total() const { return this->First.back(); }
+
+  bool HasPoints(std::int64_t brick) const
+  {
+    return this->First[brick + 1].Points > this->First[brick].Points;
+  }
+
+  RefinedBrick BrickAt(std::int64_t brick) const { return { this->Set, this->Bricks[brick] }; }
+
+  /** The points of a diamond. @param rank among the refined diamonds @param brick that it is in */
+  DiamondPoints PointsOf(std::int64_t brick, std::uint32_t rank) const
+  {
+    const Slot& slot = this->Slots[rank];
+    return { static_cast<std::uint32_t>(this->First[brick].Points) + slot.First, slot.Points };
+  }
+
+  /** Calls body(brick) for every brick with points, in parallel. */
+  template <typename Body>
+  void ForEachBrickWithPoints(Body&& body) const
+  {
+    this->ForEachBrick(
+      [&](std::int64_t brick)
+      {
+        if (this->HasPoints(brick))
+        {
+          body(brick);
+        }
+      });
+  }
+
+  /** Calls body(place, rank among the stored ones, points) for every diamond with points. */
+  template <typename Body>
+  void ForEachDiamondWithPoints(std::int64_t brick, Body&& body) const
+  {
+    this->BrickAt(brick).ForEachDiamond(
+      [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
+      {
+        if (this->Slots[refinedRank].Points != 0)
+        {
+          body(place, rank, this->PointsOf(brick, refinedRank));
+        }
+      });
+  }
+
+  /** Calls body(brick, its first cell) for every brick with cells, in parallel. */
+  template <typename Body>
+  void ForEachBrickWithCells(Body&& body) const
+  {
+    this->ForEachBrick(
+      [&](std::int64_t brick)
+      {
+        if (this->First[brick + 1].Cells > this->First[brick].Cells)
+        {
+          body(brick, this->First[brick].Cells);
+        }
+      });
+  }
+
+  /** Calls body(leafParent) for every parent of leaves that carry something in a brick. */
+  template <typename Body>
+  void ForEachLeafParent(std::int64_t number, Body&& body) const
+  {
+    const RefinedBrick brick = this->BrickAt(number);
+    brick.ForEachDiamond(
+      [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
+      {
+        if (const std::uint32_t children = this->Slots[refinedRank].LeafChildren)
+        {
+          body(MakeLeafParent(brick, place, rank, children, this->Hierarchy().CarryingEdges(rank)));
+        }
+      });
+  }
+
+private:
+  /** What is kept of a refined diamond. */
+  struct Slot
+  {
+    std::uint32_t Points = 0; ///< bits of DiamondPoints
+    std::uint16_t First = 0;  ///< of them among the points of the brick
+    std::uint8_t LeafChildren = 0;
+  };
+
+  ExtractionPasses(const RefinedSet& refined, const ParallelFor& parallelFor);
+
+  /** Calls body(brick) for every brick, in parallel. */
+  template <typename Body>
+  void ForEachBrick(Body&& body) const
+  {
+    this->Parallel(static_cast<std::int64_t>(this->Bricks.size()), 16,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t brick = begin; brick < end; ++brick)
+        {
+          body(brick);
+        }
+      });
+  }
+
+  /** Whether a brick has nothing to do with the mesh; an interval volume has its inside at all
+   *  scales. */
+  bool IsIdle(std::int64_t brick) const
+  {
+    return this->Set.IsFull() && !this->Hierarchy().Region().IsVolume() &&
+      this->Bricks[brick].Scale > 0;
+  }
+
+  /** Fills the slots of a brick. @return the number of its points */
+  std::int64_t FillSlots(const RefinedBrick& brick);
+  std::int64_t FillFinestSlots(const RefinedBrick& brick);
+
+  void SumUp();
+
+  const RefinedSet& Set;
+  ParallelFor Parallel;
+  std::vector<BrickPlace> Bricks;
+  std::vector<Counts> First; ///< by brick, and the total
+  std::vector<Slot> Slots;   ///< by rank among the refined diamonds
+};
+
+}
+
+#endif

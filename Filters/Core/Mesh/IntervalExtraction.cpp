@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/IntervalExtraction.h"
+
+#include "Mesh/PatchPoints.h"
+#include "Mesh/VertexWindow.h"
+#include "Patches/IntervalPatches.h"
+#include "Patches/SurfacePatch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** The most points and tetrahedra that a case of IntervalPatches() has. */
+constexpr int MaximumPoints = 8;
+constexpr int MaximumTetrahedra = 6;
+
+/** A case of IntervalPatches() with every point listed once. */
+struct PatchTable
+{
+  /** A point: where AgePointPlaces has it, and how many bits after that. */
+  struct TablePoint
+  {
+    std::uint8_t Index = 0;
+    std::uint8_t Bits = 0;
+  };
+
+  int PointCount = 0;
+  int TetrahedronCount = 0;
+  std::array<TablePoint, MaximumPoints> Points{};
+  std::array<std::array<std::uint8_t, 4>, MaximumTetrahedra> Tetrahedra{}; ///< indices of Points
+};
+
+PatchTable::TablePoint MakeTablePoint(const PatchPoint& point)
+{
+  PatchTable::TablePoint result;
+  result.Index = static_cast<std::uint8_t>(
+    point.IsVertex() ? point.Younger() : EdgeByAge(point.Younger(), point.Older()));
+  result.Bits = static_cast<std::uint8_t>(
+    DiamondPoints::Isovertex(point.Surface(), 0) - DiamondPoints::Isovertex(0, 0));
+  return result;
+}
+
+PatchTable MakePatchTable(const std::vector<PatchTetrahedron>& patch)
+{
+  PatchTable table;
+  std::vector<PatchPoint> points;
+  for (const PatchTetrahedron& tetrahedron : patch)
+  {
+    std::array<std::uint8_t, 4>& corners = table.Tetrahedra.at(table.TetrahedronCount++);
+    for (int i = 0; i < 4; ++i)
+    {
+      const auto point = std::find(points.begin(), points.end(), tetrahedron[i]);
+      corners[i] = static_cast<std::uint8_t>(point - points.begin());
+      if (point == points.end())
+      {
+        points.push_back(tetrahedron[i]);
+        table.Points.at(table.PointCount++) = MakeTablePoint(tetrahedron[i]);
+      }
+    }
+  }
+  return table;
+}
+
+/** By case. */
+using PatchTables = std::array<PatchTable, 81>;
+
+const PatchTables& AllPatchTables()
+{
+  static const PatchTables tables = []
+  {
+    PatchTables all;
+    std::transform(IntervalPatches().begin(), IntervalPatches().end(), all.begin(), MakePatchTable);
+    return all;
+  }();
+  return tables;
+}
+
+/** The cases of an interval volume in the half-tetrahedra of a diamond. */
+class IntervalCases
+{
+public:
+  IntervalCases(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
+    : Centre(hierarchy.Sign(parent.Rank))
+  {
+    // Signs of vertices follow from the centre's and the crossings on the way there.
+    const std::uint32_t lower = hierarchy.Edges(parent.Rank);
+    const std::uint32_t upper = hierarchy.UpperEdges(parent.Rank);
+    const VertexMasks& words = tables::MasksByAge[parent.Type];
+    this->AboveLower = words(this->Centre > 0 ? ~lower : lower);
+    this->AboveUpper = words(this->Centre > 1 ? ~upper : upper);
+  }
+
+  int operator()(int half) const
+  {
+    return this->Centre + CaseOfVertices[(this->AboveLower >> (4 * half)) & 7U] +
+      CaseOfVertices[(this->AboveUpper >> (4 * half)) & 7U];
+  }
+
+private:
+  /** What a set of outer vertices above one surface, by age, adds to the case. */
+  static constexpr std::array<std::int8_t, 8> CaseOfVertices = { 0, PatchCase({ 0, 1, 0, 0 }),
+    PatchCase({ 0, 0, 1, 0 }), PatchCase({ 0, 1, 1, 0 }), PatchCase({ 0, 0, 0, 1 }),
+    PatchCase({ 0, 1, 0, 1 }), PatchCase({ 0, 0, 1, 1 }), PatchCase({ 0, 1, 1, 1 }) };
+
+  int Centre;
+  HalfTetrahedronMask AboveLower = 0; ///< the vertices above the lower surface, by age
+  HalfTetrahedronMask AboveUpper = 0;
+};
+
+std::int64_t CountTetrahedra(
+  const PatchTables& tables, const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
+{
+  const IntervalCases cases(hierarchy, parent);
+  std::int64_t tetrahedra = 0;
+  parent.ForEachLeaf([&](int half) { tetrahedra += tables[cases(half)].TetrahedronCount; });
+  return tetrahedra;
+}
+
+/** Writes the tetrahedra of one brick's leaves, one after the other. */
+template <typename Id>
+class TetrahedronWriter
+{
+public:
+  TetrahedronWriter(const IsodiamondHierarchy& hierarchy, const VertexWindow& window, bool mirrored,
+    Id* connectivity, std::int8_t* levels)
+    : Hierarchy(hierarchy)
+    , Window(window)
+    , Tables(AllPatchTables())
+    , Places(PointsByAge())
+    , Mirrored(mirrored)
+    , Next(connectivity)
+    , NextLevel(levels)
+  {
+  }
+
+  void Write(const LeafParent& parent)
+  {
+    const IntervalCases cases(this->Hierarchy, parent);
+    const int level = this->Hierarchy.Domain().Depth() - 1 - parent.LeafScale();
+    const DiamondPoints* own = this->Window.At(parent.At.Position);
+    const auto& places = this->Places[parent.Type];
+    parent.ForEachLeaf(
+      [&](int half)
+      {
+        const PatchTable& patch = this->Tables[cases(half)];
+        std::array<Id, MaximumPoints> ids;
+        for (int i = 0; i < patch.PointCount; ++i)
+        {
+          const PatchPointPlace& place = places[half][patch.Points[i].Index];
+          ids[i] = static_cast<Id>(own[place.Distance].Id(place.Bit + patch.Points[i].Bits));
+        }
+        const bool flip = parent.Shape().HalfTetrahedra[half].OddByAge != this->Mirrored;
+        for (int i = 0; i < patch.TetrahedronCount; ++i)
+        {
+          const std::array<std::uint8_t, 4>& corners = patch.Tetrahedra[i];
+          this->Next[0] = ids[corners[0]];
+          this->Next[1] = ids[corners[1]];
+          this->Next[2] = ids[corners[flip ? 3 : 2]];
+          this->Next[3] = ids[corners[flip ? 2 : 3]];
+          this->Next += 4;
+          *this->NextLevel++ = static_cast<std::int8_t>(level);
+        }
+      });
+  }
+
+private:
+  const IsodiamondHierarchy& Hierarchy;
+  const VertexWindow& Window;
+  const PatchTables& Tables;
+  const PatchPointTable<AgePointPlaces>& Places;
+  bool Mirrored;
+  Id* Next;
+  std::int8_t* NextLevel;
+};
+
+}
+
+IntervalExtraction::IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
+  : Passes(refined, parallelFor,
+      [&, &tables = AllPatchTables()](const LeafParent& parent)
+      { return CountTetrahedra(tables, refined.Hierarchy(), parent); })
+{
+}
+
+template <typename Value>
+void IntervalExtraction::WriteValues(Value* values, std::int8_t* surfaces) const
+{
+  const Isoregion& region = this->Passes.Hierarchy().Region();
+  std::array<Value, 2> isovalues{};
+  for (int surface = 0; surface < 2; ++surface)
+  {
+    const double isovalue = region.Isovalue(surface);
+    isovalues[surface] = std::isfinite(isovalue) ? static_cast<Value>(isovalue)
+                                                 : std::numeric_limits<Value>::quiet_NaN();
+  }
+  std::visit(
+    [&](const auto& insideValues)
+    {
+      this->ForEachPoint(
+        [&, inside = insideValues.Pointer()](const MeshPoint& point)
+        {
+          surfaces[point.Id] = static_cast<std::int8_t>(point.Surface);
+          values[point.Id] = point.Surface == 0 ? static_cast<Value>(inside[point.Stored])
+                                                : isovalues[point.Surface < 0 ? 0 : 1];
+        });
+    },
+    this->Passes.Hierarchy().InsideValues());
+}
+
+template <typename Id>
+void IntervalExtraction::WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const
+{
+  this->Passes.ForEachBrickWithCells(
+    [&](std::int64_t brick, std::int64_t firstCell)
+    {
+      const VertexWindow window(this->Passes, brick, Grid::MaximumDepth);
+      TetrahedronWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored,
+        connectivity + 4 * firstCell, levels + firstCell);
+      this->Passes.ForEachLeafParent(
+        brick, [&](const LeafParent& parent) { writer.Write(parent); });
+    });
+}
+
+template void IntervalExtraction::WriteValues(float*, std::int8_t*) const;
+template void IntervalExtraction::WriteValues(double*, std::int8_t*) const;
+template void IntervalExtraction::WriteTetrahedra(bool, std::int32_t*, std::int8_t*) const;
+template void IntervalExtraction::WriteTetrahedra(bool, long long*, std::int8_t*) const;
+
+}

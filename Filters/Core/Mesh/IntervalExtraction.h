@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_IntervalExtraction_h
+#define isodiamond_IntervalExtraction_h
+
+#include "Field/AffineMap.h"
+#include "Mesh/ExtractionPasses.h"
+#include "Mesh/MeshPoints.h"
+
+namespace isodiamond
+{
+
+/**
+ * The interval volume of a refined set, as tetrahedra: the patches of IntervalPatches.h over the
+ * leaves of the current mesh.
+ *
+ * Points are the centres of refined diamonds that lie inside, and the alive isovertices of refined
+ * diamonds, each belonging to one diamond; their ids are a prefix sum, as for surfaces (see
+ * SurfaceExtraction.h). All tetrahedra have positive volume in index space and share whole faces.
+ * Order and values of the output do not depend on threads. Paper, section 6.
+ */
+class IntervalExtraction
+{
+public:
+  /** The refined set must outlive the extraction. @throws std::length_error beyond 2^32 - 1
+   *  points. */
+  IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
+
+  std::int64_t PointCount() const { return this->Passes.Total().Points; }
+  std::int64_t TetrahedronCount() const { return this->Passes.Total().Cells; }
+
+  /** Writes 3 coordinates a point; float or double. */
+  template <typename Coordinate>
+  void WritePoints(const AffineMap& world, Coordinate* points) const
+  {
+    isodiamond::WritePoints(this->Passes, world, points);
+  }
+
+  /** Calls body(point) for every MeshPoint, in parallel. */
+  template <typename Body>
+  void ForEachPoint(Body&& body) const
+  {
+    isodiamond::ForEachPoint(this->Passes, body);
+  }
+
+  /**
+   * Writes what is known of the points.
+   *
+   * @param values receives the field's value: the isovalue on a surface, the sample inside; NaN on
+   *        a surface without an isovalue, where an open side meets NaN; float or double
+   * @param surfaces receives -1 on the lower surface, 1 on the upper one, else 0
+   */
+  template <typename Value>
+  void WriteValues(Value* values, std::int8_t* surfaces) const;
+
+  /**
+   * Writes the tetrahedra.
+   *
+   * @param mirrored of the map that places the points; their volumes are positive then
+   * @param connectivity receives 4 point ids a tetrahedron (32 bits, or long long)
+   * @param levels receives the level of the diamond that each lies in: 0 for the root, N at full
+   *        resolution
+   */
+  template <typename Id>
+  void WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const;
+
+private:
+  ExtractionPasses Passes;
+};
+
+}
+
+#endif

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/SurfaceExtraction.h"
+
+#include "Mesh/PatchPoints.h"
+#include "Mesh/VertexWindow.h"
+#include "Patches/SurfacePatch.h"
+
+namespace isodiamond
+{
+namespace
+{
+
+/** How much coarser than a leaf's parent the owner of one of its edges can be. */
+constexpr int MaximumOwnerStep = 1;
+
+/** The vertices that lie on the other side than the centre. */
+HalfTetrahedronMask CrossedVertices(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
+{
+  return tables::MasksAsListed[parent.Type](hierarchy.Edges(parent.Rank));
+}
+
+/** The triangles in a diamond's leaves: bit 0 of the four of a half-tetrahedron stands for the
+ * first one of its patch, bit 1 for the second. */
+HalfTetrahedronMask TrianglesOf(const LeafParent& parent, HalfTetrahedronMask crossed)
+{
+  // There are two where two vertices lie on the other side than the third and the centre.
+  return parent.Leaves | ((parent.Leaves & HalvesWithTwo(crossed)) << 1);
+}
+
+/** Writes the triangles of one brick's leaves, one after the other. */
+template <typename Id>
+class TriangleWriter
+{
+public:
+  TriangleWriter(const IsodiamondHierarchy& hierarchy, const VertexWindow& window, bool mirrored,
+    Id* connectivity, std::int8_t* levels)
+    : Hierarchy(hierarchy)
+    , Window(window)
+    , Places(PointsOnEdges())
+    , Mirrored(mirrored)
+    , Next(connectivity)
+    , NextLevel(levels)
+  {
+  }
+
+  void Write(const LeafParent& parent)
+  {
+    const HalfTetrahedronMask crossed = CrossedVertices(this->Hierarchy, parent);
+    // For a centre above the isovalue triangles wind with normals away from it.
+    const bool flip = (this->Hierarchy.Sign(parent.Rank) == 0) != this->Mirrored;
+    const int level = this->Hierarchy.Domain().Depth() - 1 - parent.LeafScale();
+    const DiamondPoints* own = this->Window.At(parent.At.Position);
+    const auto& places = this->Places[parent.Type];
+    ForEachBit(TrianglesOf(parent, crossed),
+      [&](int bit)
+      {
+        const int half = bit / 4;
+        const SurfacePatch& patch = tables::IsosurfacePatches[(crossed >> (4 * half)) & 7U];
+        const std::array<std::uint8_t, 3>& corners = patch.Triangles[bit & 1];
+        const auto idOf = [&](int edge)
+        {
+          const PatchPointPlace& place = places[half][edge];
+          return static_cast<Id>(own[place.Distance].Id(place.Bit));
+        };
+        this->Next[0] = idOf(corners[0]);
+        this->Next[1] = idOf(corners[flip ? 2 : 1]);
+        this->Next[2] = idOf(corners[flip ? 1 : 2]);
+        this->Next += 3;
+        *this->NextLevel++ = static_cast<std::int8_t>(level);
+      });
+  }
+
+private:
+  const IsodiamondHierarchy& Hierarchy;
+  const VertexWindow& Window;
+  const PatchPointTable<EdgePointPlaces>& Places;
+  bool Mirrored;
+  Id* Next;
+  std::int8_t* NextLevel;
+};
+
+}
+
+SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
+  : Passes(refined, parallelFor,
+      [&](const LeafParent& parent)
+      { return PopCount(TrianglesOf(parent, CrossedVertices(refined.Hierarchy(), parent))); })
+{
+}
+
+template <typename Id>
+void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const
+{
+  this->Passes.ForEachBrickWithCells(
+    [&](std::int64_t brick, std::int64_t firstCell)
+    {
+      const VertexWindow window(this->Passes, brick, MaximumOwnerStep);
+      TriangleWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored,
+        connectivity + 3 * firstCell, levels + firstCell);
+      this->Passes.ForEachLeafParent(
+        brick, [&](const LeafParent& parent) { writer.Write(parent); });
+    });
+}
+
+template void SurfaceExtraction::WriteTriangles(bool, std::int32_t*, std::int8_t*) const;
+template void SurfaceExtraction::WriteTriangles(bool, long long*, std::int8_t*) const;
+
+}

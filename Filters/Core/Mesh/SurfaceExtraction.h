@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_SurfaceExtraction_h
+#define isodiamond_SurfaceExtraction_h
+
+#include "Field/AffineMap.h"
+#include "Mesh/ExtractionPasses.h"
+#include "Mesh/MeshPoints.h"
+
+namespace isodiamond
+{
+
+/**
+ * The isosurface of a refined set: marching tetrahedra over the leaves of the current mesh.
+ *
+ * Point ids need no locator: an isovertex belongs to the diamond that owns its edge, is alive
+ * while that diamond is refined and the one centred at the edge's midpoint is not, and ids are a
+ * prefix sum over owners. The constructor counts; the caller allocates and has the arrays
+ * written. Order and values of the output do not depend on threads. Paper, section 6.
+ */
+class SurfaceExtraction
+{
+public:
+  /** The refined set must outlive the extraction. @throws std::length_error beyond 2^32 - 1
+   *  points. */
+  SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
+
+  std::int64_t PointCount() const { return this->Passes.Total().Points; }
+  std::int64_t TriangleCount() const { return this->Passes.Total().Cells; }
+
+  /** Writes 3 coordinates a point; float or double. */
+  template <typename Coordinate>
+  void WritePoints(const AffineMap& world, Coordinate* points) const
+  {
+    isodiamond::WritePoints(this->Passes, world, points);
+  }
+
+  /** Calls body(point) for every MeshPoint, in parallel. */
+  template <typename Body>
+  void ForEachPoint(Body&& body) const
+  {
+    isodiamond::ForEachPoint(this->Passes, body);
+  }
+
+  /**
+   * Writes the triangles.
+   *
+   * @param mirrored of the map that places the points; normals then point to lower values
+   * @param connectivity receives 3 point ids a triangle (32 bits, or long long)
+   * @param levels receives the level of the diamond that each triangle lies in: 0 for the root, N
+   *        at full resolution
+   */
+  template <typename Id>
+  void WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const;
+
+private:
+  ExtractionPasses Passes;
+};
+
+}
+
+#endif

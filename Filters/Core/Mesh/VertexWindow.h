@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_VertexWindow_h
+#define isodiamond_VertexWindow_h
+
+#include "Mesh/ExtractionPasses.h"
+
+#include <array>
+
+namespace isodiamond
+{
+
+/**
+ * The points of all vertices of a brick's diamonds: a dense array of the 10 x 10 x 10 lattice
+ * points in and next to the brick.
+ *
+ * Every lattice point is the centre of one diamond; where the position is even on all axes that is
+ * one of a coarser scale. So the points on any edge, or at any vertex, of the brick's leaves are
+ * found at a fixed distance in the array from the leaf's parent, whatever their owner's scale.
+ * Where a lattice point has no refined diamond, which a leaf only asks for if a file is damaged,
+ * there are no points.
+ */
+class VertexWindow
+{
+public:
+  /** @param maximumStep how much coarser diamonds can be that are looked for */
+  VertexWindow(const ExtractionPasses& passes, std::int64_t brick, int maximumStep);
+
+  /** The points of the diamond at a position of the brick; those of other vertices are at a
+   *  Distance() from there. */
+  const DiamondPoints* At(const Point& position) const
+  {
+    return &this->Points[this->IndexAt(position)];
+  }
+
+  /** @param offset of a vertex from a diamond's position */
+  static constexpr int Distance(const Point& offset)
+  {
+    return offset[0] + Width * (offset[1] + Width * offset[2]);
+  }
+
+private:
+  static constexpr int Width = 10;
+
+  int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
+  void Fill(const ExtractionPasses& passes, int scale, int step);
+
+  Point First; ///< the first position
+  std::array<DiamondPoints, Width * Width * Width> Points{};
+};
+
+}
+
+#endif

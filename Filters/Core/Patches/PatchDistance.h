@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_PatchDistance_h
+#define isodiamond_PatchDistance_h
+
+#include "Patches/SurfacePatch.h"
+#include "Patches/WorldLengths.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace isodiamond
+{
+
+/**
+ * Squared distances to a triangle.
+ *
+ * Where a point lies over the triangle is told by its barycentric coordinates, which come from the
+ * normal: so they are right for thin triangles too, where dot products of the sides would cancel.
+ */
+class TriangleDistance
+{
+public:
+  TriangleDistance() = default;
+  TriangleDistance(const Vector& a, const Vector& b, const Vector& c)
+    : Corner(a)
+    , First(b - a)
+    , Second(c - a)
+    , Third(c - b)
+    , Normal(Cross(this->First, this->Second))
+    , Inverse{ 1.0 / Dot(this->First, this->First), 1.0 / Dot(this->Second, this->Second),
+      1.0 / Dot(this->Third, this->Third), 1.0 / Dot(this->Normal, this->Normal) }
+    , AlongFirst(this->Inverse[3] * Cross(this->Second, this->Normal))
+    , AlongSecond(this->Inverse[3] * Cross(this->Normal, this->First))
+    , IsDegenerate(!std::isfinite(this->Inverse[3]))
+  {
+  }
+
+  double Squared(const Vector& point) const
+  {
+    const Vector p = point - this->Corner;
+    const double first = Dot(p, this->AlongFirst);
+    const double second = Dot(p, this->AlongSecond);
+    // The nearest point lies on a side that is seen from the point, or inside.
+    const bool seesFirst = second < 0.0 || this->IsDegenerate;
+    const bool seesSecond = first < 0.0 || this->IsDegenerate;
+    const bool seesThird = first + second > 1.0 || this->IsDegenerate;
+    if (!(seesFirst || seesSecond || seesThird))
+    {
+      const double height = Dot(p, this->Normal);
+      return height * height * this->Inverse[3];
+    }
+    double squared = std::numeric_limits<double>::infinity();
+    if (seesFirst)
+    {
+      squared = SquaredToSide(p, this->First, this->Inverse[0]);
+    }
+    if (seesSecond)
+    {
+      squared = std::min(squared, SquaredToSide(p, this->Second, this->Inverse[1]));
+    }
+    if (seesThird)
+    {
+      squared = std::min(squared, SquaredToSide(p - this->First, this->Third, this->Inverse[2]));
+    }
+    return squared;
+  }
+
+private:
+  /** @param inverse of the squared length; infinite if there is none */
+  static double SquaredToSide(const Vector& p, const Vector& side, double inverse)
+  {
+    const double along = Dot(p, side);
+    const double place = along <= 0.0 ? 0.0 : std::min(along * inverse, 1.0);
+    const Vector rest = p - place * side;
+    return Dot(rest, rest);
+  }
+
+  Vector Corner{};
+  Vector First{};
+  Vector Second{};
+  Vector Third{};
+  Vector Normal{};                 ///< not of unit length
+  std::array<double, 4> Inverse{}; ///< of the squared lengths of the sides and the normal
+  Vector AlongFirst{};             ///< barycentric coordinates as dot products
+  Vector AlongSecond{};
+  bool IsDegenerate = true;
+};
+
+/** Squared distances to the patch of a tetrahedron. */
+class PatchDistance
+{
+public:
+  /** @param cornerAt gives the isovertex on an edge of the patch's half-tetrahedron, in the world
+   */
+  template <typename CornerAt>
+  void Reset(const SurfacePatch& patch, CornerAt&& cornerAt)
+  {
+    this->Count = patch.TriangleCount;
+    std::array<Vector, 6> corners;
+    std::uint32_t known = 0; // the edges whose isovertex is in corners
+    for (int i = 0; i < patch.TriangleCount; ++i)
+    {
+      for (const std::uint8_t edge : patch.Triangles[i])
+      {
+        if (((known >> edge) & 1U) == 0)
+        {
+          known |= 1U << edge;
+          corners[edge] = cornerAt(edge);
+        }
+      }
+      const std::array<std::uint8_t, 3>& edges = patch.Triangles[i];
+      this->Triangles[i] = { corners[edges[0]], corners[edges[1]], corners[edges[2]] };
+    }
+  }
+
+  bool IsEmpty() const { return this->Count == 0; }
+
+  /** @pre the patch is not empty */
+  double Squared(const Vector& point) const
+  {
+    const double first = this->Triangles[0].Squared(point);
+    return this->Count == 1 ? first : std::min(first, this->Triangles[1].Squared(point));
+  }
+
+private:
+  int Count = 0;
+  std::array<TriangleDistance, 2> Triangles;
+};
+
+}
+
+#endif

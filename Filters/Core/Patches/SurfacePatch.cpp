@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Patches/SurfacePatch.h"
+
+#include "Patches/IntervalPatches.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace isodiamond
+{
+namespace
+{
+
+using Triangle = std::array<PatchPoint, 3>;
+
+/** The triangles of a case's tetrahedra whose corners all lie on a surface. Inner faces have two
+ *  tetrahedra; the others are the surface. */
+std::vector<Triangle> TrianglesOnSurface(
+  const std::vector<PatchTetrahedron>& tetrahedra, int surface)
+{
+  std::vector<Triangle> triangles;
+  for (const PatchTetrahedron& tetrahedron : tetrahedra)
+  {
+    for (int opposite = 0; opposite < 4; ++opposite)
+    {
+      Triangle face;
+      std::copy_if(tetrahedron.begin(), tetrahedron.end(), face.begin(),
+        [&](const PatchPoint& point) { return !(point == tetrahedron[opposite]); });
+      std::sort(face.begin(), face.end());
+      const bool onSurface = std::all_of(face.begin(), face.end(),
+        [&](const PatchPoint& point) { return !point.IsVertex() && point.Surface() == surface; });
+      const auto twin = std::find(triangles.begin(), triangles.end(), face);
+      if (onSurface && twin == triangles.end())
+      {
+        triangles.push_back(face);
+      }
+      else if (onSurface)
+      {
+        triangles.erase(twin);
+      }
+    }
+  }
+  return triangles;
+}
+
+/** By case and surface. */
+using CaseTriangles = std::array<std::array<std::vector<Triangle>, 2>, 81>;
+
+const CaseTriangles& AllTriangles()
+{
+  static const CaseTriangles triangles = []
+  {
+    CaseTriangles all;
+    for (int code = 0; code < 81; ++code)
+    {
+      for (int surface = 0; surface < 2; ++surface)
+      {
+        all[code][surface] = TrianglesOnSurface(IntervalPatches()[code], surface);
+      }
+    }
+    return all;
+  }();
+  return triangles;
+}
+
+/** The case of an interval volume in a half-tetrahedron of the diamond of a rank. */
+int IntervalCase(
+  const IsodiamondHierarchy& hierarchy, std::uint32_t rank, const HalfTetrahedron& half)
+{
+  // The signs of the outer vertices follow from the centre's and the crossings on the way there.
+  const int centre = hierarchy.Sign(rank);
+  const std::uint32_t lower = hierarchy.Edges(rank);
+  const std::uint32_t upper = hierarchy.UpperEdges(rank);
+  PatchSigns signs{ centre, 0, 0, 0 };
+  for (int i = 0; i < 3; ++i)
+  {
+    const int edge = half.Vertices[half.ByAge[i]];
+    const int crossesLower = static_cast<int>((lower >> edge) & 1U);
+    const int crossesUpper = static_cast<int>((upper >> edge) & 1U);
+    const int change =
+      (centre > 0 ? -crossesLower : crossesLower) + (centre > 1 ? -crossesUpper : crossesUpper);
+    signs[i + 1] = centre + change;
+  }
+  return PatchCase(signs);
+}
+
+}
+
+SurfacePatch PatchOf(const IsodiamondHierarchy& hierarchy, std::uint32_t rank,
+  const HalfTetrahedron& half, int surface)
+{
+  if (!hierarchy.Region().IsVolume())
+  {
+    return IsosurfacePatch(half, hierarchy.Edges(rank));
+  }
+  SurfacePatch patch;
+  for (const Triangle& triangle : AllTriangles()[IntervalCase(hierarchy, rank, half)][surface])
+  {
+    std::array<std::uint8_t, 3>& corners = patch.Triangles[patch.TriangleCount++];
+    for (int i = 0; i < 3; ++i)
+    {
+      corners[i] = EdgeBetween(half, triangle[i].Younger(), triangle[i].Older());
+    }
+  }
+  return patch;
+}
+
+}

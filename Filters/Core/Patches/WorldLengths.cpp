@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Patches/WorldLengths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** Whether coordinates are finite and rise, or fall, at every step. */
+bool AreStrictlyMonotone(const std::vector<double>& coordinates)
+{
+  const bool rise = coordinates.back() > coordinates.front();
+  for (std::size_t i = 1; i < coordinates.size(); ++i)
+  {
+    const double step = coordinates[i] - coordinates[i - 1];
+    if (!std::isfinite(step) || !(rise ? step > 0.0 : step < 0.0))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+}
+
+AffineLengths::AffineLengths(const AffineMap& world)
+{
+  // Gram-Schmidt on the columns.
+  auto& factor = this->Triangular;
+  std::array<Vector, 3> directions{};
+  for (int j = 0; j < 3; ++j)
+  {
+    Vector rest = { world.Rows[0][j], world.Rows[1][j], world.Rows[2][j] };
+    for (int i = 0; i < j; ++i)
+    {
+      factor[i][j] = Dot(directions[i], rest);
+      rest = rest - factor[i][j] * directions[i];
+    }
+    factor[j][j] = std::hypot(rest[0], rest[1], rest[2]);
+    directions[j] = { rest[0] / factor[j][j], rest[1] / factor[j][j], rest[2] / factor[j][j] };
+  }
+}
+
+bool AffineLengths::IsValid() const
+{
+  const auto& f = this->Triangular;
+  return f[0][0] > 0.0 && f[1][1] > 0.0 && f[2][2] > 0.0 &&
+    std::isfinite(f[0][0] + f[1][1] + f[2][2]);
+}
+
+double AffineLengths::SquaredRadius(const FineBox& box, const FinePosition& middle) const
+{
+  std::array<double, 3> half{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int longer = std::max(middle[axis] - box.Low[axis], box.High[axis] - middle[axis]);
+    half[axis] = 1.0 / FineUnits * longer;
+  }
+  double squared = 0.0;
+  for (int corner = 0; corner < 4; ++corner)
+  {
+    const Vector reach = this->Mapped(
+      (corner & 1) != 0 ? -half[0] : half[0], (corner & 2) != 0 ? -half[1] : half[1], half[2]);
+    squared = std::max(squared, Dot(reach, reach));
+  }
+  return squared;
+}
+
+double AffineLengths::TypicalStep() const
+{
+  const auto& f = this->Triangular;
+  return std::max({ f[0][0], f[1][1], f[2][2] });
+}
+
+AxesLengths::AxesLengths(AxisCoordinates coordinates, int padding)
+  : Coordinates(std::move(coordinates))
+  , Padding(padding)
+{
+  for (std::vector<double>& axis : this->Coordinates)
+  {
+    // A grid far from the origin would lose digits.
+    const double first = axis.front();
+    std::transform(axis.begin(), axis.end(), axis.begin(), [=](double c) { return c - first; });
+    this->AbsoluteError += 1e-14 * std::abs(axis.back());
+  }
+}
+
+bool AxesLengths::IsValid() const
+{
+  return std::all_of(this->Coordinates.begin(), this->Coordinates.end(), AreStrictlyMonotone);
+}
+
+double AxesLengths::Along(int axis, std::int32_t position) const
+{
+  const std::vector<double>& coordinates = this->Coordinates[axis];
+  const std::int32_t inGrid = position - FineUnits * this->Padding;
+  const int last = static_cast<int>(coordinates.size()) - 2;
+  const int cell = std::clamp(inGrid / FineUnits, 0, last); // a negative one comes to 0, too
+  const double part = 1.0 / FineUnits * (inGrid - FineUnits * cell);
+  return coordinates[cell] + part * (coordinates[cell + 1] - coordinates[cell]);
+}
+
+double AxesLengths::SquaredRadius(const FineBox& box, const FinePosition& middle) const
+{
+  const Vector centre = (*this)(middle);
+  const Vector below = centre - (*this)(box.Low);
+  const Vector above = (*this)(box.High) - centre;
+  Vector reach{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    reach[axis] = std::max(std::abs(below[axis]), std::abs(above[axis]));
+  }
+  return Dot(reach, reach);
+}
+
+double AxesLengths::TypicalStep() const
+{
+  double longest = 0.0;
+  for (const std::vector<double>& axis : this->Coordinates)
+  {
+    longest = std::max(longest, std::abs(axis.back()) / static_cast<double>(axis.size() - 1));
+  }
+  return longest;
+}
+
+std::string FaultOfLengths(const GridGeometry& world)
+{
+  if (const AffineMap* map = world.Affine())
+  {
+    return AffineLengths(*map).IsValid()
+      ? ""
+      : "Distances need a spacing that is neither 0 nor infinite.";
+  }
+  if (const AxisCoordinates* axes = world.Axes())
+  {
+    return AxesLengths(*axes, 0).IsValid()
+      ? ""
+      : "The distance metric needs coordinates that are finite and rise, or fall, at every sample "
+        "of an axis; on others use the field metric.";
+  }
+  return "The distance metric needs an image or a rectilinear grid; on others use the field "
+         "metric.";
+}
+
+WorldLengths WorldLengthsOf(const GridGeometry& world)
+{
+  const std::string fault = FaultOfLengths(world);
+  if (!fault.empty())
+  {
+    throw std::invalid_argument(fault);
+  }
+  if (const AffineMap* map = world.Affine())
+  {
+    return AffineLengths(*map);
+  }
+  return AxesLengths(*world.Axes(), world.Padding());
+}
+
+}

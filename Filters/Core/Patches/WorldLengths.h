@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_WorldLengths_h
+#define isodiamond_WorldLengths_h
+
+#include "Field/GridGeometry.h"
+#include "Field/Vector.h"
+#include "Patches/ExactPlane.h"
+
+#include <array>
+#include <string>
+#include <variant>
+
+/**
+ * @file WorldLengths.h
+ * World lengths: maps of fine positions to spaces in which distances are the world's but
+ * orientation and origin do not matter. What is flat in the world is flat there.
+ *
+ * There is one for affine worlds and one for coordinates along the axes. Whoever measures a lot is
+ * a template of either, so that the former, by far the most frequent, pays nothing for the other.
+ */
+namespace isodiamond
+{
+
+/** The lengths of an affine world, by the upper triangular factor of its map. */
+class AffineLengths
+{
+public:
+  /** Whether steps of the lattice are the same everywhere, so that Factor() tells all. */
+  static constexpr bool IsLinear = true;
+
+  explicit AffineLengths(const AffineMap& world);
+
+  /** Whether the world has lengths along all axes. */
+  bool IsValid() const;
+
+  /** Where a position is. */
+  Vector operator()(const FinePosition& p) const
+  {
+    constexpr double unit = 1.0 / FineUnits;
+    return this->Mapped(unit * p[0], unit * p[1], unit * p[2]);
+  }
+
+  /** From one lattice point to another. */
+  Vector Between(const Point& from, const Point& to) const
+  {
+    const Point between = to + -1 * from;
+    return this->Mapped(between[0], between[1], between[2]);
+  }
+
+  /** The squared radius of the ball around the middle of a box that holds the box. */
+  double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
+
+  /** From index space; upper triangular. */
+  const std::array<std::array<double, 3>, 3>& Factor() const { return this->Triangular; }
+
+  /** The length of a lattice step; along the axis where that is longest. */
+  double TypicalStep() const;
+
+  /** What rounding changes between two positions, unless in proportion to their distance. */
+  static constexpr double Rounding() { return 0.0; }
+
+private:
+  Vector Mapped(double x, double y, double z) const
+  {
+    const auto& f = this->Triangular;
+    return { f[0][0] * x + f[0][1] * y + f[0][2] * z, f[1][1] * y + f[1][2] * z, f[2][2] * z };
+  }
+
+  std::array<std::array<double, 3>, 3> Triangular{};
+};
+
+/** The lengths of a world of coordinates along the axes; the same as above. */
+class AxesLengths
+{
+public:
+  static constexpr bool IsLinear = false;
+
+  /** @param padding index of the grid's first sample */
+  AxesLengths(AxisCoordinates coordinates, int padding);
+
+  /** Whether the coordinates are finite and rise, or fall, at every sample of an axis. */
+  bool IsValid() const;
+
+  Vector operator()(const FinePosition& p) const
+  {
+    return { this->Along(0, p[0]), this->Along(1, p[1]), this->Along(2, p[2]) };
+  }
+  Vector Between(const Point& from, const Point& to) const
+  {
+    return (*this)(FineUnits * to) - (*this)(FineUnits * from);
+  }
+  double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
+
+  /** Their mean, on the axis where that is longest. */
+  double TypicalStep() const;
+
+  /** Positions near to each other, but far from the first sample, have lost digits. */
+  double Rounding() const { return this->AbsoluteError; }
+
+private:
+  /** Between samples, and beyond the first and the last by the outermost steps. */
+  double Along(int axis, std::int32_t position) const;
+
+  AxisCoordinates Coordinates; ///< from the first sample on
+  int Padding = 0;
+  double AbsoluteError = 0.0;
+};
+
+using WorldLengths = std::variant<AffineLengths, AxesLengths>;
+
+/** Why a world has no lengths, in words; empty if it has one. Curvilinear grids have none: flat
+ *  patches would not be between their samples. */
+std::string FaultOfLengths(const GridGeometry& world);
+
+/** The lengths of a world. @throws std::invalid_argument if there is none */
+WorldLengths WorldLengthsOf(const GridGeometry& world);
+
+}
+
+#endif

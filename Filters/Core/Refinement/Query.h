@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Query_h
+#define isodiamond_Query_h
+
+#include "Refinement/RegionOfInterest.h"
+#include "Refinement/Viewpoint.h"
+
+#include <cmath>
+#include <optional>
+
+namespace isodiamond
+{
+
+/** What is asked of a hierarchy. */
+struct Query
+{
+  /** The error that is tolerated, in the units of the hierarchy's metric; 0 is full resolution,
+   *  infinity leaves only what must always be subdivided; negative and NaN count as 0. */
+  double Tolerance = 0.0;
+  /** The same, of the field, inside an interval volume; without effect if the hierarchy has no
+   *  thresholds for it. */
+  double InteriorTolerance = HUGE_VAL;
+  /** Where these tolerances hold; everywhere if there is none. */
+  std::optional<RegionOfInterest> Region = std::nullopt;
+  /** The tolerance outside of the region. */
+  double OutsideTolerance = HUGE_VAL;
+  /** From where the mesh is seen: a diamond's tolerance is at least what the distance from there
+   *  makes of it. For errors that are distances. */
+  std::optional<Viewpoint> View = std::nullopt;
+};
+
+}
+
+#endif

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refinement/RefinedSet.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** What is tolerated somewhere: where a surface is, and inside an interval volume. */
+struct Tolerances
+{
+  double Surface = 0.0;
+  double Interior = HUGE_VAL;
+};
+
+/** The tolerances of a query that depend on the place: with a region of interest, or from a
+ *  viewpoint. */
+class LocalTolerance
+{
+public:
+  LocalTolerance(const Query& query, const Grid& grid)
+    : TheQuery(query)
+    , TheGrid(grid)
+  {
+  }
+
+  /** Whether they are the same everywhere, so that thresholds alone tell what is refined. */
+  bool IsUniform() const { return !this->TheQuery.Region && !this->TheQuery.View; }
+
+  /** What is tolerated wherever it is. */
+  Tolerances Everywhere() const
+  {
+    const Tolerances most = this->TheQuery.Region ? this->Outside() : this->Inside();
+    return this->Seen(
+      most, this->TheQuery.View ? this->TheQuery.View->GreatestIn(this->TheGrid) : 0.0);
+  }
+
+  /** At most what is tolerated of any diamond that has its centre in a brick of a scale. */
+  Tolerances LeastIn(int scale, const Point& brickOrigin) const
+  {
+    const bool mayTouch =
+      !this->TheQuery.Region || this->TheQuery.Region->MayTouch(scale, brickOrigin);
+    return this->Seen(mayTouch ? this->Inside() : this->Outside(),
+      this->TheQuery.View ? this->TheQuery.View->LeastIn(scale, brickOrigin) : 0.0);
+  }
+
+  /** What is tolerated of a diamond. */
+  Tolerances At(const Place& place) const
+  {
+    const bool touches = !this->TheQuery.Region || this->TheQuery.Region->Touches(place);
+    return this->Seen(touches ? this->Inside() : this->Outside(),
+      this->TheQuery.View ? this->TheQuery.View->ToleranceOf(place) : 0.0);
+  }
+
+private:
+  Tolerances Inside() const
+  {
+    return { this->TheQuery.Tolerance, this->TheQuery.InteriorTolerance };
+  }
+  Tolerances Outside() const { return { this->TheQuery.OutsideTolerance, HUGE_VAL }; }
+
+  static Tolerances Seen(Tolerances tolerances, double fromViewpoint)
+  {
+    tolerances.Surface = std::max(tolerances.Surface, fromViewpoint);
+    return tolerances;
+  }
+
+  const Query& TheQuery;
+  const Grid& TheGrid;
+};
+
+/** Which stored diamonds exceed what is tolerated. */
+class Exceeds
+{
+public:
+  Exceeds(const IsodiamondHierarchy& hierarchy, const Tolerances& tolerated)
+    : Hierarchy(hierarchy)
+    , Accepted(hierarchy.Codes().Accepted(tolerated.Surface))
+    , AcceptedInside(hierarchy.InteriorCodes().Accepted(tolerated.Interior))
+    , Interior(hierarchy.RefinesInterior() && this->AcceptedInside < ErrorCode::Always - 1)
+  {
+  }
+
+  bool operator()(std::uint32_t rank) const
+  {
+    return this->Hierarchy.Threshold(rank) > this->Accepted ||
+      (this->Interior && this->Hierarchy.InteriorThreshold(rank) > this->AcceptedInside);
+  }
+
+  /** Whether a brick can have such diamonds. @param brick numbered as AllBricks() does */
+  bool InBrick(std::int64_t brick) const
+  {
+    const IsodiamondHierarchy::Thresholds& highest = this->Hierarchy.HighestOfBrick(brick);
+    return highest.Surface > this->Accepted ||
+      (this->Interior && highest.Interior > this->AcceptedInside);
+  }
+
+  /** Whether all diamonds do. */
+  bool All() const
+  {
+    return this->Accepted < ErrorCode::Least && !this->Hierarchy.RefinesInterior();
+  }
+
+private:
+  const IsodiamondHierarchy& Hierarchy;
+  ErrorCode::Type Accepted;
+  ErrorCode::Type AcceptedInside;
+  bool Interior;
+};
+
+/** The diamonds of a brick that exceed. */
+BrickMask ExceedingIn(const Brick& brick, const Exceeds& exceeds)
+{
+  BrickMask mask{};
+  std::uint32_t rank = brick.First;
+  for (int z = 0; z < 8; ++z)
+  {
+    ForEachBit(brick.Occupancy[z],
+      [&](int bit) { mask[z] |= static_cast<std::uint64_t>(exceeds(rank++)) << bit; });
+  }
+  return mask;
+}
+
+/** Of a brick's candidates those that exceed what is tolerated of them, and are no relevant ones.
+ */
+BrickMask ExceedingLocally(const IsodiamondHierarchy& hierarchy, const BrickPlace& place,
+  const Brick& brick, const BrickMask& candidates, const LocalTolerance& tolerance)
+{
+  const Point origin = hierarchy.Diamonds().Level(place.Scale).Box.Origin(brick.BoxIndex);
+  BrickMask mask{};
+  for (int z = 0; z < 8; ++z)
+  {
+    ForEachBit(candidates[z],
+      [&](int bit)
+      {
+        const std::uint32_t rank = brick.Rank(z, bit);
+        const bool wanted = hierarchy.KindOf(rank) != Kind::Relevant &&
+          Exceeds(hierarchy, tolerance.At({ place.Scale, PositionOf(origin, z, bit) }))(rank);
+        mask[z] |= static_cast<std::uint64_t>(wanted) << bit;
+      });
+  }
+  return mask;
+}
+
+/**
+ * What is wanted beyond the diamonds that exceed what is tolerated everywhere, with all ancestors:
+ * those that an MI does not store lead to others that it does.
+ */
+DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalTolerance& tolerance,
+  const Exceeds& exceedsEverywhere, const ParallelFor& parallelFor)
+{
+  DiamondMask wanted(hierarchy.Domain());
+  for (int scale = 0; scale < hierarchy.Domain().Depth(); ++scale)
+  {
+    const BrickLevel& level = hierarchy.Diamonds().Level(scale);
+    std::vector<BrickMask> added(level.Bricks.size());
+    parallelFor(static_cast<std::int64_t>(level.Bricks.size()), 16,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const Brick& brick = level.Bricks[i];
+          const Exceeds exceedsLeast(
+            hierarchy, tolerance.LeastIn(scale, level.Box.Origin(brick.BoxIndex)));
+          if (exceedsLeast.InBrick(level.FirstNumber + i))
+          {
+            BrickMask candidates = ExceedingIn(brick, exceedsLeast);
+            const BrickMask everywhere = ExceedingIn(brick, exceedsEverywhere);
+            for (int z = 0; z < 8; ++z)
+            {
+              candidates[z] &= ~everywhere[z];
+            }
+            added[i] = ExceedingLocally(hierarchy, { scale, i }, brick, candidates, tolerance);
+          }
+        }
+      });
+    for (std::size_t i = 0; i < added.size(); ++i)
+    {
+      if (added[i] != BrickMask{})
+      {
+        wanted.Insert(scale, level.Bricks[i].BoxIndex, added[i]);
+      }
+    }
+  }
+  wanted.CloseOverParents(hierarchy.Domain());
+  return wanted;
+}
+
+/** The stored diamonds that exceed, and those that are wanted. @param wanted may be null */
+DiamondSet Select(const IsodiamondHierarchy& hierarchy, const Exceeds& exceeds,
+  const DiamondMask* wanted, const ParallelFor& parallelFor)
+{
+  DiamondSet selected(hierarchy.Domain());
+  std::int64_t number = 0;
+  for (int scale = hierarchy.Domain().Depth(); scale >= 0; --scale)
+  {
+    const std::vector<Brick>& bricks = hierarchy.Diamonds().Level(scale).Bricks;
+    std::vector<const Brick*> candidates;
+    for (const Brick& brick : bricks)
+    {
+      if (exceeds.InBrick(number++) ||
+        (wanted != nullptr && wanted->Find(scale, brick.BoxIndex) != nullptr))
+      {
+        candidates.push_back(&brick);
+      }
+    }
+    std::vector<BrickMask> masks(candidates.size());
+    parallelFor(static_cast<std::int64_t>(candidates.size()), 64,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const Brick& brick = *candidates[i];
+          masks[i] = ExceedingIn(brick, exceeds);
+          const BrickMask* more = wanted != nullptr ? wanted->Find(scale, brick.BoxIndex) : nullptr;
+          for (int z = 0; more != nullptr && z < 8; ++z)
+          {
+            masks[i][z] |= (*more)[z] & brick.Occupancy[z];
+          }
+        }
+      });
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+    {
+      selected.Append(scale, candidates[i]->BoxIndex, masks[i]);
+    }
+  }
+  return selected;
+}
+
+}
+
+RefinedSet::RefinedSet(
+  const IsodiamondHierarchy& hierarchy, const Query& query, const ParallelFor& parallelFor)
+  : Source(hierarchy)
+{
+  const LocalTolerance tolerance(query, hierarchy.Domain());
+  const Exceeds exceeds(hierarchy, tolerance.Everywhere());
+  this->All = exceeds.All();
+  if (!this->All && !tolerance.IsUniform())
+  {
+    const DiamondMask wanted = WantedLocally(hierarchy, tolerance, exceeds, parallelFor);
+    this->Some = Select(hierarchy, exceeds, &wanted, parallelFor);
+  }
+  else if (!this->All)
+  {
+    this->Some = Select(hierarchy, exceeds, nullptr, parallelFor);
+  }
+}
+
+std::int64_t RefinedSet::Count() const
+{
+  std::int64_t count = 0;
+  for (int scale = 0; scale < this->Source.Domain().Depth(); ++scale)
+  {
+    for (const Brick& brick : this->Diamonds().Level(scale).Bricks)
+    {
+      count += brick.Size();
+    }
+  }
+  return count;
+}
+
+std::int64_t RefinedSet::CountFront() const
+{
+  const Grid& grid = this->Source.Domain();
+  const bool onlyStored = this->Source.Header().Kind == Model::Minimal;
+  const auto inFront = [&](const Place& child)
+  {
+    return child.Scale >= 0 && child.Scale < grid.Depth() &&
+      grid.IsValid(child.Position, child.Scale) && !this->Contains(child) &&
+      !(onlyStored && !this->Source.Diamonds().Contains(child));
+  };
+  // The first of its refined parents counts a child.
+  const auto isFirst = [&](const Place& parent, const Place& child)
+  {
+    const TypeTable& shape = ShapeOf(child.Position);
+    int i = 0;
+    while (!this->Contains(ParentPlace(shape, child, i)))
+    {
+      ++i;
+    }
+    return ParentPlace(shape, child, i).Position == parent.Position;
+  };
+  std::int64_t count = 0;
+  this->Diamonds().ForEach(
+    [&](const Place& parent, std::uint32_t)
+    {
+      const TypeTable& shape = ShapeOf(parent.Position);
+      for (int child = 0; child < shape.ChildCount; ++child)
+      {
+        const Place place = ChildPlace(shape, parent, child);
+        count += inFront(place) && isFirst(parent, place) ? 1 : 0;
+      }
+    });
+  return count;
+}
+
+}

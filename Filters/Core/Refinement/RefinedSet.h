@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_RefinedSet_h
+#define isodiamond_RefinedSet_h
+
+#include "Hierarchy/IsodiamondHierarchy.h"
+#include "Refinement/Query.h"
+
+namespace isodiamond
+{
+
+/**
+ * The subdivided diamonds of a query: a set with ranks of its own, so that what passes keep for
+ * every diamond, and the bricks that they visit, are as many as the query asks for.
+ *
+ * Where the tolerance is the same everywhere that is R(t) = {threshold > t}: no front, no closure,
+ * the thresholds have them (see ActivationThresholds.h). With a region of interest or a viewpoint
+ * it is the smallest closed superset of R(what is tolerated everywhere) and of those active and
+ * creation diamonds whose threshold exceeds the tolerance that they have (see RefinedSet.cpp):
+ * inside of a region, the mesh is the uniform one; outside it is what conformity needs.
+ *
+ * The corners of the base cube always count as subdivided.
+ */
+class RefinedSet
+{
+public:
+  RefinedSet(
+    const IsodiamondHierarchy& hierarchy, const Query& query, const ParallelFor& parallelFor);
+
+  const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
+
+  /** The refined diamonds. */
+  const DiamondSet& Diamonds() const { return this->All ? this->Source.Diamonds() : this->Some; }
+
+  /**
+   * Whether this is full resolution. Then all that carries a surface lies at scale 0: the middle of
+   * a coarser edge that the surface crosses, and the child of a coarser half-tetrahedron that has a
+   * patch, are active diamonds, and refined.
+   */
+  bool IsFull() const { return this->All && !this->Source.Header().IsAnswer; }
+
+  /** Whether a diamond is refined; those that are not stored are not. */
+  bool Contains(const Place& place) const
+  {
+    const Brick* brick = this->Diamonds().Level(place.Scale).Find(place.Position);
+    return brick != nullptr && brick->Contains(place.Position[2] & 7, BitOf(place.Position));
+  }
+
+  /** Number of refined diamonds, corners of the base cube not counted. */
+  std::int64_t Count() const;
+
+  /**
+   * The size of the active front: the diamonds that are not refined but have a refined parent, or
+   * the root alone. Of an MI only stored ones count, and of their parents too.
+   */
+  std::int64_t CountFront() const;
+
+private:
+  const IsodiamondHierarchy& Source;
+  bool All = false; ///< whether all stored diamonds are refined
+  DiamondSet Some;  ///< the refined diamonds, unless they are all
+};
+
+/** A brick of a refined set, whose diamonds have ranks among the stored and the refined ones. */
+class RefinedBrick
+{
+public:
+  /** @param place of a brick of refined.Diamonds() */
+  RefinedBrick(const RefinedSet& refined, const BrickPlace& place)
+    : Source(refined.Hierarchy())
+    , Refined(refined.Diamonds().Level(place.Scale).Bricks[place.Index])
+    , Stored(*this->StoredLevel(place.Scale).Find(this->Refined.BoxIndex))
+    , BrickScale(place.Scale)
+    , First(this->StoredLevel(place.Scale).Box.Origin(this->Refined.BoxIndex))
+  {
+    const std::array<int, 3>& dimensions = this->Source.Domain().Dimensions();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->LastInner[axis] = ((dimensions[axis] - 1) >> place.Scale) - 1;
+    }
+  }
+
+  const IsodiamondHierarchy& Hierarchy() const { return this->Source; }
+  int Scale() const { return this->BrickScale; }
+  const Point& Origin() const { return this->First; }
+
+  /** The brick of the stored diamonds, and its number in the order of AllBricks(). */
+  const Brick& StoredBrick() const { return this->Stored; }
+  std::int64_t StoredNumber() const
+  {
+    const BrickLevel& level = this->StoredLevel(this->BrickScale);
+    return level.FirstNumber + level.Lookup[this->Refined.BoxIndex];
+  }
+
+  /** Calls body(place, rank among the stored ones, rank among the refined ones), in order. */
+  template <typename Body>
+  void ForEachDiamond(Body&& body) const
+  {
+    std::uint32_t refinedRank = this->Refined.First;
+    for (int z = 0; z < 8; ++z)
+    {
+      ForEachBit(this->Refined.Occupancy[z],
+        [&](int bit)
+        {
+          body(Place{ this->BrickScale, PositionOf(this->First, z, bit) },
+            this->Stored.Rank(z, bit), refinedRank++);
+        });
+    }
+  }
+
+  /** Whether all vertices of a diamond of this brick have samples, whatever its class. */
+  bool IsInner(const Place& place) const
+  {
+    const Point& at = place.Position;
+    return at[0] > 0 && at[1] > 0 && at[2] > 0 && at[0] <= this->LastInner[0] &&
+      at[1] <= this->LastInner[1] && at[2] <= this->LastInner[2];
+  }
+
+private:
+  const BrickLevel& StoredLevel(int scale) const { return this->Source.Diamonds().Level(scale); }
+
+  const IsodiamondHierarchy& Source;
+  const Brick& Refined;
+  const Brick& Stored;
+  int BrickScale;
+  Point First;
+  Point LastInner{}; ///< the last position all of whose neighbours have samples
+};
+
+}
+
+#endif

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Viewpoint_h
+#define isodiamond_Viewpoint_h
+
+#include "Field/GridGeometry.h"
+#include "Field/Vector.h"
+#include "Lattice/DiamondSet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace isodiamond
+{
+
+/**
+ * The viewpoint of a query: the tolerance grows with the distance from it, as the size of a pixel
+ * does in the world. A diamond has the tolerance at the nearest point of a ball around it, or where
+ * lattice steps differ in length, of the box around it: so everywhere in it the error in pixels is
+ * at most the one that is tolerated; around the viewpoint the mesh is of full resolution.
+ */
+class Viewpoint
+{
+public:
+  /** @param tolerancePerDistance what is tolerated at distance 1, at least 0
+   *  @param world not that of a curvilinear grid
+   *  @throws std::invalid_argument if something is not a finite number */
+  Viewpoint(const Vector& position, double tolerancePerDistance, const GridGeometry& world)
+    : Position(position)
+    , TolerancePerDistance(tolerancePerDistance)
+    , World(world)
+  {
+    if (!std::isfinite(position[0] + position[1] + position[2] + tolerancePerDistance))
+    {
+      throw std::invalid_argument("The viewpoint or its tolerance is not a finite number.");
+    }
+    const Vector origin = world({ 0.0, 0.0, 0.0 });
+    for (const double y : { -1.0, 1.0 })
+    {
+      for (const double z : { -1.0, 1.0 })
+      {
+        this->CornerLength = std::max(this->CornerLength, LengthOf(world({ 1.0, y, z }) - origin));
+      }
+    }
+  }
+
+  /** The tolerance of a diamond. */
+  double ToleranceOf(const Place& place) const
+  {
+    const Point centre = Centre(place);
+    return this->NearestIn({ 1.0 * centre[0], 1.0 * centre[1], 1.0 * centre[2] }, 1 << place.Scale);
+  }
+
+  /** At most that of any diamond that has its centre in a brick of a scale. */
+  double LeastIn(int scale, const Point& brickOrigin) const
+  {
+    const double h = 1 << scale;
+    return this->NearestIn(
+      { h * (brickOrigin[0] + 3.5), h * (brickOrigin[1] + 3.5), h * (brickOrigin[2] + 3.5) },
+      4.5 * h);
+  }
+
+  /** At least that of any diamond in the cube of a grid. */
+  double GreatestIn(const Grid& grid) const
+  {
+    double greatest = 0.0;
+    const double last = 1 << grid.Depth();
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      greatest = std::max(greatest,
+        this->DistanceOf(
+          { (corner & 1) * last, ((corner >> 1) & 1) * last, (corner >> 2) * last }));
+    }
+    return greatest * this->TolerancePerDistance;
+  }
+
+private:
+  static double LengthOf(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
+
+  double DistanceOf(const Vector& index) const
+  {
+    return LengthOf(this->World(index) - this->Position);
+  }
+
+  /** At the nearest point of the ball around a cube of a half width, or of the cube. */
+  double NearestIn(const Vector& centre, double half) const
+  {
+    const double distance = this->World.Axes() != nullptr
+      ? this->DistanceOfBox(centre, half)
+      : std::max(0.0, this->DistanceOf(centre) - half * this->CornerLength);
+    return this->TolerancePerDistance * distance;
+  }
+
+  /** Of a cube, which is a box in the world. */
+  double DistanceOfBox(const Vector& centre, double half) const
+  {
+    const Vector halves = { half, half, half };
+    const Vector from = this->World(centre - halves);
+    const Vector to = this->World(centre - -1.0 * halves);
+    Vector apart{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto [low, high] = std::minmax(from[axis], to[axis]);
+      apart[axis] = std::max({ 0.0, low - this->Position[axis], this->Position[axis] - high });
+    }
+    return LengthOf(apart);
+  }
+
+  Vector Position;
+  double TolerancePerDistance;
+  GridGeometry World;
+  double CornerLength = 0.0; ///< in the world, of the longest of (+-1, +-1, +-1)
+};
+
+}
+
+#endif

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks that includes go down only: the rooms of Filters/Core as its CMakeLists.txt says, no VTK in the
+core, no room's header without its folder, no ParaView in Filters, and a reference that is on its own.
+
+Usage: check-layers.py [ROOT]
+"""
+import pathlib
+import re
+import sys
+
+root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+core = root / "Filters/Core"
+problems = []
+
+
+def includes(folder):
+    """Every source below a folder with the lines and names of what it includes."""
+    for source in sorted(folder.rglob("*")):
+        if source.suffix in (".h", ".cpp", ".cxx"):
+            for number, line in enumerate(source.read_text().splitlines(), 1):
+                match = re.match(r'\s*#\s*include\s*["<]([^">]+)[">]', line)
+                if match:
+                    yield source, number, match[1]
+
+
+def complain(source, number, text):
+    problems.append(f"{source.relative_to(root)}:{number}: {text}")
+
+
+rooms = {}
+for line in (core / "CMakeLists.txt").read_text().splitlines():
+    match = re.match(r"isodiamonds_add_room\((\w+)(?: USES ([\w ]+))?\)", line)
+    if match:
+        below = (match[2] or "").split()
+        problems += [f"{match[1]} uses {room}, which is not below it" for room in below if room not in rooms]
+        rooms[match[1]] = {match[1], *below}
+problems += [
+    f"{folder.name} is no room of Filters/Core/CMakeLists.txt"
+    for folder in core.iterdir() if folder.is_dir() and folder.name not in rooms
+]
+headers = {header.name for header in core.rglob("*.h")}
+
+for source, number, name in includes(core):
+    room, *rest = name.split("/")
+    own = source.relative_to(core).parts[0]
+    if re.match(r"(vtk|paraview|pq)", name):
+        complain(source, number, f"the core knows no VTK: {name}")
+    elif name in headers:
+        complain(source, number, f"{name} without its room")
+    elif rest and room in rooms and room not in rooms.get(own, ()):
+        complain(source, number, f"{own} may not use {room}: {name}")
+for source, number, name in includes(root / "Filters"):
+    if core not in source.parents and re.match(r"(vtkPV|vtkSM[A-Z][a-z]|pq|Plugin/)", name):
+        complain(source, number, f"Filters know no ParaView: {name}")
+for source, number, name in includes(root / "Testing/Reference"):
+    if name.split("/")[0] in rooms or name in headers or name.startswith("vtk"):
+        complain(source, number, f"the reference shares nothing: {name}")
+
+print("\n".join(problems) if problems else f"includes go down in {len(rooms)} rooms")
+sys.exit(bool(problems))
