@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 usage() {
   cat <<'END'
-Usage: scripts/check-debian.sh [--root FOLDER] bookworm|trixie|sid [demo|test|COMMAND...]
+Usage: scripts/check-debian.sh [--root FOLDER] [--copy FILE] bookworm|trixie|sid [demo|test|COMMAND...]
 
 Makes a bare Debian in a folder (debootstrap), clones HEAD into it, and runs there scripts/demo.sh
 [default], scripts/test.sh, or a COMMAND in the clone. Fails as that fails. Needs root, and apt with
@@ -14,6 +14,7 @@ Debian's sources.
 
   --root FOLDER  where the Debian is made, and stays; one that is there already is used again, with
                  all that it has installed [a temporary folder, removed afterwards]
+  --copy FILE    goes into the clone as well
 END
 }
 
@@ -48,6 +49,7 @@ source_of() {
 }
 
 folder=
+copy=
 while [[ ${1:-} == --* ]]; do
   case $1 in
     --help) usage; exit ;;
@@ -55,6 +57,11 @@ while [[ ${1:-} == --* ]]; do
       [ $# -ge 2 ] || fail "--root: needs a folder"
       mkdir -p "$2"
       folder=$(cd "$2" && pwd)
+      shift 2
+      ;;
+    --copy)
+      [ -f "${2:-}" ] || fail "--copy: needs a file"
+      copy=$(realpath "$2")
       shift 2
       ;;
     *) fail "unknown option '$1' (see --help)" ;;
@@ -98,6 +105,9 @@ use_apt_of_host "$folder"
 
 rm -rf "$folder/root/isodiamonds"
 git clone -q "$root" "$folder/root/isodiamonds"
+if [ -n "$copy" ]; then
+  cp "$copy" "$folder/root/isodiamonds"
+fi
 # X servers of other roots are seen, their lock files are not: numbers of our own.
 first=$((100 + RANDOM % 900))
 in_root "$folder" bash -c "cd /root/isodiamonds && ISODIAMONDS_DISPLAY=$first \"\$@\"" bash "${command[@]}"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The package as it was installed: ParaView lists the plugin by itself and loads it by its name, and
-Python finds the VTK module. scripts/package.sh --try runs it."""
+Python finds the VTK module. scripts/try-package.sh runs it."""
 from paraview.simple import *
 from isodiamonds import vtkIsodiamondContour
 

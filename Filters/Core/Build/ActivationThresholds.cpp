@@ -137,24 +137,21 @@ private:
     }
     const BrickLevel& level = this->Members.Level(scale);
     const BrickLevel& parentLevel = this->Members.Level(scale + step);
-    this->Parallel(static_cast<std::int64_t>(level.Bricks.size()), 16,
-      [&](std::int64_t begin, std::int64_t end)
+    ForEachIndex(this->Parallel, level.Bricks.size(), 16,
+      [&](std::int64_t index)
       {
-        for (std::int64_t index = begin; index < end; ++index)
+        const Brick& brick = level.Bricks[index];
+        const Point origin = level.Box.Origin(brick.BoxIndex);
+        const BrickWindow window(
+          parentLevel, Point{ origin[0] >> step, origin[1] >> step, origin[2] >> step });
+        for (int z = 0; z < 8; ++z)
         {
-          const Brick& brick = level.Bricks[index];
-          const Point origin = level.Box.Origin(brick.BoxIndex);
-          const BrickWindow window(
-            parentLevel, Point{ origin[0] >> step, origin[1] >> step, origin[2] >> step });
-          for (int z = 0; z < 8; ++z)
-          {
-            ForEachBit(brick.Occupancy[z] & tables::ClassBits[diamondClass][z & 1],
-              [&](int bit)
-              {
-                const Place place{ scale, PositionOf(origin, z, bit) };
-                body(Visit{ index, place, brick.Rank(z, bit), window });
-              });
-          }
+          ForEachBit(brick.Occupancy[z] & tables::ClassBits[diamondClass][z & 1],
+            [&](int bit)
+            {
+              const Place place{ scale, PositionOf(origin, z, bit) };
+              body(Visit{ index, place, brick.Rank(z, bit), window });
+            });
         }
       });
   }

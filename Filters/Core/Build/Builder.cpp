@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace isodiamond
@@ -48,14 +49,9 @@ void ForEachMember(const DiamondSet& members, const ParallelFor& parallelFor, co
   for (int scale = members.ScaleCount() - 2; scale >= 0; --scale)
   {
     const std::vector<Brick>& bricks = members.Level(scale).Bricks;
-    parallelFor(8 * static_cast<std::int64_t>(bricks.size()), 1,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          members.ForEachInWord(scale, bricks[i / 8], static_cast<int>(i % 8), body);
-        }
-      });
+    ForEachIndex(parallelFor, 8 * static_cast<std::int64_t>(bricks.size()), 1,
+      [&](std::int64_t i)
+      { members.ForEachInWord(scale, bricks[i / 8], static_cast<int>(i % 8), body); });
   }
 }
 
@@ -106,6 +102,11 @@ DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& r
       }
     });
   return triggers;
+}
+
+bool HasHiddenCells(const BuildOptions& options)
+{
+  return options.Hidden != nullptr && options.Hidden->Any();
 }
 
 /** Active diamonds that touch a hidden cell are always subdivided. */
@@ -197,79 +198,138 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
   shorten(arrays.InteriorCodes, arrays.InteriorCodes.empty() ? 0 : diamonds);
 }
 
+/** Whether an interval volume is refined inside: what lies in hidden cells can be left out at full
+ *  resolution only, deep inside too. */
+bool RefinesInterior(const Isoregion& region, const BuildOptions& options)
+{
+  return region.IsVolume() && (options.RefineInterior || HasHiddenCells(options));
+}
+
+/** The steps of a build. Each metric has them in an order of its own. */
+class Steps
+{
+public:
+  Steps(const Source& source, const Isoregion& region, const BuildOptions& options,
+    double errorScale, const ParallelFor& parallelFor)
+    : Origin(source)
+    , Options(options)
+    , For(parallelFor)
+    , Interior(RefinesInterior(region, options))
+  {
+    this->Report("Classifying diamonds", 0.0, 0.2);
+    const Grid& grid = source.Domain;
+    {
+      const SignLattice signs(grid, source.Samples, region, parallelFor);
+      this->Kinds = Classify(grid, signs, parallelFor, this->Interior);
+    }
+    this->Kinds.Members.Insert(grid.Depth(), 0, CornerBrick());
+    this->Members = DiamondSet(grid, this->Kinds.Members);
+    this->Kinds.Members = DiamondMask();
+
+    this->Header.Kind = Model::Relevant;
+    this->Header.Dimensions = grid.Dimensions();
+    this->Header.Region = region;
+    this->Header.Metric = options.Metric;
+    this->Header.FieldScale = source.FieldScale;
+    this->Header.ErrorScale = errorScale;
+    this->Header.ExactIsovertices = options.ExactIsovertices;
+    this->Header.ActiveCount = this->Kinds.Active.Size();
+    this->Header.CreationCount = this->Kinds.Creation.Size();
+    this->Header.RelevantCount = this->Members.Size() - 8 - this->Header.ActiveCount;
+  }
+
+  /** An RI without errors. */
+  Encoding PlaceIsovertices(double begin, double end) const
+  {
+    this->Report("Placing isovertices", begin, end);
+    return Encode(this->Header, this->Origin.Domain, this->Origin.Samples, this->Members,
+      ErrorCode::Always, this->For);
+  }
+
+  DiamondCodes MeasureField() const
+  {
+    this->Report("Measuring errors", 0.25, 0.8);
+    return OwnFieldCodes(
+      this->Origin, this->Header.Region, this->Members, this->Interior, this->For);
+  }
+
+  DiamondCodes MeasureDistances(const Encoding& relevant) const
+  {
+    this->Report("Measuring errors", 0.25, 0.8);
+    return OwnDistanceCodes(this->Origin, IsodiamondHierarchy(relevant, this->For), this->Options,
+      this->Interior, this->For);
+  }
+
+  /** Own errors become thresholds. */
+  void FindThresholds(DiamondCodes& codes) const
+  {
+    if (HasHiddenCells(this->Options))
+    {
+      RefineAtHiddenCells(
+        *this->Options.Hidden, this->Kinds.Active, this->Members, this->For, codes);
+    }
+    this->Report("Finding thresholds", 0.8, 0.9);
+    RaiseToThresholds(this->Origin.Domain, this->Members, this->For, codes);
+  }
+
+  Encoding Complete(Model model, Encoding relevant, DiamondCodes thresholds) const
+  {
+    SetCodes(relevant, std::move(thresholds));
+    relevant.Header.Kind = model;
+    if (model == Model::Minimal)
+    {
+      KeepMinimal(relevant, this->Members, this->Kinds);
+    }
+    return relevant;
+  }
+
+private:
+  void Report(const char* phase, double begin, double end) const
+  {
+    if (this->Options.Report)
+    {
+      this->Options.Report(phase, begin, end);
+    }
+  }
+
+  const Source& Origin;
+  const BuildOptions& Options;
+  const ParallelFor& For;
+  bool Interior; ///< whether it is refined
+  Classification Kinds;
+  DiamondSet Members;
+  EncodingHeader Header;
+};
+
+Encoding BuildByField(Model model, const Source& source, const Isoregion& region,
+  const BuildOptions& options, const ParallelFor& parallelFor)
+{
+  const Steps steps(source, region, options, source.FieldScale, parallelFor);
+  DiamondCodes codes = steps.MeasureField();
+  steps.FindThresholds(codes);
+  // Last: less memory at once.
+  return steps.Complete(model, steps.PlaceIsovertices(0.9, 1.0), std::move(codes));
+}
+
+Encoding BuildByDistance(Model model, const Source& source, const Isoregion& region,
+  const BuildOptions& options, const ParallelFor& parallelFor)
+{
+  // First of all: it throws if there are no distances.
+  const double errorScale = DistanceErrorScale(source.Domain, options.World);
+  const Steps steps(source, region, options, errorScale, parallelFor);
+  // Distances are measured on it.
+  Encoding relevant = steps.PlaceIsovertices(0.2, 0.25);
+  DiamondCodes codes = steps.MeasureDistances(relevant);
+  steps.FindThresholds(codes);
+  return steps.Complete(model, std::move(relevant), std::move(codes));
+}
+
 Encoding Build(Model model, const Source& source, const Isoregion& region,
   const BuildOptions& options, const ParallelFor& parallelFor)
 {
-  const Grid& grid = source.Domain;
-  const auto report = [&](const char* phase, double begin, double end)
-  {
-    if (options.Report)
-    {
-      options.Report(phase, begin, end);
-    }
-  };
-  // First of all: it throws if there are no distances.
-  const double errorScale = options.Metric == ErrorMetric::Field
-    ? source.FieldScale
-    : DistanceErrorScale(grid, options.World);
-  const bool hides = options.Hidden != nullptr && options.Hidden->Any();
-  // What lies in hidden cells can be left out at full resolution only, deep inside too.
-  const bool refineInterior = (options.RefineInterior || hides) && region.IsVolume();
-  report("Classifying diamonds", 0.0, 0.2);
-  Classification kinds = [&]
-  {
-    const SignLattice signs(grid, source.Samples, region, parallelFor);
-    return Classify(grid, signs, parallelFor, refineInterior);
-  }();
-  kinds.Members.Insert(grid.Depth(), 0, CornerBrick());
-  const DiamondSet members(grid, kinds.Members);
-  kinds.Members = DiamondMask();
-
-  EncodingHeader header;
-  header.Dimensions = grid.Dimensions();
-  header.Region = region;
-  header.Metric = options.Metric;
-  header.FieldScale = source.FieldScale;
-  header.ErrorScale = errorScale;
-  header.ExactIsovertices = options.ExactIsovertices;
-  header.ActiveCount = kinds.Active.Size();
-  header.CreationCount = kinds.Creation.Size();
-  header.RelevantCount = members.Size() - 8 - header.ActiveCount;
-  header.Kind = Model::Relevant;
-  const auto encode = [&]
-  { return Encode(header, grid, source.Samples, members, ErrorCode::Always, parallelFor); };
-
-  // Distances are measured on the encoding; otherwise it waits: less memory at once.
-  const bool isFirst = options.Metric == ErrorMetric::Distance;
-  Encoding encoding;
-  if (isFirst)
-  {
-    report("Placing isovertices", 0.2, 0.25);
-    encoding = encode();
-  }
-  report("Measuring errors", 0.25, 0.8);
-  DiamondCodes codes = isFirst
-    ? OwnDistanceCodes(
-        source, IsodiamondHierarchy(encoding, parallelFor), options, refineInterior, parallelFor)
-    : OwnFieldCodes(source, region, members, refineInterior, parallelFor);
-  if (hides)
-  {
-    RefineAtHiddenCells(*options.Hidden, kinds.Active, members, parallelFor, codes);
-  }
-  report("Finding thresholds", 0.8, 0.9);
-  RaiseToThresholds(grid, members, parallelFor, codes);
-  if (!isFirst)
-  {
-    report("Placing isovertices", 0.9, 1.0);
-    encoding = encode();
-  }
-  SetCodes(encoding, std::move(codes));
-  encoding.Header.Kind = model;
-  if (model == Model::Minimal)
-  {
-    KeepMinimal(encoding, members, kinds);
-  }
-  return encoding;
+  return options.Metric == ErrorMetric::Field
+    ? BuildByField(model, source, region, options, parallelFor)
+    : BuildByDistance(model, source, region, options, parallelFor);
 }
 
 }
@@ -279,10 +339,14 @@ Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregio
 {
   const ErrorCode code(FieldErrorScale(samples));
   const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
-  const FieldErrors errors(grid, samples, parallelFor);
+  std::optional<FieldErrors> errors; // takes a pass over the samples, and is not always asked
+  if (options.Metric == ErrorMetric::Field || RefinesInterior(region, options))
+  {
+    errors.emplace(grid, samples, parallelFor);
+  }
   const auto summary = [&](const Place& place)
   {
-    const DomainSummary domain = errors.Summarize(place);
+    const DomainSummary domain = errors->Summarize(place);
     return std::make_pair(code.Encode(domain.Error), domain.Range);
   };
   return Build(model, { grid, samples, code.Scale(), summary }, region, options, parallelFor);

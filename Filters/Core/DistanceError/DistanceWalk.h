@@ -53,28 +53,16 @@ public:
     while (!tasks.empty() && tasks.size() < enough && IsCoarse(tasks[0].Holders[0]))
     {
       std::vector<std::vector<Task>> halves(tasks.size());
-      parallelFor(static_cast<std::int64_t>(tasks.size()), 1,
-        [&](std::int64_t begin, std::int64_t end)
-        {
-          for (std::int64_t i = begin; i < end; ++i)
-          {
-            halves[i] = this->Bisect(tasks[i]);
-          }
-        });
+      ForEachIndex(
+        parallelFor, tasks.size(), 1, [&](std::int64_t i) { halves[i] = this->Bisect(tasks[i]); });
       tasks.clear();
       for (std::vector<Task>& some : halves)
       {
         std::move(some.begin(), some.end(), std::back_inserter(tasks));
       }
     }
-    parallelFor(static_cast<std::int64_t>(tasks.size()), 1,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          this->Descend(std::move(tasks[i]));
-        }
-      });
+    ForEachIndex(
+      parallelFor, tasks.size(), 1, [&](std::int64_t i) { this->Descend(std::move(tasks[i])); });
   }
 
 private:
@@ -98,14 +86,8 @@ private:
     this->Neighbourhood.ForEachTetrahedron(root, false,
       [&](int /*number*/, const HalfPlace& tetrahedron) { tetrahedra.push_back(tetrahedron); });
     std::vector<Task> tasks(tetrahedra.size());
-    parallelFor(static_cast<std::int64_t>(tasks.size()), 1,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          this->FindClusters(tetrahedra[i], tasks[i]);
-        }
-      });
+    ForEachIndex(parallelFor, tasks.size(), 1,
+      [&](std::int64_t i) { this->FindClusters(tetrahedra[i], tasks[i]); });
     tasks.erase(std::remove_if(tasks.begin(), tasks.end(),
                   [](const Task& task) { return task.Holders.empty(); }),
       tasks.end());

@@ -3,8 +3,8 @@
 #define isodiamond_ErrorMaxima_h
 
 #include "Field/Samples.h"
-#include "Patches/WorldLengths.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
+#include "Patches/WorldLengths.h"
 
 #include <algorithm>
 #include <atomic>
@@ -95,10 +95,7 @@ private:
     const TypeTable& shape = ShapeOf(diamond.Position);
     bool finite = true;
     ForEachBit(SampledVertices(this->Source.Domain(), diamond, shape),
-      [&](int i) {
-        finite =
-          finite && this->Finite((1 << diamond.Scale) * (diamond.Position + shape.Offsets[i]));
-      });
+      [&](int i) { finite = finite && this->Finite(VertexAt(diamond, shape.Offsets[i])); });
     return finite;
   }
 
@@ -108,8 +105,7 @@ private:
     const TypeTable& shape = ShapeOf(diamond.Position);
     const std::uint32_t vertices = SampledVertices(this->Source.Domain(), diamond, shape);
     double largest = 0.0;
-    const auto vertexAt = [&](int i)
-    { return (1 << diamond.Scale) * (diamond.Position + shape.Offsets[i]); };
+    const auto vertexAt = [&](int i) { return VertexAt(diamond, shape.Offsets[i]); };
     const auto measure = [&](int a, int b)
     {
       const Vector vector = lengths.Between(vertexAt(b), vertexAt(a));

@@ -68,14 +68,8 @@ public:
     for (std::size_t first = 0; first < bricks; first += some)
     {
       found.assign(std::min(some, bricks - first), {});
-      parallelFor(static_cast<std::int64_t>(found.size()), 16,
-        [&](std::int64_t begin, std::int64_t end)
-        {
-          for (std::int64_t i = begin; i < end; ++i)
-          {
-            this->Find(static_cast<std::uint32_t>(first + i), found[i]);
-          }
-        });
+      ForEachIndex(parallelFor, found.size(), 16,
+        [&](std::int64_t i) { this->Find(static_cast<std::uint32_t>(first + i), found[i]); });
       for (const std::array<IsovertexCluster, 8>& eighths : found)
       {
         std::copy_if(eighths.begin(), eighths.end(), std::back_inserter(this->Clusters),

@@ -2,8 +2,8 @@
 #ifndef isodiamond_SpineNeighbourhood_h
 #define isodiamond_SpineNeighbourhood_h
 
-#include "Lattice/DiamondTetrahedra.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
+#include "Lattice/DiamondTetrahedra.h"
 
 #include <cstdint>
 
@@ -73,8 +73,7 @@ private:
   static bool IsSpineEnd(const Place& diamond, const Point& point)
   {
     const TypeTable& shape = ShapeOf(diamond.Position);
-    const auto isAt = [&](int vertex)
-    { return (1 << diamond.Scale) * (diamond.Position + shape.Offsets[vertex]) == point; };
+    const auto isAt = [&](int vertex) { return VertexAt(diamond, shape.Offsets[vertex]) == point; };
     return isAt(shape.Spine[0]) || isAt(shape.Spine[1]);
   }
 

@@ -19,6 +19,20 @@ namespace isodiamond
 using ParallelFor = std::function<void(std::int64_t count, std::int64_t grain,
   const std::function<void(std::int64_t begin, std::int64_t end)>& body)>;
 
+/** Runs body(i) for all i in [0, count). @param grain least number of them in a range */
+template <typename Count, typename Body>
+void ForEachIndex(const ParallelFor& parallelFor, Count count, std::int64_t grain, const Body& body)
+{
+  parallelFor(static_cast<std::int64_t>(count), grain,
+    [&body](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        body(i);
+      }
+    });
+}
+
 /** Told that a phase of some work begins, and which part of the whole it is, from 0 to 1. */
 using Progress = std::function<void(const char* phase, double begin, double end)>;
 

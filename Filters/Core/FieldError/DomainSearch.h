@@ -42,7 +42,7 @@ public:
     std::array<Corner, MaximumVertices> vertices;
     for (int i = 0; i < shape.VertexCount; ++i)
     {
-      const Point vertex = (1 << place.Scale) * (place.Position + shape.Offsets[i]);
+      const Point vertex = VertexAt(place, shape.Offsets[i]);
       vertices[i] = { vertex, grid.IsSampled(vertex) ? samples(vertex) : 0.0 };
     }
     CutIntoPaths(shape, vertices, MiddleCorner,

@@ -62,7 +62,7 @@ bool HasAllVerticesInside(
   bool any = false;
   for (int i = 0; i < shape.VertexCount; ++i)
   {
-    const Point vertex = (1 << place.Scale) * (place.Position + shape.Offsets[i]);
+    const Point vertex = VertexAt(place, shape.Offsets[i]);
     if (grid.IsSampled(vertex))
     {
       any = true;

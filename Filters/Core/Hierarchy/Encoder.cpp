@@ -155,14 +155,11 @@ void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const Sample
   const std::int64_t brickCount = static_cast<std::int64_t>(bricks.size());
   const auto forEachDiamond = [&](const auto& body)
   {
-    parallelFor(brickCount, 16,
-      [&](std::int64_t begin, std::int64_t end)
+    ForEachIndex(parallelFor, brickCount, 16,
+      [&](std::int64_t i)
       {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          set.ForEachInBrick(bricks[i].Scale, set.Level(bricks[i].Scale).Bricks[bricks[i].Index],
-            [&](const Place& place, std::uint32_t rank) { body(i, place, rank); });
-        }
+        set.ForEachInBrick(bricks[i].Scale, set.Level(bricks[i].Scale).Bricks[bricks[i].Index],
+          [&](const Place& place, std::uint32_t rank) { body(i, place, rank); });
       });
   };
 

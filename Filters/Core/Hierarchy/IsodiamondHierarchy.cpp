@@ -99,17 +99,14 @@ void IsodiamondHierarchy::DeriveAllEdges(const ParallelFor& parallelFor)
   for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
   {
     const std::vector<Brick>& bricks = this->Set.Level(scale).Bricks;
-    parallelFor(static_cast<std::int64_t>(bricks.size()), 16,
-      [&](std::int64_t begin, std::int64_t end)
+    ForEachIndex(parallelFor, bricks.size(), 16,
+      [&](std::int64_t i)
       {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          const BrickLevel& level = this->Set.Level(scale);
-          const BrickWindow window(level, level.Box.Origin(bricks[i].BoxIndex));
-          this->Set.ForEachInBrick(scale, bricks[i],
-            [&](const Place& place, std::uint32_t rank)
-            { this->DeriveDiamond(window, place, rank); });
-        }
+        const BrickLevel& level = this->Set.Level(scale);
+        const BrickWindow window(level, level.Box.Origin(bricks[i].BoxIndex));
+        this->Set.ForEachInBrick(scale, bricks[i],
+          [&](const Place& place, std::uint32_t rank)
+          { this->DeriveDiamond(window, place, rank); });
       });
   }
 }

@@ -491,6 +491,12 @@ inline constexpr Point Centre(const Place& place)
   return (1 << place.Scale) * place.Position;
 }
 
+/** A lattice point at an offset from a diamond's position, in its scale: a vertex, mostly. */
+inline constexpr Point VertexAt(const Place& place, const Point& offset)
+{
+  return (1 << place.Scale) * (place.Position + offset);
+}
+
 /** The place of a child; Scale -1 for those below full resolution. */
 inline constexpr Place ChildPlace(const TypeTable& shape, const Place& parent, int child)
 {
@@ -512,7 +518,7 @@ inline std::uint32_t SampledVertices(const Grid& grid, const Place& place, const
   std::uint32_t mask = 0;
   for (int i = 0; i < shape.VertexCount; ++i)
   {
-    const Point vertex = (1 << place.Scale) * (place.Position + shape.Offsets[i]);
+    const Point vertex = VertexAt(place, shape.Offsets[i]);
     mask |= static_cast<std::uint32_t>(grid.IsSampled(vertex)) << i;
   }
   return mask;

@@ -178,14 +178,7 @@ private:
   template <typename Body>
   void ForEachBrick(Body&& body) const
   {
-    this->Parallel(static_cast<std::int64_t>(this->Bricks.size()), 16,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t brick = begin; brick < end; ++brick)
-        {
-          body(brick);
-        }
-      });
+    ForEachIndex(this->Parallel, this->Bricks.size(), 16, [&](std::int64_t brick) { body(brick); });
   }
 
   /** Whether a brick has nothing to do with the mesh; an interval volume has its inside at all

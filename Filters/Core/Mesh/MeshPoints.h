@@ -123,30 +123,27 @@ void ForEachStoredPoint(
 {
   const bool isVolume = hierarchy.Region().IsVolume();
   const std::vector<BrickPlace> bricks = AllBricks(hierarchy.Diamonds());
-  parallelFor(static_cast<std::int64_t>(bricks.size()), 16,
-    [&](std::int64_t begin, std::int64_t end)
+  ForEachIndex(parallelFor, bricks.size(), 16,
+    [&](std::int64_t i)
     {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const BrickLevel& level = hierarchy.Diamonds().Level(bricks[i].Scale);
-        std::int64_t inside = isVolume ? hierarchy.FirstInsideValue(i) : 0;
-        hierarchy.Diamonds().ForEachInBrick(bricks[i].Scale, level.Bricks[bricks[i].Index],
-          [&](const Place& place, std::uint32_t rank)
-          {
-            const bool hasCentre = isVolume && hierarchy.Sign(rank) == InsideSign;
-            DiamondPoints own;
-            own.Bits = (hasCentre ? 1U << DiamondPoints::Centre : 0U) |
-              hierarchy.Edges(rank) << DiamondPoints::Isovertex(0, 0) |
-              (isVolume ? hierarchy.UpperEdges(rank) : 0U) << DiamondPoints::Isovertex(1, 0);
-            ForEachPointOf(hierarchy, place, rank, own, inside,
-              [&](MeshPoint point)
-              {
-                point.Id = StoredNumber(hierarchy, point);
-                body(point);
-              });
-            inside += hasCentre ? 1 : 0;
-          });
-      }
+      const BrickLevel& level = hierarchy.Diamonds().Level(bricks[i].Scale);
+      std::int64_t inside = isVolume ? hierarchy.FirstInsideValue(i) : 0;
+      hierarchy.Diamonds().ForEachInBrick(bricks[i].Scale, level.Bricks[bricks[i].Index],
+        [&](const Place& place, std::uint32_t rank)
+        {
+          const bool hasCentre = isVolume && hierarchy.Sign(rank) == InsideSign;
+          DiamondPoints own;
+          own.Bits = (hasCentre ? 1U << DiamondPoints::Centre : 0U) |
+            hierarchy.Edges(rank) << DiamondPoints::Isovertex(0, 0) |
+            (isVolume ? hierarchy.UpperEdges(rank) : 0U) << DiamondPoints::Isovertex(1, 0);
+          ForEachPointOf(hierarchy, place, rank, own, inside,
+            [&](MeshPoint point)
+            {
+              point.Id = StoredNumber(hierarchy, point);
+              body(point);
+            });
+          inside += hasCentre ? 1 : 0;
+        });
     });
 }
 

@@ -157,24 +157,21 @@ DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalToler
   {
     const BrickLevel& level = hierarchy.Diamonds().Level(scale);
     std::vector<BrickMask> added(level.Bricks.size());
-    parallelFor(static_cast<std::int64_t>(level.Bricks.size()), 16,
-      [&](std::int64_t begin, std::int64_t end)
+    ForEachIndex(parallelFor, level.Bricks.size(), 16,
+      [&](std::int64_t i)
       {
-        for (std::int64_t i = begin; i < end; ++i)
+        const Brick& brick = level.Bricks[i];
+        const Exceeds exceedsLeast(
+          hierarchy, tolerance.LeastIn(scale, level.Box.Origin(brick.BoxIndex)));
+        if (exceedsLeast.InBrick(level.FirstNumber + i))
         {
-          const Brick& brick = level.Bricks[i];
-          const Exceeds exceedsLeast(
-            hierarchy, tolerance.LeastIn(scale, level.Box.Origin(brick.BoxIndex)));
-          if (exceedsLeast.InBrick(level.FirstNumber + i))
+          BrickMask candidates = ExceedingIn(brick, exceedsLeast);
+          const BrickMask everywhere = ExceedingIn(brick, exceedsEverywhere);
+          for (int z = 0; z < 8; ++z)
           {
-            BrickMask candidates = ExceedingIn(brick, exceedsLeast);
-            const BrickMask everywhere = ExceedingIn(brick, exceedsEverywhere);
-            for (int z = 0; z < 8; ++z)
-            {
-              candidates[z] &= ~everywhere[z];
-            }
-            added[i] = ExceedingLocally(hierarchy, { scale, i }, brick, candidates, tolerance);
+            candidates[z] &= ~everywhere[z];
           }
+          added[i] = ExceedingLocally(hierarchy, { scale, i }, brick, candidates, tolerance);
         }
       });
     for (std::size_t i = 0; i < added.size(); ++i)
@@ -208,18 +205,15 @@ DiamondSet Select(const IsodiamondHierarchy& hierarchy, const Exceeds& exceeds,
       }
     }
     std::vector<BrickMask> masks(candidates.size());
-    parallelFor(static_cast<std::int64_t>(candidates.size()), 64,
-      [&](std::int64_t begin, std::int64_t end)
+    ForEachIndex(parallelFor, candidates.size(), 64,
+      [&](std::int64_t i)
       {
-        for (std::int64_t i = begin; i < end; ++i)
+        const Brick& brick = *candidates[i];
+        masks[i] = ExceedingIn(brick, exceeds);
+        const BrickMask* more = wanted != nullptr ? wanted->Find(scale, brick.BoxIndex) : nullptr;
+        for (int z = 0; more != nullptr && z < 8; ++z)
         {
-          const Brick& brick = *candidates[i];
-          masks[i] = ExceedingIn(brick, exceeds);
-          const BrickMask* more = wanted != nullptr ? wanted->Find(scale, brick.BoxIndex) : nullptr;
-          for (int z = 0; more != nullptr && z < 8; ++z)
-          {
-            masks[i][z] |= (*more)[z] & brick.Occupancy[z];
-          }
+          masks[i][z] |= (*more)[z] & brick.Occupancy[z];
         }
       });
     for (std::size_t i = 0; i < candidates.size(); ++i)

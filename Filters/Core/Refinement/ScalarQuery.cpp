@@ -25,7 +25,7 @@ bool IsActiveOrCreation(
   addSign(Centre(place));
   for (int i = 0; i < shape.VertexCount; ++i)
   {
-    addSign((1 << place.Scale) * (place.Position + shape.Offsets[i]));
+    addSign(VertexAt(place, shape.Offsets[i]));
   }
   const bool oneSign = (signs & (signs - 1)) == 0;
   return !oneSign || (region.IsVolume() && signs == 1U << InsideSign);
