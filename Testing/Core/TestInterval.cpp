@@ -2,6 +2,7 @@
 // Interval volumes: patches, meshes at every tolerance in every model, volumes.
 #include "IntervalTestTools.h"
 #include "Patches/IntervalPatches.h"
+#include "Refinement/ScalarQuery.h"
 
 #include <gtest/gtest.h>
 

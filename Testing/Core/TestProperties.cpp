@@ -2,6 +2,7 @@
 // What must hold for any samples, regions and queries, on random ones. The seed is printed; with
 // ISODIAMONDS_SEED the same cases come again, ISODIAMONDS_CASES is how many.
 #include "IntervalTestTools.h"
+#include "Refinement/ScalarQuery.h"
 
 #include <gtest/gtest.h>
 

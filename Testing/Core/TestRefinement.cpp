@@ -2,6 +2,7 @@
 // Refined sets against the reference's walk and its smallest closed set, diamond by diamond.
 #include "Build/ActivationThresholds.h"
 #include "Build/Classification.h"
+#include "Refinement/ScalarQuery.h"
 #include "CoreTestTools.h"
 
 #include "ReferenceMinimal.h"

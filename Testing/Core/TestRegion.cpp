@@ -2,6 +2,7 @@
 // Regions of interest: which diamonds touch one, the refined set in all models and for both shapes,
 // the counts of subdivided and front diamonds.
 #include "IntervalTestTools.h"
+#include "Refinement/ScalarQuery.h"
 
 #include "ReferenceRegion.h"
 

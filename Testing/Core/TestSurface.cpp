@@ -3,6 +3,7 @@
 // every tolerance.
 #include "CoreTestTools.h"
 #include "Mesh/DiamondMesh.h"
+#include "Refinement/ScalarQuery.h"
 
 #include <gtest/gtest.h>
 
