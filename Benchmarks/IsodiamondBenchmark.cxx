@@ -144,10 +144,10 @@ Arguments Parse(const std::vector<std::string>& words)
     else if (!TakeFlag(words[i], arguments))
     {
       const std::string value = i + 1 < words.size() ? words[i + 1] : "";
-      if (!TakeOption(words[i], value, arguments))
+      if (value.empty() || !TakeOption(words[i], value, arguments))
       {
-        throw std::invalid_argument(
-          "There is no option \"" + words[i] + " " + value + "\"; see --help.");
+        throw std::invalid_argument("There is no option " + words[i] +
+          (value.empty() ? " without a value" : " \"" + value + "\"") + "; see --help.");
       }
       ++i;
     }
