@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 # What Isodiamonds is measured beside, and the plots.
-benchmark_packages="libmeshoptimizer-dev libopenvdb-dev python3-matplotlib"
+benchmark_packages="nlohmann-json3-dev libmeshoptimizer-dev libopenvdb-dev python3-matplotlib"
 build=$root/build-bench
 output=$root/benchmark-output
 

@@ -9,8 +9,9 @@ compile_packages="cmake ninja-build g++"
 render_packages="xvfb xauth"
 # The MRI head of the demo.
 demo_packages="mricron-data"
-# GoogleTest, VTK's rendering tests, and programs under MPI.
-test_packages="libgtest-dev libglew-dev libfreetype-dev mpi-default-bin"
+# GoogleTest, VTK's rendering tests, programs under MPI, and the benchmarks' files.
+test_packages="libgtest-dev libglew-dev libfreetype-dev mpi-default-bin
+  nlohmann-json3-dev"
 
 fail() {
   echo "$(basename "$0"): $*" >&2
