@@ -5,10 +5,10 @@ set(CPACK_PACKAGE_VENDOR "The Isodiamonds developers")
 set(CPACK_PACKAGE_CONTACT "${CPACK_PACKAGE_VENDOR}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY
   "Adaptive isosurfaces and interval volumes of large volumes, for ParaView and VTK")
-set(CPACK_PACKAGE_DESCRIPTION
-  "Builds a compact multiresolution hierarchy of an isosurface or an interval volume, and extracts
- triangle or tetrahedral meshes without cracks from it at any error tolerance. A plugin for ParaView,
- a Python package, and headers and CMake files for C++.")
+string(CONCAT CPACK_PACKAGE_DESCRIPTION
+  "Builds a compact multiresolution hierarchy of an isosurface or an interval volume, and extracts\n"
+  "triangle or tetrahedral meshes without cracks from it at any error tolerance. A plugin for\n"
+  "ParaView, a Python package, and headers and CMake files for C++.")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)

@@ -138,7 +138,7 @@ void ExpectReferencesErrors(const test::Field& field, const GridGeometry& world,
     for (const bool preserve : { true, false })
     {
       const test::Built relevant = test::Build(Model::Relevant, field, test::Placement(exact));
-      const Grid& grid = relevant.Hierarchy->Domain();
+      const Grid& grid = relevant.Hierarchy->SampleGrid();
       const ErrorCode code(DistanceErrorScale(grid, world));
       const std::vector<ErrorCode::Type> found =
         DistanceErrors(*relevant.Hierarchy, field.View(), world, preserve, test::ThreadedFor(2));
@@ -207,7 +207,7 @@ TEST(DistanceError, IsThatOfTheMapAlongEvenAxes)
     {
       const test::Built relevant(
         BuildIsodiamonds(Model::Relevant, field.View(), region, SerialFor), SerialFor);
-      const Grid& grid = relevant.Hierarchy->Domain();
+      const Grid& grid = relevant.Hierarchy->SampleGrid();
       EXPECT_EQ(DistanceErrorScale(grid, axes), DistanceErrorScale(grid, world));
       for (const bool preserve : { true, false })
       {

@@ -124,7 +124,7 @@ TEST(Encoding, DamageIsRefused)
     [](Encoding& e) {
       e.Header.Dimensions = { 9, 12, 9 };
     },
-    [](Encoding& e) { e.Header.Kind = Model::HierarchyOfDiamonds; },
+    [](Encoding& e) { e.Header.TheModel = Model::HierarchyOfDiamonds; },
     [](Encoding& e) { e.Header.ErrorScale = 0.0; },
     [](Encoding& e) { e.Header.ErrorScale = std::numeric_limits<double>::quiet_NaN(); },
     [](Encoding& e) { e.Arrays.BrickCounts.pop_back(); },

@@ -55,7 +55,7 @@ struct Oracle
 void ExpectSameSet(const Oracle& oracle, const std::vector<ReferenceKind>& kinds,
   const reference::DiamondSet& expected, const RefinedSet& refined, bool minimal)
 {
-  const Grid& grid = refined.Hierarchy().Domain();
+  const Grid& grid = refined.Hierarchy().SampleGrid();
   for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
   {
     const bool stored =
@@ -209,7 +209,7 @@ TEST(IntervalReference, RefinedSetsAndMeshesAreTheSameInAllModels)
           for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
           {
             const Place place =
-              test::PlaceOf(scalars.Hierarchy->Domain(), oracle.Hierarchy.At(i).Center);
+              test::PlaceOf(scalars.Hierarchy->SampleGrid(), oracle.Hierarchy.At(i).Center);
             ASSERT_EQ(subdivided.Contains(place), bool(expected[i]));
           }
           if (field.Name.find("broken") == std::string::npos)

@@ -234,12 +234,12 @@ Query RandomQuery(Random& random, const IsodiamondHierarchy& hierarchy)
     Box box;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double a = Uniform(random, -2.0, hierarchy.Domain().Last(axis) + 2.0);
-      const double b = Uniform(random, -2.0, hierarchy.Domain().Last(axis) + 2.0);
+      const double a = Uniform(random, -2.0, hierarchy.SampleGrid().Last(axis) + 2.0);
+      const double b = Uniform(random, -2.0, hierarchy.SampleGrid().Last(axis) + 2.0);
       box.Minimum[axis] = std::min(a, b);
       box.Maximum[axis] = std::max(a, b);
     }
-    query.Region.emplace(box, hierarchy.Domain(), AffineMap());
+    query.Region.emplace(box, hierarchy.SampleGrid(), AffineMap());
     query.OutsideTolerance = RandomTolerance(random, hierarchy.Codes().Scale());
   }
   return query;

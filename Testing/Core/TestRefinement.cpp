@@ -2,8 +2,8 @@
 // Refined sets against the reference's walk and its smallest closed set, diamond by diamond.
 #include "Build/ActivationThresholds.h"
 #include "Build/Classification.h"
-#include "Refinement/ScalarQuery.h"
 #include "CoreTestTools.h"
+#include "Refinement/ScalarQuery.h"
 
 #include "ReferenceMinimal.h"
 
@@ -51,7 +51,7 @@ struct Oracle
 void ExpectSameSet(const Oracle& oracle, const reference::DiamondSet& expected,
   const RefinedSet& refined, bool minimal)
 {
-  const Grid& grid = refined.Hierarchy().Domain();
+  const Grid& grid = refined.Hierarchy().SampleGrid();
   for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
   {
     const bool stored = !minimal || oracle.Kinds[i] == ReferenceKind::Active ||
@@ -89,7 +89,7 @@ TEST(Refinement, EqualsTheReferenceWalkInAllModels)
       for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
       {
         ASSERT_EQ(subdivided.Contains(
-                    test::PlaceOf(scalars.Hierarchy->Domain(), oracle.Hierarchy.At(i).Center)),
+                    test::PlaceOf(scalars.Hierarchy->SampleGrid(), oracle.Hierarchy.At(i).Center)),
           expected[i]);
       }
     }
@@ -197,7 +197,7 @@ TEST(Refinement, TheWalkOnTheMinimalStructureFindsTheSameSet)
     const test::Built minimal = test::Build(Model::Minimal, field, test::Placement(false));
     const ErrorCode& code = minimal.Hierarchy->Codes();
     const Oracle oracle(field, code);
-    const Grid& grid = minimal.Hierarchy->Domain();
+    const Grid& grid = minimal.Hierarchy->SampleGrid();
     std::vector<double> thresholds(oracle.Hierarchy.Size(), 0.0);
     for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
     {

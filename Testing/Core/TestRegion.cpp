@@ -91,7 +91,7 @@ void ExpectSet(const reference::Hierarchy& hierarchy, const reference::DiamondSe
   const std::vector<ReferenceKind>& kinds, const RefinedSet& refined, Model model)
 {
   const reference::DiamondSet stored = Stored(expected, kinds, model);
-  const Grid& grid = refined.Hierarchy().Domain();
+  const Grid& grid = refined.Hierarchy().SampleGrid();
   for (int i = 0; i < hierarchy.Size(); ++i)
   {
     ASSERT_EQ(refined.Contains(test::PlaceOf(grid, hierarchy.At(i).Center)), bool(stored[i]))
@@ -150,7 +150,7 @@ void ExpectAllModels(const test::Field& field, const Isoregion& region, const Co
   const test::BuiltScalars scalars = test::BuildScalars(field);
   const ErrorCode& code = minimal.Hierarchy->Codes();
   const Oracle oracle(field, region, code);
-  const Grid& grid = minimal.Hierarchy->Domain();
+  const Grid& grid = minimal.Hierarchy->SampleGrid();
   for (const Box& box : RandomBoxes(field.Dims, 4711, 12))
   {
     for (const double outside : { Infinity, 0.3 * code.Scale() })
@@ -355,7 +355,7 @@ TEST(Region, GivesOneMeshByTheDistanceMetricWhateverTheThreads)
     for (const Box& box : RandomBoxes(field.Dims, 52, 10))
     {
       const Query query{ 0.1, HUGE_VAL,
-        RegionOfInterest(box, minimal.Hierarchy->Domain(), AffineMap()), 2.0 };
+        RegionOfInterest(box, minimal.Hierarchy->SampleGrid(), AffineMap()), 2.0 };
       const test::Mesh mesh = test::Extract(*minimal.Hierarchy, query);
       EXPECT_TRUE(mesh == test::Extract(*relevant.Hierarchy, query));
       EXPECT_TRUE(mesh == test::Extract(*minimal.Hierarchy, query, test::ThreadedFor(3)));
@@ -367,7 +367,7 @@ TEST(Region, AtItsExtremesIsAUniformMesh)
 {
   const test::Field field = test::SphereField({ 33, 33, 33 });
   const test::Built built = test::Build(Model::Minimal, field);
-  const Grid& grid = built.Hierarchy->Domain();
+  const Grid& grid = built.Hierarchy->SampleGrid();
   const double fine = 0.01 * built.Hierarchy->Codes().Scale();
   const double coarse = 0.1 * built.Hierarchy->Codes().Scale();
   const auto extract = [&](const Box& box)
@@ -400,7 +400,7 @@ TEST(Region, HoldsTheInteriorToleranceInsideOnly)
   const test::Built built(
     BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, test::Interior(true)),
     SerialFor);
-  const Grid& grid = built.Hierarchy->Domain();
+  const Grid& grid = built.Hierarchy->SampleGrid();
   const auto extract = [&](const Box& box)
   {
     return test::ExtractVolume(

@@ -151,7 +151,7 @@ Arrays Read(const std::uint8_t* data, std::size_t size)
   Arrays arrays;
   VisitAll(source, numbers, arrays);
   EncodingHeader& header = arrays.Isodiamonds.Header;
-  header.Kind = static_cast<Model>(numbers.Kind % 3);
+  header.TheModel = static_cast<Model>(numbers.Kind % 3);
   header.Metric = static_cast<ErrorMetric>(numbers.Metric % 2);
   header.ExactIsovertices = numbers.IsExact != 0;
   header.Region = numbers.IsVolume % 2 != 0 ? Isoregion(numbers.Isorange[0], numbers.Isorange[1])
@@ -163,7 +163,7 @@ std::vector<std::uint8_t> Write(const Arrays& arrays)
 {
   const EncodingHeader& header = arrays.Isodiamonds.Header;
   Numbers numbers;
-  numbers.Kind = static_cast<std::uint8_t>(header.Kind);
+  numbers.Kind = static_cast<std::uint8_t>(header.TheModel);
   numbers.Metric = static_cast<std::uint8_t>(header.Metric);
   numbers.IsExact = header.ExactIsovertices ? 1 : 0;
   numbers.IsVolume = header.Region.IsVolume() ? 1 : 0;

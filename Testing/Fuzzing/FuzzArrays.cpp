@@ -84,7 +84,7 @@ void QueryIsodiamonds(const fuzz::Arrays& arrays)
   seen.View.emplace(Vector{ arrays.Region[0], arrays.Region[1], arrays.Region[2] },
     std::abs(arrays.Tolerance), AffineMap());
   Extract(hierarchy, seen);
-  Extract(hierarchy, RegionQuery(arrays, hierarchy.Domain()));
+  Extract(hierarchy, RegionQuery(arrays, hierarchy.SampleGrid()));
 }
 
 void QueryScalars(const fuzz::Arrays& arrays)
@@ -110,7 +110,7 @@ void QueryScalars(const fuzz::Arrays& arrays)
   const ScalarHierarchy hierarchy(samples, header.ErrorScale, arrays.Errors.data(),
     static_cast<std::int64_t>(arrays.Errors.size()), ViewOf(arrays.Minima), ViewOf(arrays.Maxima));
   for (const Query& query : { Query{}, Query{ arrays.Tolerance, arrays.InteriorTolerance },
-         RegionQuery(arrays, hierarchy.Domain()) })
+         RegionQuery(arrays, hierarchy.SampleGrid()) })
   {
     const Encoding answer =
       EncodeQuery(hierarchy, header.Region, query, header.ExactIsovertices, SerialFor);
@@ -131,7 +131,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
       return 0; // takes long without anything to find; TestEncoding looks at the limits
     }
-    if (arrays.Isodiamonds.Header.Kind == Model::HierarchyOfDiamonds)
+    if (arrays.Isodiamonds.Header.TheModel == Model::HierarchyOfDiamonds)
     {
       QueryScalars(arrays);
     }

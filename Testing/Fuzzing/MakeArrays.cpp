@@ -59,7 +59,7 @@ void SaveAll(const std::string& folder, const std::array<int, 3>& dimensions)
     fuzz::Arrays hd;
     hd.Tolerance = 0.3;
     hd.InteriorTolerance = 0.2;
-    hd.Isodiamonds.Header.Kind = Model::HierarchyOfDiamonds;
+    hd.Isodiamonds.Header.TheModel = Model::HierarchyOfDiamonds;
     hd.Isodiamonds.Header.Dimensions = dimensions;
     hd.Isodiamonds.Header.Region = region;
     hd.Isodiamonds.Header.ErrorScale = scalars.ErrorScale;

@@ -4,6 +4,7 @@
 #include "Build/ActivationThresholds.h"
 #include "Build/Classification.h"
 #include "DistanceError/DistanceError.h"
+#include "Field/DiamondSigns.h"
 #include "FieldError/FieldError.h"
 #include "Hierarchy/Encoder.h"
 
@@ -20,7 +21,7 @@ namespace
 /** Where the samples, field errors and ranges of a build come from. */
 struct Source
 {
-  const Grid& Domain;
+  const Grid& SampleGrid;
   const AnySamples& Samples;
   double FieldScale = 1.0;
   /** The code of a diamond's own field error, and the range of its domain. */
@@ -64,11 +65,12 @@ DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const 
     [&](const Place& place, std::uint32_t rank)
     {
       const auto [code, range] = source.Summary(place);
-      if (OwnErrorCounts(region, source.Domain, range, place))
+      if (OwnErrorCounts(region, source.SampleGrid, range, place))
       {
         triggers.Surface[rank] = code;
       }
-      if (refineInterior && HasAllVerticesInside(region, source.Domain, source.Samples, place))
+      if (refineInterior &&
+        DiamondSigns(region, source.SampleGrid, source.Samples, place).HasAllVerticesInside())
       {
         triggers.Interior[rank] = code;
       }
@@ -88,11 +90,12 @@ DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& r
     [&](const Place& place, std::uint32_t rank)
     {
       if (!relevant.Region().IsVolume() ||
-        !HasAllVerticesInside(relevant.Region(), source.Domain, source.Samples, place))
+        !DiamondSigns(relevant.Region(), source.SampleGrid, source.Samples, place)
+           .HasAllVerticesInside())
       {
         return;
       }
-      if (source.Domain.SticksOut(place.Position, place.Scale))
+      if (source.SampleGrid.SticksOut(place.Position, place.Scale))
       {
         triggers.Surface[rank] = ErrorCode::Always; // it holds volume
       }
@@ -217,7 +220,7 @@ public:
     , Interior(RefinesInterior(region, options))
   {
     this->Report("Classifying diamonds", 0.0, 0.2);
-    const Grid& grid = source.Domain;
+    const Grid& grid = source.SampleGrid;
     {
       const SignLattice signs(grid, source.Samples, region, parallelFor);
       this->Kinds = Classify(grid, signs, parallelFor, this->Interior);
@@ -226,7 +229,7 @@ public:
     this->Members = DiamondSet(grid, this->Kinds.Members);
     this->Kinds.Members = DiamondMask();
 
-    this->Header.Kind = Model::Relevant;
+    this->Header.TheModel = Model::Relevant;
     this->Header.Dimensions = grid.Dimensions();
     this->Header.Region = region;
     this->Header.Metric = options.Metric;
@@ -242,7 +245,7 @@ public:
   Encoding PlaceIsovertices(double begin, double end) const
   {
     this->Report("Placing isovertices", begin, end);
-    return Encode(this->Header, this->Origin.Domain, this->Origin.Samples, this->Members,
+    return Encode(this->Header, this->Origin.SampleGrid, this->Origin.Samples, this->Members,
       ErrorCode::Always, this->For);
   }
 
@@ -269,13 +272,13 @@ public:
         *this->Options.Hidden, this->Kinds.Active, this->Members, this->For, codes);
     }
     this->Report("Finding thresholds", 0.8, 0.9);
-    RaiseToThresholds(this->Origin.Domain, this->Members, this->For, codes);
+    RaiseToThresholds(this->Origin.SampleGrid, this->Members, this->For, codes);
   }
 
   Encoding Complete(Model model, Encoding relevant, DiamondCodes thresholds) const
   {
     SetCodes(relevant, std::move(thresholds));
-    relevant.Header.Kind = model;
+    relevant.Header.TheModel = model;
     if (model == Model::Minimal)
     {
       KeepMinimal(relevant, this->Members, this->Kinds);
@@ -315,7 +318,7 @@ Encoding BuildByDistance(Model model, const Source& source, const Isoregion& reg
   const BuildOptions& options, const ParallelFor& parallelFor)
 {
   // First of all: it throws if there are no distances.
-  const double errorScale = DistanceErrorScale(source.Domain, options.World);
+  const double errorScale = DistanceErrorScale(source.SampleGrid, options.World);
   const Steps steps(source, region, options, errorScale, parallelFor);
   // Distances are measured on it.
   Encoding relevant = steps.PlaceIsovertices(0.2, 0.25);
@@ -358,7 +361,7 @@ Encoding BuildIsodiamonds(Model model, const ScalarHierarchy& hierarchy, const I
   const auto summary = [&](const Place& place)
   { return std::make_pair(hierarchy.Error(place), hierarchy.Range(place)); };
   return Build(model,
-    { hierarchy.Domain(), hierarchy.Samples(), hierarchy.Codes().Scale(), summary }, region,
+    { hierarchy.SampleGrid(), hierarchy.Samples(), hierarchy.Codes().Scale(), summary }, region,
     options, parallelFor);
 }
 

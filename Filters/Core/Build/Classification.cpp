@@ -118,7 +118,7 @@ class BrickClassifier
 {
 public:
   BrickClassifier(const Grid& grid, const SignLattice& signs, int scale, bool keepInside)
-    : Domain(grid)
+    : TheGrid(grid)
     , Signs(signs)
     , Scale(scale)
     , KeepInside(keepInside)
@@ -159,7 +159,7 @@ public:
       {
         // Never a leaf of the mesh: their tetrahedra outside of the grid would be missing inside.
         brick.Kinds.Active[z] |=
-          this->KeepInside ? inside : StickingOut(this->Domain, this->Scale, origin, z, inside);
+          this->KeepInside ? inside : StickingOut(this->TheGrid, this->Scale, origin, z, inside);
       }
       any |= brick.Kinds.Active[z] | brick.Kinds.Creation[z];
     }
@@ -174,10 +174,10 @@ private:
   bool WantsInside(const Point& origin) const
   {
     const Point end = (1 << this->Scale) * (origin + Point{ 9, 9, 9 });
-    return Surfaces == 2 && (this->KeepInside || !this->Domain.IsSampled(end));
+    return Surfaces == 2 && (this->KeepInside || !this->TheGrid.IsSampled(end));
   }
 
-  const Grid& Domain;
+  const Grid& TheGrid;
   const SignLattice& Signs;
   int Scale;
   bool KeepInside;

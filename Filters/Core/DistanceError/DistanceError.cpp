@@ -26,7 +26,7 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   const ParallelFor& parallelFor)
 {
   ErrorMaxima errors(
-    relevant, samples, world, DistanceErrorScale(relevant.Domain(), world), preserveFeatures);
+    relevant, samples, world, DistanceErrorScale(relevant.SampleGrid(), world), preserveFeatures);
   for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
   {
     for (const auto ends : { IsovertexClusters::Ends::Finite, IsovertexClusters::Ends::NotFinite })

@@ -82,7 +82,7 @@ private:
   std::vector<Task> RootTasks(const ParallelFor& parallelFor) const
   {
     std::vector<HalfPlace> tetrahedra;
-    const Place root{ this->Errors.Hierarchy().Domain().Depth() - 1, { 1, 1, 1 } };
+    const Place root{ this->Errors.Hierarchy().SampleGrid().Depth() - 1, { 1, 1, 1 } };
     this->Neighbourhood.ForEachTetrahedron(root, false,
       [&](int /*number*/, const HalfPlace& tetrahedron) { tetrahedra.push_back(tetrahedron); });
     std::vector<Task> tasks(tetrahedra.size());
@@ -132,7 +132,8 @@ private:
   void Split(const Holder& holder, const std::vector<ClusterPart>& items,
     Generation<ClusterPart>& halves) const
   {
-    ForEachHalf(this->Errors.Hierarchy().Domain(), holder.Tetrahedron, holder.Diamond, holder.Rank,
+    ForEachHalf(this->Errors.Hierarchy().SampleGrid(), holder.Tetrahedron, holder.Diamond,
+      holder.Rank,
       [&](const HalfPlace& half, const ExactPlane& plane)
       {
         const std::size_t begin = halves.Count;
@@ -155,7 +156,8 @@ private:
     std::array<HalfPlace, 2> places;
     ExactPlane plane; // whose positive side is the last half's
     int count = 0;
-    ForEachHalf(this->Errors.Hierarchy().Domain(), holder.Tetrahedron, holder.Diamond, holder.Rank,
+    ForEachHalf(this->Errors.Hierarchy().SampleGrid(), holder.Tetrahedron, holder.Diamond,
+      holder.Rank,
       [&](const HalfPlace& half, const ExactPlane& turned)
       {
         places[count++] = half;

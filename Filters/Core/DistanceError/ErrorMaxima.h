@@ -62,7 +62,7 @@ public:
   /** Whether a diamond that holds an isovertex must not be a leaf, wherever it lies. */
   bool HasNoInterpolant(const Place& diamond) const
   {
-    return this->Source.Domain().SticksOut(diamond.Position, diamond.Scale) ||
+    return this->Source.SampleGrid().SticksOut(diamond.Position, diamond.Scale) ||
       !(this->Finite.All() || this->HasFiniteVertices(diamond));
   }
 
@@ -94,7 +94,7 @@ private:
   {
     const TypeTable& shape = ShapeOf(diamond.Position);
     bool finite = true;
-    ForEachBit(SampledVertices(this->Source.Domain(), diamond, shape),
+    ForEachBit(SampledVertices(this->Source.SampleGrid(), diamond, shape),
       [&](int i) { finite = finite && this->Finite(VertexAt(diamond, shape.Offsets[i])); });
     return finite;
   }
@@ -103,7 +103,7 @@ private:
   double SquaredDiameter(const Lengths& lengths, const Place& diamond) const
   {
     const TypeTable& shape = ShapeOf(diamond.Position);
-    const std::uint32_t vertices = SampledVertices(this->Source.Domain(), diamond, shape);
+    const std::uint32_t vertices = SampledVertices(this->Source.SampleGrid(), diamond, shape);
     double largest = 0.0;
     const auto vertexAt = [&](int i) { return VertexAt(diamond, shape.Offsets[i]); };
     const auto measure = [&](int a, int b)

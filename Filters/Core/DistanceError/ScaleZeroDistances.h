@@ -145,7 +145,8 @@ private:
         [&](int number, const HalfPlace& tetrahedron)
         {
           isAny = isAny ||
-            (((holders >> number) & 1U) != 0 && IsInGrid(this->Hierarchy.Domain(), tetrahedron));
+            (((holders >> number) & 1U) != 0 &&
+              IsInGrid(this->Hierarchy.SampleGrid(), tetrahedron));
         });
     return isAny;
   }

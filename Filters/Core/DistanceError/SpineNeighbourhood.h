@@ -26,7 +26,7 @@ public:
   template <typename Body>
   void ForEachTetrahedron(const Place& diamond, bool onlySampled, Body&& body) const
   {
-    const Grid& grid = this->Hierarchy.Domain();
+    const Grid& grid = this->Hierarchy.SampleGrid();
     const int h = 1 << diamond.Scale;
     const bool allSampled = grid.IsSampled(Centre(diamond) + Point{ -h, -h, -h }) &&
       grid.IsSampled(Centre(diamond) + Point{ h, h, h });
@@ -56,13 +56,13 @@ public:
   bool Coarsen(HalfPlace& tetrahedron, const Place& diamond) const
   {
     const Place parent = tetrahedron.Parent;
-    if (parent.Scale == this->Hierarchy.Domain().Depth() || IsSpineEnd(diamond, Centre(parent)))
+    if (parent.Scale == this->Hierarchy.SampleGrid().Depth() || IsSpineEnd(diamond, Centre(parent)))
     {
       return false;
     }
     tetrahedron = TetrahedronOf(parent, NumberOfWhole(parent.Position, *tetrahedron.Half));
     const std::int64_t rank =
-      this->Hierarchy.Domain().IsValid(tetrahedron.Parent.Position, tetrahedron.Parent.Scale)
+      this->Hierarchy.SampleGrid().IsValid(tetrahedron.Parent.Position, tetrahedron.Parent.Scale)
       ? this->Hierarchy.Diamonds().Rank(tetrahedron.Parent)
       : DiamondSet::None;
     tetrahedron.Rank = static_cast<std::uint32_t>(rank);
@@ -80,7 +80,7 @@ private:
   /** Whether a tetrahedron has samples at all of its vertices. */
   bool IsSampled(const HalfPlace& tetrahedron) const
   {
-    const Grid& grid = this->Hierarchy.Domain();
+    const Grid& grid = this->Hierarchy.SampleGrid();
     const std::uint32_t sampled = SampledVertices(grid, tetrahedron.Parent, tetrahedron.Shape());
     return (tetrahedron.Half->Mask & ~sampled) == 0 && grid.IsSampled(Centre(tetrahedron.Parent));
   }

@@ -41,7 +41,7 @@ public:
    * @throws std::invalid_argument unless lower < upper
    */
   Isoregion(double lower, double upper)
-    : Form(Shape::IntervalVolume)
+    : TheShape(Shape::IntervalVolume)
     , Limits{ lower, upper }
   {
     if (!(lower < upper))
@@ -53,11 +53,11 @@ public:
 
   bool operator==(const Isoregion& other) const
   {
-    return this->Form == other.Form && this->Limits == other.Limits;
+    return this->TheShape == other.TheShape && this->Limits == other.Limits;
   }
 
-  Shape Kind() const { return this->Form; }
-  bool IsVolume() const { return this->Form == Shape::IntervalVolume; }
+  Shape Form() const { return this->TheShape; }
+  bool IsVolume() const { return this->TheShape == Shape::IntervalVolume; }
   int SurfaceCount() const { return this->IsVolume() ? 2 : 1; }
 
   /** The isovalue of a surface. */
@@ -91,7 +91,7 @@ public:
   }
 
 private:
-  Shape Form = Shape::Isosurface;
+  Shape TheShape = Shape::Isosurface;
   std::array<double, 2> Limits{};
 };
 

@@ -31,7 +31,7 @@ public:
 
   DomainSearch(
     const Grid& grid, const SampleView<T>& samples, const BlockFits& fits, const Place& place)
-    : Domain(grid)
+    : TheGrid(grid)
     , Samples(samples)
     , Fits(fits)
     , TopLevel(place.Scale - LeastScale)
@@ -100,12 +100,12 @@ private:
     for (int axis = 0; axis < 3; ++axis)
     {
       first[axis] = std::min(part.Path[0].Position[axis], part.Path[3].Position[axis]);
-      const int last = this->Domain.Last(axis) - (this->SticksOut ? 0 : 1);
+      const int last = this->TheGrid.Last(axis) - (this->SticksOut ? 0 : 1);
       if (first[axis] < 0 || first[axis] > last)
       {
         return false;
       }
-      cube[axis] = std::min(first[axis], this->Domain.Last(axis) - 1) / (FinestEdge << level);
+      cube[axis] = std::min(first[axis], this->TheGrid.Last(axis) - 1) / (FinestEdge << level);
     }
     part.Cube = &this->Fits(level, cube);
     double apart = 0.0;
@@ -162,7 +162,7 @@ private:
       slopes[i] = (path[i + 1].Value - path[i].Value) / FinestEdge;
     }
     const bool isCut =
-      !this->Domain.IsSampled(path[0].Position) || !this->Domain.IsSampled(path[3].Position);
+      !this->TheGrid.IsSampled(path[0].Position) || !this->TheGrid.IsSampled(path[3].Position);
     const T* first = this->Samples.Pointer() + this->Samples.Index(path[0].Position);
     SummaryBuilder sums = this->Sums;
     for (int a = 0; a <= FinestEdge; ++a)
@@ -174,7 +174,7 @@ private:
         const Point point = path[0].Position + a * steps[0] + b * steps[1];
         for (int c = 0; c <= b; ++c)
         {
-          if (!isCut || this->Domain.IsSampled(point + c * steps[2]))
+          if (!isCut || this->TheGrid.IsSampled(point + c * steps[2]))
           {
             sums.Add(row[c * strides[2]], start + c * slopes[2]);
           }
@@ -184,7 +184,7 @@ private:
     this->Sums = sums;
   }
 
-  const Grid& Domain;
+  const Grid& TheGrid;
   const SampleView<T>& Samples;
   const BlockFits& Fits;
   int TopLevel;

@@ -55,26 +55,6 @@ DomainSummary SummarizeInOrder(const Grid& grid, const SampleView<T>& samples, c
 
 }
 
-bool HasAllVerticesInside(
-  const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
-{
-  const ParityTable& shape = tables::Parities[Parity(place.Position)];
-  bool any = false;
-  for (int i = 0; i < shape.VertexCount; ++i)
-  {
-    const Point vertex = VertexAt(place, shape.Offsets[i]);
-    if (grid.IsSampled(vertex))
-    {
-      any = true;
-      if (region.SignOf(SampleAt(samples, vertex)) != InsideSign)
-      {
-        return false;
-      }
-    }
-  }
-  return any && region.IsVolume();
-}
-
 DomainSummary SummarizeSmallDomain(const Grid& grid, const AnySamples& samples, const Place& place)
 {
   const int half = 1 << place.Scale;
@@ -92,7 +72,7 @@ DomainSummary SummarizeSmallDomain(const Grid& grid, const AnySamples& samples, 
 
 FieldErrors::FieldErrors(
   const Grid& grid, const AnySamples& samples, const ParallelFor& parallelFor)
-  : Domain(grid)
+  : TheGrid(grid)
   , Samples(samples)
   , Fits(samples, grid.Depth() - MidpointOrder::MaximumScale, parallelFor)
 {
@@ -102,10 +82,10 @@ DomainSummary FieldErrors::Summarize(const Place& place) const
 {
   if (place.Scale <= MidpointOrder::MaximumScale)
   {
-    return SummarizeSmallDomain(this->Domain, this->Samples, place);
+    return SummarizeSmallDomain(this->TheGrid, this->Samples, place);
   }
   return std::visit([&](const auto& view)
-    { return DomainSearch(this->Domain, view, this->Fits, place).Run(); },
+    { return DomainSearch(this->TheGrid, view, this->Fits, place).Run(); },
     this->Samples);
 }
 

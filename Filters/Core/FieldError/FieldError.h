@@ -21,10 +21,6 @@ inline bool OwnErrorCounts(
     (region.Holds(range) && grid.SticksOut(place.Position, place.Scale));
 }
 
-/** Whether all sampled vertices of a diamond, at least one, lie in the interval volume. */
-bool HasAllVerticesInside(
-  const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place);
-
 /** The summary of a diamond of at most MidpointOrder::MaximumScale. */
 DomainSummary SummarizeSmallDomain(const Grid& grid, const AnySamples& samples, const Place& place);
 
@@ -38,7 +34,7 @@ public:
   DomainSummary Summarize(const Place& place) const;
 
 private:
-  const Grid& Domain;
+  const Grid& TheGrid;
   const AnySamples& Samples;
   BlockFits Fits;
 };

@@ -21,7 +21,7 @@ public:
   DiamondReader(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples)
     : Region(header.Region)
     , Exact(header.ExactIsovertices)
-    , Domain(grid)
+    , TheGrid(grid)
     , Samples(samples)
   {
     const std::int64_t row = samples.Dimensions()[0];
@@ -40,7 +40,7 @@ public:
   int Sign(const Place& place) const
   {
     const Point centre = Centre(place);
-    return this->Domain.IsSampled(centre) ? this->Region.SignOf(this->Samples(centre)) : 0;
+    return this->TheGrid.IsSampled(centre) ? this->Region.SignOf(this->Samples(centre)) : 0;
   }
 
   bool IsInside(const Place& place) const
@@ -97,20 +97,20 @@ private:
   void ForEachCrossedEdge(const Place& place, Body&& body) const
   {
     const Point centre = Centre(place);
-    if (!this->Domain.IsSampled(centre))
+    if (!this->TheGrid.IsSampled(centre))
     {
       return;
     }
     const int half = 1 << place.Scale;
-    const bool isWhole = this->Domain.IsSampled(centre + Point{ half, half, half }) &&
-      this->Domain.IsSampled(centre + Point{ -half, -half, -half });
+    const bool isWhole = this->TheGrid.IsSampled(centre + Point{ half, half, half }) &&
+      this->TheGrid.IsSampled(centre + Point{ -half, -half, -half });
     const T* middle = this->Samples.Pointer() + this->Samples.Index(centre);
     const int sign = this->Region.SignOf(static_cast<double>(*middle));
     const int parity = Parity(place.Position);
     const ParityTable& shape = tables::Parities[parity];
     for (int i = 0; i < shape.VertexCount; ++i)
     {
-      if (isWhole || this->Domain.IsSampled(centre + half * shape.Offsets[i]))
+      if (isWhole || this->TheGrid.IsSampled(centre + half * shape.Offsets[i]))
       {
         const std::int64_t stride = this->Strides[parity][i];
         const int otherSign = this->Region.SignOf(static_cast<double>(middle[half * stride]));
@@ -133,7 +133,7 @@ private:
 
   const Isoregion& Region;
   bool Exact;
-  const Grid& Domain;
+  const Grid& TheGrid;
   const SampleView<T>& Samples;
   /** By parity and vertex, in samples. */
   std::array<std::array<std::int64_t, MaximumVertices>, 8> Strides{};

@@ -76,7 +76,7 @@ IsodiamondHierarchy::IsodiamondHierarchy(
   , Code(encoding.Header.ErrorScale)
   , InteriorCode(encoding.Header.FieldScale)
 {
-  Require(encoding.Header.Kind == Model::Relevant || encoding.Header.Kind == Model::Minimal,
+  Require(encoding.Header.TheModel == Model::Relevant || encoding.Header.TheModel == Model::Minimal,
     "the encoding is not that of a relevant or minimal isodiamond hierarchy");
   Require(encoding.Header.ErrorScale > 0.0 && std::isfinite(encoding.Header.ErrorScale),
     "the error scale is not a positive number");
@@ -304,42 +304,25 @@ int IsodiamondHierarchy::SignAt(const Place& place) const
 void IsodiamondHierarchy::DeriveDiamond(
   const BrickWindow& window, const Place& place, std::int64_t rank)
 {
+  const bool hasCentre = this->TheGrid.IsSampled(Centre(place));
+  DiamondSigns signs(this->Region(), hasCentre ? this->Sign(rank) : -1);
   const ParityTable& shape = tables::Parities[Parity(place.Position)];
-  const int surfaces = this->Region().SurfaceCount();
-  std::array<std::uint32_t, 2> above{}; // by surface, the vertices above it
-  std::uint32_t sampled = 0;
   for (int i = 0; i < shape.VertexCount; ++i)
   {
-    const Point vertex = place.Position + shape.Offsets[i];
-    if (this->TheGrid.IsSampled((1 << place.Scale) * vertex))
+    if (this->TheGrid.IsSampled(VertexAt(place, shape.Offsets[i])))
     {
+      const Point vertex = place.Position + shape.Offsets[i];
       const std::int64_t found =
         Parity(vertex) != 0 ? window.Rank(vertex) : std::int64_t{ DiamondSet::None };
-      const int sign =
-        found != DiamondSet::None ? this->Sign(found) : this->SignAt({ place.Scale, vertex });
-      sampled |= 1U << i;
-      above[0] |= (sign > 0 ? 1U : 0U) << i;
-      above[1] |= (sign > 1 ? 1U : 0U) << i;
+      signs.AddVertex(
+        i, found != DiamondSet::None ? this->Sign(found) : this->SignAt({ place.Scale, vertex }));
     }
   }
-  const bool hasCentre = this->TheGrid.IsSampled(Centre(place));
-  std::array<std::uint32_t, 2> edges{};
-  bool mixed = false;
-  for (int surface = 0; surface < surfaces; ++surface)
+  this->EdgesAndKinds[rank] = static_cast<std::uint16_t>(
+    signs.CrossedEdges(0) | (static_cast<std::uint32_t>(signs.KindOfDiamond()) << 12));
+  if (this->Region().IsVolume())
   {
-    const std::uint32_t below = sampled & ~above[surface];
-    mixed = mixed || (above[surface] != 0 && below != 0);
-    edges[surface] = this->Sign(rank) > surface ? below : above[surface];
-    edges[surface] = hasCentre ? edges[surface] : 0;
-  }
-  const bool inside = surfaces == 2 && above[0] != 0 && above[1] == 0;
-  const Kind kind =
-    mixed || inside ? Kind::Active : ((edges[0] | edges[1]) != 0 ? Kind::Creation : Kind::Relevant);
-  this->EdgesAndKinds[rank] =
-    static_cast<std::uint16_t>(edges[0] | (static_cast<std::uint32_t>(kind) << 12));
-  if (surfaces == 2)
-  {
-    this->EdgesOfUpper[rank] = static_cast<std::uint16_t>(edges[1]);
+    this->EdgesOfUpper[rank] = static_cast<std::uint16_t>(signs.CrossedEdges(1));
   }
 }
 

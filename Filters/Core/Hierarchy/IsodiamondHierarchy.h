@@ -2,7 +2,7 @@
 #ifndef isodiamond_IsodiamondHierarchy_h
 #define isodiamond_IsodiamondHierarchy_h
 
-#include "Field/Isoregion.h"
+#include "Field/DiamondSigns.h"
 #include "Field/Parallel.h"
 #include "Hierarchy/ErrorCode.h"
 #include "Lattice/DiamondSet.h"
@@ -31,14 +31,6 @@ enum class Model : int
   HierarchyOfDiamonds = 0, ///< HD: all diamonds of the scalar field, any isovalue
   Relevant = 1,            ///< RI: active, creation and relevant isodiamonds
   Minimal = 2              ///< MI: active and creation isodiamonds
-};
-
-/** The kind of an isodiamond (paper, sections 4 and 7). */
-enum class Kind : int
-{
-  Active = 0,
-  Creation = 1,
-  Relevant = 2
 };
 
 /** How the error of a diamond is measured. */
@@ -87,7 +79,7 @@ struct Record
 /** What describes an encoding besides its arrays. */
 struct EncodingHeader
 {
-  Model Kind = Model::Minimal;
+  Model TheModel = Model::Minimal;
   std::array<int, 3> Dimensions = { 2, 2, 2 };
   Isoregion Region = 0.0;
   ErrorMetric Metric = ErrorMetric::Field;
@@ -162,7 +154,7 @@ public:
   IsodiamondHierarchy(const EncodingView& encoding, const ParallelFor& parallelFor);
 
   const EncodingHeader& Header() const { return this->View.Header; }
-  const Grid& Domain() const { return this->TheGrid; }
+  const Grid& SampleGrid() const { return this->TheGrid; }
   const DiamondSet& Diamonds() const { return this->Set; }
   const isodiamond::ErrorCode& Codes() const { return this->Code; }
   const isodiamond::ErrorCode& InteriorCodes() const { return this->InteriorCode; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/ScalarHierarchy.h"
 
+#include "Field/DiamondSigns.h"
 #include "FieldError/FieldError.h"
 
 #include <algorithm>
@@ -48,14 +49,14 @@ public:
     : Hierarchy(hierarchy)
     , Region(region)
     , Accepted(accepted)
-    , Seen(hierarchy.Domain())
-    , Result{ DiamondMask(hierarchy.Domain()), 0 }
+    , Seen(hierarchy.SampleGrid())
+    , Result{ DiamondMask(hierarchy.SampleGrid()), 0 }
   {
   }
 
   void RefineFront()
   {
-    this->Visit(Place{ this->Hierarchy.Domain().Depth() - 1, { 1, 1, 1 } });
+    this->Visit(Place{ this->Hierarchy.SampleGrid().Depth() - 1, { 1, 1, 1 } });
     this->EmptyQueue();
   }
 
@@ -63,7 +64,7 @@ public:
   void RefineInside(ErrorCode::Type accepted)
   {
     this->FollowsFront = false;
-    const Grid& grid = this->Hierarchy.Domain();
+    const Grid& grid = this->Hierarchy.SampleGrid();
     for (int scale = grid.Depth() - 1; scale >= 0; --scale)
     {
       const std::array<int, 3> count = grid.Positions(scale);
@@ -75,7 +76,8 @@ public:
           {
             const Place place{ scale, position };
             if (Parity(position) != 0 && this->Hierarchy.Error(place) > accepted &&
-              HasAllVerticesInside(this->Region, grid, this->Hierarchy.Samples(), place))
+              DiamondSigns(this->Region, grid, this->Hierarchy.Samples(), place)
+                .HasAllVerticesInside())
             {
               this->Queue.push_back(place);
             }
@@ -102,7 +104,7 @@ private:
 
   void Visit(const Place& place)
   {
-    const Grid& grid = this->Hierarchy.Domain();
+    const Grid& grid = this->Hierarchy.SampleGrid();
     if (!grid.IsValid(place.Position, place.Scale) || !this->Seen.Insert(place))
     {
       return;
@@ -118,7 +120,7 @@ private:
   /** Adds the diamond and its missing ancestors; their children come to the front. */
   void Subdivide(const Place& place)
   {
-    const Grid& grid = this->Hierarchy.Domain();
+    const Grid& grid = this->Hierarchy.SampleGrid();
     if (!this->Result.Subdivided.Insert(place))
     {
       return;

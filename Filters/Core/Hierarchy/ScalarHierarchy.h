@@ -34,7 +34,7 @@ public:
   ScalarHierarchy(const AnySamples& samples, double errorScale, const ErrorCode::Type* codes,
     std::int64_t codeCount, const AnySamples& minima, const AnySamples& maxima);
 
-  const Grid& Domain() const { return this->TheGrid; }
+  const Grid& SampleGrid() const { return this->TheGrid; }
   const AnySamples& Samples() const { return this->Values; }
   const ErrorCode& Codes() const { return this->Code; }
 

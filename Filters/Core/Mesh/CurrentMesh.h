@@ -151,7 +151,7 @@ inline LeafParent MakeLeafParent(const RefinedBrick& brick, const Place& place, 
   if (!brick.IsInner(place))
   {
     const std::uint32_t sampled =
-      SampledVertices(brick.Hierarchy().Domain(), place, tables::Types[type]);
+      SampledVertices(brick.Hierarchy().SampleGrid(), place, tables::Types[type]);
     leaves &= ~HalvesWithAny(words(AllEdges & ~sampled));
   }
   return { place, rank, type, leaves };

@@ -11,7 +11,7 @@ namespace isodiamond
 DiamondMesh ExtractDiamondMesh(const RefinedSet& refined)
 {
   const IsodiamondHierarchy& hierarchy = refined.Hierarchy();
-  const bool onlyCrossed = hierarchy.Header().Kind == Model::Minimal;
+  const bool onlyCrossed = hierarchy.Header().TheModel == Model::Minimal;
   DiamondMesh mesh;
   std::map<Point, std::int64_t> ids;
   const auto idOf = [&](const Point& point)
@@ -32,7 +32,7 @@ DiamondMesh ExtractDiamondMesh(const RefinedSet& refined)
       {
         const int h = 1 << leaf.Parent.Scale;
         const Point centre = h * leaf.Parent.Position;
-        if (!hierarchy.Domain().IsSampled(centre))
+        if (!hierarchy.SampleGrid().IsSampled(centre))
         {
           return;
         }
@@ -43,7 +43,7 @@ DiamondMesh ExtractDiamondMesh(const RefinedSet& refined)
         }
         mesh.Tetrahedra.push_back(ends);
         mesh.Levels.push_back(
-          static_cast<std::int8_t>(hierarchy.Domain().Depth() - 1 - leaf.Scale));
+          static_cast<std::int8_t>(hierarchy.SampleGrid().Depth() - 1 - leaf.Scale));
         mesh.Classes.push_back(static_cast<std::int8_t>((leaf.Shape.DiamondClass + 1) % 3));
       });
   }

@@ -141,7 +141,7 @@ public:
   void Write(const LeafParent& parent)
   {
     const IntervalCases cases(this->Hierarchy, parent);
-    const int level = this->Hierarchy.Domain().Depth() - 1 - parent.LeafScale();
+    const int level = this->Hierarchy.SampleGrid().Depth() - 1 - parent.LeafScale();
     const DiamondPoints* own = this->Window.At(parent.At.Position);
     const auto& places = this->Places[parent.Type];
     parent.ForEachLeaf(

@@ -48,7 +48,7 @@ public:
     const HalfTetrahedronMask crossed = CrossedVertices(this->Hierarchy, parent);
     // For a centre above the isovalue triangles wind with normals away from it.
     const bool flip = (this->Hierarchy.Sign(parent.Rank) == 0) != this->Mirrored;
-    const int level = this->Hierarchy.Domain().Depth() - 1 - parent.LeafScale();
+    const int level = this->Hierarchy.SampleGrid().Depth() - 1 - parent.LeafScale();
     const DiamondPoints* own = this->Window.At(parent.At.Position);
     const auto& places = this->Places[parent.Type];
     ForEachBit(TrianglesOf(parent, crossed),

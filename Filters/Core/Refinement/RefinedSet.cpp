@@ -152,8 +152,8 @@ BrickMask ExceedingLocally(const IsodiamondHierarchy& hierarchy, const BrickPlac
 DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalTolerance& tolerance,
   const Exceeds& exceedsEverywhere, const ParallelFor& parallelFor)
 {
-  DiamondMask wanted(hierarchy.Domain());
-  for (int scale = 0; scale < hierarchy.Domain().Depth(); ++scale)
+  DiamondMask wanted(hierarchy.SampleGrid());
+  for (int scale = 0; scale < hierarchy.SampleGrid().Depth(); ++scale)
   {
     const BrickLevel& level = hierarchy.Diamonds().Level(scale);
     std::vector<BrickMask> added(level.Bricks.size());
@@ -182,7 +182,7 @@ DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalToler
       }
     }
   }
-  wanted.CloseOverParents(hierarchy.Domain());
+  wanted.CloseOverParents(hierarchy.SampleGrid());
   return wanted;
 }
 
@@ -190,9 +190,9 @@ DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalToler
 DiamondSet Select(const IsodiamondHierarchy& hierarchy, const Exceeds& exceeds,
   const DiamondMask* wanted, const ParallelFor& parallelFor)
 {
-  DiamondSet selected(hierarchy.Domain());
+  DiamondSet selected(hierarchy.SampleGrid());
   std::int64_t number = 0;
-  for (int scale = hierarchy.Domain().Depth(); scale >= 0; --scale)
+  for (int scale = hierarchy.SampleGrid().Depth(); scale >= 0; --scale)
   {
     const std::vector<Brick>& bricks = hierarchy.Diamonds().Level(scale).Bricks;
     std::vector<const Brick*> candidates;
@@ -230,7 +230,7 @@ RefinedSet::RefinedSet(
   const IsodiamondHierarchy& hierarchy, const Query& query, const ParallelFor& parallelFor)
   : Source(hierarchy)
 {
-  const LocalTolerance tolerance(query, hierarchy.Domain());
+  const LocalTolerance tolerance(query, hierarchy.SampleGrid());
   const Exceeds exceeds(hierarchy, tolerance.Everywhere());
   this->All = exceeds.All();
   if (!this->All && !tolerance.IsUniform())
@@ -247,7 +247,7 @@ RefinedSet::RefinedSet(
 std::int64_t RefinedSet::Count() const
 {
   std::int64_t count = 0;
-  for (int scale = 0; scale < this->Source.Domain().Depth(); ++scale)
+  for (int scale = 0; scale < this->Source.SampleGrid().Depth(); ++scale)
   {
     for (const Brick& brick : this->Diamonds().Level(scale).Bricks)
     {
@@ -259,8 +259,8 @@ std::int64_t RefinedSet::Count() const
 
 std::int64_t RefinedSet::CountFront() const
 {
-  const Grid& grid = this->Source.Domain();
-  const bool onlyStored = this->Source.Header().Kind == Model::Minimal;
+  const Grid& grid = this->Source.SampleGrid();
+  const bool onlyStored = this->Source.Header().TheModel == Model::Minimal;
   const auto inFront = [&](const Place& child)
   {
     return child.Scale >= 0 && child.Scale < grid.Depth() &&

@@ -72,7 +72,7 @@ public:
     , BrickScale(place.Scale)
     , First(this->StoredLevel(place.Scale).Box.Origin(this->Refined.BoxIndex))
   {
-    const std::array<int, 3>& dimensions = this->Source.Domain().Dimensions();
+    const std::array<int, 3>& dimensions = this->Source.SampleGrid().Dimensions();
     for (int axis = 0; axis < 3; ++axis)
     {
       this->LastInner[axis] = ((dimensions[axis] - 1) >> place.Scale) - 1;

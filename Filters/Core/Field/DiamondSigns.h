@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DiamondSigns_h
+#define isodiamond_DiamondSigns_h
+
+#include "Field/Isoregion.h"
+#include "Lattice/DiamondTables.h"
+
+#include <array>
+#include <cstdint>
+
+namespace isodiamond
+{
+
+/** The kind of an isodiamond (paper, sections 4 and 7). */
+enum class Kind : int
+{
+  Active = 0,   ///< a surface passes between its vertices, or all lie in the interval volume
+  Creation = 1, ///< its vertices are on one side, its centre on the other
+  Relevant = 2  ///< neither, but it leads to such diamonds
+};
+
+/**
+ * The signs of a diamond's vertices, as edge masks, and of its centre; from them follow the crossed
+ * edges and the kind. Vertices without a sample, beyond the grid, are on no side.
+ *
+ * Where kinds of many diamonds are wanted at once, Classification.h finds the same by words.
+ */
+class DiamondSigns
+{
+public:
+  /** @param centreSign -1 if the centre has no sample */
+  DiamondSigns(const Isoregion& region, int centreSign)
+    : Surfaces(region.SurfaceCount())
+    , CentreSign(centreSign)
+  {
+  }
+
+  /** By samples. */
+  DiamondSigns(
+    const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
+    : DiamondSigns(region,
+        grid.IsSampled(Centre(place)) ? region.SignOf(SampleAt(samples, Centre(place))) : -1)
+  {
+    const ParityTable& shape = tables::Parities[Parity(place.Position)];
+    for (int i = 0; i < shape.VertexCount; ++i)
+    {
+      const Point vertex = VertexAt(place, shape.Offsets[i]);
+      if (grid.IsSampled(vertex))
+      {
+        this->AddVertex(i, region.SignOf(SampleAt(samples, vertex)));
+      }
+    }
+  }
+
+  /** Tells the sign of a vertex that has a sample. */
+  void AddVertex(int vertex, int sign)
+  {
+    this->Sampled |= 1U << vertex;
+    this->Above[0] |= (sign > 0 ? 1U : 0U) << vertex;
+    this->Above[1] |= (sign > 1 ? 1U : 0U) << vertex;
+  }
+
+  /** The subdivision edges that cross a surface. */
+  std::uint32_t CrossedEdges(int surface) const
+  {
+    const std::uint32_t above = this->Above[surface];
+    const std::uint32_t other = this->CentreSign > surface ? this->Sampled & ~above : above;
+    return this->CentreSign < 0 ? 0 : other;
+  }
+
+  /** Whether there are sampled vertices, and all lie in the interval volume. */
+  bool HasAllVerticesInside() const
+  {
+    return this->Surfaces == 2 && this->Sampled != 0 && this->Above[0] == this->Sampled &&
+      this->Above[1] == 0;
+  }
+
+  Kind KindOfDiamond() const
+  {
+    bool isActive = this->HasAllVerticesInside();
+    std::uint32_t crossed = 0;
+    for (int surface = 0; surface < this->Surfaces; ++surface)
+    {
+      const std::uint32_t above = this->Above[surface];
+      isActive = isActive || (above != 0 && above != this->Sampled);
+      crossed |= this->CrossedEdges(surface);
+    }
+    return isActive ? Kind::Active : (crossed != 0 ? Kind::Creation : Kind::Relevant);
+  }
+
+private:
+  int Surfaces;
+  int CentreSign;
+  std::uint32_t Sampled = 0;
+  std::array<std::uint32_t, 2> Above{}; ///< by surface
+};
+
+}
+
+#endif
