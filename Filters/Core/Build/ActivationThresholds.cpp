@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <queue>
 #include <utility>
 
@@ -279,12 +280,42 @@ private:
   std::priority_queue<Rise> Queue;
 };
 
+/** Whether no diamond's threshold is higher than those of its parents below scale N. */
+[[maybe_unused]] bool AreClosed(
+  const Grid& grid, const DiamondSet& members, const std::vector<ErrorCode::Type>& thresholds)
+{
+  bool closed = true;
+  for (int scale = 0; scale < grid.Depth(); ++scale)
+  {
+    for (const Brick& brick : members.Level(scale).Bricks)
+    {
+      members.ForEachInBrick(scale, brick,
+        [&](const Place& place, std::uint32_t rank)
+        {
+          const TypeTable& shape = ShapeOf(place.Position);
+          for (int i = 0; i < shape.ParentCount; ++i)
+          {
+            const Place parent = ParentPlace(shape, place, i);
+            const std::int64_t parentRank =
+              parent.Scale < grid.Depth() ? members.Rank(parent) : DiamondSet::None;
+            closed = closed &&
+              (parentRank == DiamondSet::None || thresholds[parentRank] >= thresholds[rank]);
+          }
+        });
+    }
+  }
+  return closed;
+}
+
 }
 
 std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
-  std::vector<ErrorCode::Type> triggers, const ParallelFor& parallelFor)
+  std::vector<ErrorCode::Type> own, const ParallelFor& parallelFor)
 {
-  return RisingCodes(grid, members, std::move(triggers), parallelFor).Thresholds();
+  std::vector<ErrorCode::Type> thresholds =
+    RisingCodes(grid, members, std::move(own), parallelFor).Thresholds();
+  assert(AreClosed(grid, members, thresholds) && "every refined set has its diamonds' parents");
+  return thresholds;
 }
 
 std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,

@@ -26,12 +26,12 @@ namespace isodiamond
  * them.)
  *
  * @param members a set that holds all ancestors of each of its diamonds (below scale N)
- * @param triggers by rank, the code of a diamond's own error; 0 where only closure subdivides it
+ * @param own by rank, the code of a diamond's own error; 0 where only closure subdivides it
  * @return by rank, the threshold's code; 0 for what is never reached (nothing, if the members are
- *         the ancestors of diamonds with a trigger)
+ *         the ancestors of diamonds with an own error that counts)
  */
 std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
-  std::vector<ErrorCode::Type> triggers, const ParallelFor& parallelFor);
+  std::vector<ErrorCode::Type> own, const ParallelFor& parallelFor);
 
 /** Raises codes to the greatest of their descendants': what is subdivided where any of these is.
  *  @param members, codes as above */

@@ -60,22 +60,22 @@ void ForEachMember(const DiamondSet& members, const ParallelFor& parallelFor, co
 DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const DiamondSet& members,
   bool refineInterior, const ParallelFor& parallelFor)
 {
-  DiamondCodes triggers(members.Size(), refineInterior);
+  DiamondCodes own(members.Size(), refineInterior);
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
       const auto [code, range] = source.Summary(place);
       if (OwnErrorCounts(region, source.SampleGrid, range, place))
       {
-        triggers.Surface[rank] = code;
+        own.Surface[rank] = code;
       }
       if (refineInterior &&
         DiamondSigns(region, source.SampleGrid, source.Samples, place).HasAllVerticesInside())
       {
-        triggers.Interior[rank] = code;
+        own.Interior[rank] = code;
       }
     });
-  return triggers;
+  return own;
 }
 
 /** The distance metric; inside of an interval volume the field's. */
@@ -83,8 +83,8 @@ DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& r
   const BuildOptions& options, bool refineInterior, const ParallelFor& parallelFor)
 {
   const DiamondSet& members = relevant.Diamonds();
-  DiamondCodes triggers(members.Size(), refineInterior);
-  triggers.Surface =
+  DiamondCodes own(members.Size(), refineInterior);
+  own.Surface =
     DistanceErrors(relevant, source.Samples, options.World, options.PreserveFeatures, parallelFor);
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
@@ -97,14 +97,14 @@ DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& r
       }
       if (source.SampleGrid.SticksOut(place.Position, place.Scale))
       {
-        triggers.Surface[rank] = ErrorCode::Always; // it holds volume
+        own.Surface[rank] = ErrorCode::Always; // it holds volume
       }
       if (refineInterior)
       {
-        triggers.Interior[rank] = source.Summary(place).first;
+        own.Interior[rank] = source.Summary(place).first;
       }
     });
-  return triggers;
+  return own;
 }
 
 bool HasHiddenCells(const BuildOptions& options)

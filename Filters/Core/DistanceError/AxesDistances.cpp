@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceError/DistanceMeasures.h"
 #include "DistanceError/DistanceWalk.h"
 #include "DistanceError/ScaleZeroDistances.h"
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 
 namespace isodiamond
@@ -69,6 +70,7 @@ public:
       this->Entries[i].Tetrahedron.Half != tetrahedron.Half)
     {
       ++i;
+      assert(i < this->Count && "a tetrahedron of the diamond");
     }
     return i;
   }

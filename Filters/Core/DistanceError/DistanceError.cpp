@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DistanceError/DistanceError.h"
 
-#include "DistanceError/DistanceWalk.h"
-#include "DistanceError/ScaleZeroDistances.h"
+#include "DistanceError/DistanceMeasures.h"
 
 #include <cmath>
 #include <variant>

@@ -380,15 +380,6 @@ private:
   SpineNeighbourhood Neighbourhood;
 };
 
-///@{
-/** For each kind of lengths in a file of its own: of two in one, compilers would inline less, and
- * the time is spent in small functions. */
-void MeasureCoarse(const IsovertexClusters& clusters, const AffineLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor);
-void MeasureCoarse(const IsovertexClusters& clusters, const AxesLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor);
-///@}
-
 }
 
 #endif

@@ -158,15 +158,6 @@ private:
   std::vector<LocatedIsovertex> Located;
 };
 
-///@{
-/** For each kind of lengths in a file of its own: of two in one, compilers would inline less, and
- * the time is spent in small functions. */
-void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor);
-void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor);
-///@}
-
 }
 
 #endif

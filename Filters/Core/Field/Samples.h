@@ -4,6 +4,7 @@
 
 #include "Lattice/Lattice.h"
 
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
@@ -12,6 +13,12 @@
 
 namespace isodiamond
 {
+
+/** The place of a lattice point among the samples, x fastest. */
+inline constexpr std::int64_t SampleIndex(const std::array<int, 3>& dimensions, const Point& point)
+{
+  return (std::int64_t{ point[2] } * dimensions[1] + point[1]) * dimensions[0] + point[0];
+}
 
 /**
  * A view of a volume of samples: dimensions and a pointer, x fastest. It owns nothing.
@@ -39,14 +46,13 @@ public:
     return std::int64_t{ 1 } * this->Dims[0] * this->Dims[1] * this->Dims[2];
   }
 
-  std::int64_t Index(const Point& point) const
-  {
-    return (std::int64_t{ point[2] } * this->Dims[1] + point[1]) * this->Dims[0] + point[0];
-  }
+  std::int64_t Index(const Point& point) const { return SampleIndex(this->Dims, point); }
 
   double operator()(const Point& point) const
   {
-    return static_cast<double>(this->Data[this->Index(point)]);
+    const std::int64_t index = this->Index(point);
+    assert(index >= 0 && index < this->Size());
+    return static_cast<double>(this->Data[index]);
   }
 
 private:

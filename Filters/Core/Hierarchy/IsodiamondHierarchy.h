@@ -7,6 +7,7 @@
 #include "Hierarchy/ErrorCode.h"
 #include "Lattice/DiamondSet.h"
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -59,7 +60,11 @@ struct ArrayView
   {
   }
 
-  const T& operator[](std::int64_t i) const { return this->Data[i]; }
+  const T& operator[](std::int64_t i) const
+  {
+    assert(i >= 0 && i < this->Size);
+    return this->Data[i];
+  }
 };
 
 /** 14 bits of error code and 2 bits of sign. */
@@ -209,6 +214,7 @@ public:
    *  then those on surface 1. */
   const std::uint8_t* Isovertices(std::int64_t rank) const
   {
+    assert(rank >= 0 && rank < this->Set.Size() && "the rank of a stored diamond");
     return this->View.Arrays.Isovertices.Data + this->FirstIsovertex[rank];
   }
 

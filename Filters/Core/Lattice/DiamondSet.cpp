@@ -2,6 +2,7 @@
 #include "Lattice/DiamondSet.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <stdexcept>
 
@@ -220,6 +221,9 @@ void DiamondSet::Append(int scale, std::int64_t brickIndex, const BrickMask& mas
     throw std::length_error("more than 2^32 - 1 isodiamonds");
   }
   BrickLevel& level = this->Levels[scale];
+  assert((level.Bricks.empty() || level.Bricks.back().BoxIndex < brick.BoxIndex) &&
+    "bricks of a scale in order");
+  assert((scale == 0 || this->Levels[scale - 1].Bricks.empty()) && "scales from coarse to fine");
   level.FirstNumber = level.Bricks.empty() ? this->BrickCount : level.FirstNumber;
   ++this->BrickCount;
   level.Lookup[brickIndex] = static_cast<std::int32_t>(level.Bricks.size());

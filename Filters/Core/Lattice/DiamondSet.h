@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -249,6 +250,7 @@ struct Brick
 
   std::uint32_t Rank(int z, int bit) const
   {
+    assert(z >= 0 && z < 8 && bit >= 0 && bit < 64);
     const std::uint64_t below = this->Occupancy[z] & ((std::uint64_t{ 1 } << bit) - 1);
     return this->First + this->Before[z] + static_cast<std::uint32_t>(PopCount(below));
   }
@@ -427,6 +429,7 @@ public:
     const int x = (position[0] - this->Origin[0] + 8) >> 3;
     const int y = (position[1] - this->Origin[1] + 8) >> 3;
     const int z = (position[2] - this->Origin[2] + 8) >> 3;
+    assert(x >= 0 && x < 3 && y >= 0 && y < 3 && z >= 0 && z < 3 && "in the brick or next to it");
     return DiamondSet::RankIn(this->Bricks[x + 3 * y + 9 * z], position);
   }
 

@@ -4,6 +4,7 @@
 
 #include "Lattice/DiamondTables.h"
 
+#include <cassert>
 #include <cstdint>
 
 /**
@@ -60,6 +61,7 @@ inline const HalfTetrahedron* HalvesOfChild(const Place& parent, const Place& ch
   while (shape.ChildOffsets[index] != offset)
   {
     ++index;
+    assert(index < shape.ChildCount && "a child of the parent");
   }
   return &shape.HalfTetrahedra[index * shape.HalfTetrahedraPerChild];
 }

@@ -5,6 +5,7 @@
 #include "Lattice/DiamondSet.h"
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -62,7 +63,12 @@ public:
   }
 
 private:
-  int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
+  int IndexAt(const Point& position) const
+  {
+    const int index = Distance(position) - Distance(this->First);
+    assert(index >= 0 && index < static_cast<int>(this->Bytes.size()) && "in the window");
+    return index;
+  }
 
   Point First{};
   std::array<std::uint8_t, std::size_t{ Width } * Width * Width> Bytes{};

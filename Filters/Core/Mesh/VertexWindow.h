@@ -5,6 +5,7 @@
 #include "Mesh/ExtractionPasses.h"
 
 #include <array>
+#include <cassert>
 
 namespace isodiamond
 {
@@ -41,7 +42,12 @@ public:
 private:
   static constexpr int Width = 10;
 
-  int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
+  int IndexAt(const Point& position) const
+  {
+    const int index = Distance(position) - Distance(this->First);
+    assert(index >= 0 && index < static_cast<int>(this->Points.size()) && "in the window");
+    return index;
+  }
   void Fill(const ExtractionPasses& passes, int scale, int step);
 
   Point First; ///< the first position

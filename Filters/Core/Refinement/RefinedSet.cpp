@@ -2,6 +2,7 @@
 #include "Refinement/RefinedSet.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace isodiamond
@@ -275,6 +276,7 @@ std::int64_t RefinedSet::CountFront() const
     while (!this->Contains(ParentPlace(shape, child, i)))
     {
       ++i;
+      assert(i < shape.ParentCount && "the child of a refined parent");
     }
     return ParentPlace(shape, child, i).Position == parent.Position;
   };

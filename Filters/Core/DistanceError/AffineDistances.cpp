@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceError/DistanceMeasures.h"
+#include "DistanceError/DistanceWalk.h"
 #include "DistanceError/ScaleZeroDistances.h"
 
 namespace isodiamond
 {
+
+void MeasureCoarse(const IsovertexClusters& clusters, const AffineLengths& lengths,
+  ErrorMaxima& errors, const ParallelFor& parallelFor)
+{
+  DistanceWalk(clusters, lengths, errors).Run(parallelFor);
+}
 
 void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& lengths,
   ErrorMaxima& errors, const ParallelFor& parallelFor)
