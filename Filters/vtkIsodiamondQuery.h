@@ -3,6 +3,7 @@
 #define vtkIsodiamondQuery_h
 
 #include "Refinement/RefinedSet.h"
+#include "Refinement/ScalarQuery.h"
 #include "vtkIsodiamondHierarchy.h"
 #include "vtkIsodiamondState.h"
 #include "vtkIsodiamondThreads.h"

@@ -6,6 +6,7 @@
 #include "Mesh/DiamondMesh.h"
 #include "Mesh/IntervalExtraction.h"
 #include "Mesh/SurfaceExtraction.h"
+#include "Refinement/ScalarQuery.h"
 
 #include <algorithm>
 #include <cstdlib>
