@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondContour.h"
 
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondCache.h"
-#include "vtkIsodiamondMesh.h"
-#include "vtkIsodiamondQuery.h"
-#include "vtkIsodiamondThreads.h"
+#include "Private/Arrays.h"
+#include "Private/Cache.h"
+#include "Private/Mesh.h"
+#include "Private/Threads.h"
+#include "Private/WorldQuery.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkInformation.h"
@@ -55,13 +55,13 @@ int vtkIsodiamondContour::FillOutputPortInformation(int, vtkInformation* info)
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
-  const vtkIsodiamond::Query& query, vtkIsodiamond::Task& task, vtkDataObject* output)
+  const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task, vtkDataObject* output)
 {
-  vtkIsodiamond::MeshOptions wishes{ volume.Place.World, volume.ArrayName };
-  wishes.WithValues = this->ComputeScalars != 0;
-  wishes.PointsPrecision = this->OutputPointsPrecision;
-  wishes.Hidden = &volume.Hidden;
-  wishes.MorePointData = vtkIsodiamond::FromVolume(volume,
+  vtkIsodiamond::MeshOptions options{ volume.Placement.World, volume.ArrayName };
+  options.WithValues = this->ComputeScalars != 0;
+  options.PointsPrecision = this->OutputPointsPrecision;
+  options.Hidden = &volume.Hidden;
+  options.MorePointData = vtkIsodiamond::FromVolume(volume,
     { this->ComputeNormals != 0, this->ComputeGradients != 0, this->InterpolateAttributes != 0 });
   const int count = this->ContourValues->GetNumberOfContours();
   vtkNew<vtkAppendPolyData> append;
@@ -74,7 +74,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
     choice.Isovalue = this->ContourValues->GetValue(i);
     vtkNew<vtkPolyData> contour;
     vtkIsodiamond::ExtractFrom(
-      *this->Hierarchies, volume, choice.Region(), false, query, wishes, part)
+      *this->Hierarchies, volume, choice.Region(), false, query, options, part)
       .Give(contour);
     append->AddInputData(contour);
     kibibytes += static_cast<std::int64_t>(contour->GetActualMemorySize());

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondPoints.h"
 
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondCells.h"
-#include "vtkIsodiamondHierarchy.h"
-#include "vtkIsodiamondShare.h"
-#include "vtkIsodiamondState.h"
-#include "vtkIsodiamondTask.h"
+#include "Private/Arrays.h"
+#include "Private/Cells.h"
+#include "Private/Piece.h"
+#include "Private/State.h"
+#include "Private/Task.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIsodiamondHierarchy.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -43,7 +43,7 @@ int vtkIsodiamondPoints::FillInputPortInformation(int, vtkInformation* info)
 //------------------------------------------------------------------------------
 int vtkIsodiamondPoints::ModifyRequest(vtkInformation* request, int when)
 {
-  vtkIsodiamond::NoteShare(this, request, when, this->Share);
+  vtkIsodiamond::NotePiece(this, request, when, this->Piece);
   return this->Superclass::ModifyRequest(request, when);
 }
 
@@ -115,7 +115,7 @@ int vtkIsodiamondPoints::RequestData(
     output->GetPointData()->AddArray(classes);
     output->GetPointData()->AddArray(levels);
     output->GetPointData()->AddArray(errors);
-    vtkIsodiamond::KeepShare(output, this->Share);
+    vtkIsodiamond::KeepPiece(output, this->Piece);
   }
   catch (...)
   {

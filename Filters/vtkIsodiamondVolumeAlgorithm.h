@@ -121,7 +121,7 @@ protected:
 
   /** Makes the output, from hierarchies of the cache, which is ready for the volume. Runs in a
    *  scope of vtkSMPTools. @throws std::exception that says what is wrong */
-  virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::Query& query,
+  virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) = 0;
 
   vtkIsodiamond::InputArray FindInputArray(vtkDataSet* input);

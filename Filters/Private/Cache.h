@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondCache_h
-#define vtkIsodiamondCache_h
-
-#include "vtkIsodiamondContentHash.h"
-#include "vtkIsodiamondInput.h"
-#include "vtkIsodiamondMesh.h"
-#include "vtkIsodiamondTask.h"
+#ifndef vtkIsodiamond_Cache_h
+#define vtkIsodiamond_Cache_h
 
 #include "Build/Builder.h"
+#include "Private/ContentHash.h"
+#include "Private/Input.h"
+#include "Private/Mesh.h"
+#include "Private/Task.h"
 
 #include "vtkType.h"
 
@@ -87,12 +86,12 @@ struct CacheTrimmer
   ~CacheTrimmer() { this->Target.Trim(this->Bytes); }
 };
 
-struct Query;
+struct WorldQuery;
 
 /** What both one-step filters do: the hierarchy of a region, the refined set of a query, the mesh.
  */
 Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
-  bool refineInterior, const Query& query, const MeshOptions& wishes, Task& task);
+  bool refineInterior, const WorldQuery& query, const MeshOptions& options, Task& task);
 
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondMesh.h"
-
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondCells.h"
+#include "Private/Mesh.h"
 
 #include "Mesh/IntervalExtraction.h"
 #include "Mesh/SurfaceExtraction.h"
-#include "vtkIsodiamondShare.h"
+#include "Private/Arrays.h"
+#include "Private/Cells.h"
+#include "Private/Piece.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -58,25 +57,25 @@ vtkSmartPointer<vtkPoints> WritePoints(
 }
 
 template <typename Extraction>
-void AddPoints(const Extraction& extraction, const MeshOptions& wishes, bool isDouble, Mesh& mesh)
+void AddPoints(const Extraction& extraction, const MeshOptions& options, bool isDouble, Mesh& mesh)
 {
-  if (wishes.PointsPrecision != vtkAlgorithm::DEFAULT_PRECISION)
+  if (options.PointsPrecision != vtkAlgorithm::DEFAULT_PRECISION)
   {
-    isDouble = wishes.PointsPrecision == vtkAlgorithm::DOUBLE_PRECISION;
+    isDouble = options.PointsPrecision == vtkAlgorithm::DOUBLE_PRECISION;
   }
-  mesh.Points = isDouble ? WritePoints<vtkDoubleArray>(extraction, wishes.World)
-                         : WritePoints<vtkFloatArray>(extraction, wishes.World);
+  mesh.Points = isDouble ? WritePoints<vtkDoubleArray>(extraction, options.World)
+                         : WritePoints<vtkFloatArray>(extraction, options.World);
 }
 
 template <typename Extraction>
-void AddMorePointData(const Extraction& extraction, const MeshOptions& wishes, Mesh& mesh)
+void AddMorePointData(const Extraction& extraction, const MeshOptions& options, Mesh& mesh)
 {
-  if (!wishes.MorePointData)
+  if (!options.MorePointData)
   {
     return;
   }
   const std::vector<PointWriter> writers =
-    wishes.MorePointData(extraction.PointCount(), mesh.PointData);
+    options.MorePointData(extraction.PointCount(), mesh.PointData);
   for (const PointWriter& write : writers)
   {
     extraction.ForEachPoint(write);
@@ -172,53 +171,53 @@ void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells&
 
 /** What comes after points, cells and values. */
 template <typename Extraction>
-void Complete(const Extraction& extraction, const MeshOptions& wishes, Mesh& mesh)
+void Complete(const Extraction& extraction, const MeshOptions& options, Mesh& mesh)
 {
-  AddMorePointData(extraction, wishes, mesh);
-  if (wishes.Hidden != nullptr && wishes.Hidden->Any())
+  AddMorePointData(extraction, options, mesh);
+  if (options.Hidden != nullptr && options.Hidden->Any())
   {
-    LeaveOutHidden(extraction, *wishes.Hidden, mesh);
+    LeaveOutHidden(extraction, *options.Hidden, mesh);
   }
 }
 
-void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& wishes,
+void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
   const isodiamond::IntervalExtraction extraction(refined, parallelFor);
-  AddPoints(extraction, wishes, true, mesh);
+  AddPoints(extraction, options, true, mesh);
   const auto levels = NewArray<vtkSignedCharArray>("Level", extraction.TetrahedronCount());
   mesh.Cells = WriteCells(extraction.TetrahedronCount(), 4, parallelFor,
     [&](auto* connectivity)
-    { extraction.WriteTetrahedra(wishes.World.Mirrors(), connectivity, levels->GetPointer(0)); });
+    { extraction.WriteTetrahedra(options.World.Mirrors(), connectivity, levels->GetPointer(0)); });
   mesh.CellData->AddArray(levels);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
   {
-    AddValues<vtkDoubleArray>(extraction, wishes.ArrayName, mesh);
+    AddValues<vtkDoubleArray>(extraction, options.ArrayName, mesh);
   }
   else
   {
-    AddValues<vtkFloatArray>(extraction, wishes.ArrayName, mesh);
+    AddValues<vtkFloatArray>(extraction, options.ArrayName, mesh);
   }
-  Complete(extraction, wishes, mesh);
+  Complete(extraction, options, mesh);
 }
 
-void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& wishes,
+void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
   const isodiamond::SurfaceExtraction extraction(refined, parallelFor);
-  AddPoints(extraction, wishes, false, mesh);
+  AddPoints(extraction, options, false, mesh);
   const auto levels = NewArray<vtkSignedCharArray>("Level", extraction.TriangleCount());
   mesh.Cells = WriteCells(extraction.TriangleCount(), 3, parallelFor,
     [&](auto* connectivity)
-    { extraction.WriteTriangles(wishes.World.Mirrors(), connectivity, levels->GetPointer(0)); });
+    { extraction.WriteTriangles(options.World.Mirrors(), connectivity, levels->GetPointer(0)); });
   mesh.CellData->AddArray(levels);
-  if (wishes.WithValues)
+  if (options.WithValues)
   {
-    const auto values = NewArray<vtkFloatArray>(wishes.ArrayName.c_str(), extraction.PointCount());
+    const auto values = NewArray<vtkFloatArray>(options.ArrayName.c_str(), extraction.PointCount());
     values->Fill(refined.Hierarchy().Region().Isovalue());
     mesh.PointData->SetScalars(values);
   }
-  Complete(extraction, wishes, mesh);
+  Complete(extraction, options, mesh);
 }
 
 }
@@ -239,17 +238,17 @@ void Mesh::Give(vtkUnstructuredGrid* output, bool isVolume) const
   output->GetCellData()->ShallowCopy(this->CellData);
 }
 
-Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& wishes, Task& task)
+Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& options, Task& task)
 {
   task.Begin("Extracting the mesh", 0.0, 1.0);
   Mesh mesh;
   if (refined.Hierarchy().Region().IsVolume())
   {
-    ExtractVolume(refined, wishes, task.For(), mesh);
+    ExtractVolume(refined, options, task.For(), mesh);
   }
   else
   {
-    ExtractSurface(refined, wishes, task.For(), mesh);
+    ExtractSurface(refined, options, task.For(), mesh);
   }
   return mesh;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondTask.h"
+#include "Private/Task.h"
 
-#include "vtkIsodiamondThreads.h"
+#include "Private/Threads.h"
 
 #include "vtkVersion.h"
 

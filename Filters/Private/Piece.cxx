@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondShare.h"
+#include "Private/Piece.h"
 
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondThreads.h"
+#include "Private/Arrays.h"
+#include "Private/Threads.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkAlgorithm.h"
@@ -94,12 +94,12 @@ void KeepRange(vtkDataSetAttributes* data, vtkIdType first, vtkIdType last)
   RunSerial([&] { data->CopyData(all, 0, last - first, first); });
 }
 
-void KeepPart(vtkCellArray* cells, const int share[2], vtkPointSet* mesh, Part& part)
+void KeepPart(vtkCellArray* cells, const int piece[2], vtkPointSet* mesh, Part& part)
 {
   const vtkIdType count = cells->GetNumberOfCells();
-  const int piece = std::clamp(share[0], 0, share[1]);
-  part.FirstCell = count * piece / share[1];
-  part.LastCell = count * std::min(piece + 1, share[1]) / share[1];
+  const int number = std::clamp(piece[0], 0, piece[1]);
+  part.FirstCell = count * number / piece[1];
+  part.LastCell = count * std::min(number + 1, piece[1]) / piece[1];
   if (cells->IsStorage64Bit())
   {
     MakePart<vtkTypeInt64Array>(cells, mesh->GetNumberOfPoints(), part);
@@ -135,20 +135,20 @@ void RequestWhole(vtkInformation* inputInformation)
   inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }
 
-void NoteShare(vtkAlgorithm* filter, vtkInformation* request, int when, int share[2])
+void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[2])
 {
   if (when == vtkExecutive::AfterForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     vtkInformation* output = filter->GetOutputInformation(0);
-    share[0] = output->Get(Pipeline::UPDATE_PIECE_NUMBER()); // 0 if there is none
-    share[1] = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
+    piece[0] = output->Get(Pipeline::UPDATE_PIECE_NUMBER()); // 0 if there is none
+    piece[1] = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
   }
 }
 
-void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int share[2])
+void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int piece[2])
 {
   vtkInformation* data = volume ? volume->GetInformation() : nullptr;
-  if (share[1] == 1 || !data || !data->Has(vtkDataObject::DATA_EXTENT()) ||
+  if (piece[1] == 1 || !data || !data->Has(vtkDataObject::DATA_EXTENT()) ||
     !inputInformation->Has(Pipeline::WHOLE_EXTENT()))
   {
     return;
@@ -167,10 +167,10 @@ void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const i
   }
 }
 
-void KeepShare(vtkDataObject* mesh, const int share[2])
+void KeepPiece(vtkDataObject* mesh, const int piece[2])
 {
   vtkPointSet* points = vtkPointSet::SafeDownCast(mesh);
-  if ((share[0] == 0 && share[1] == 1) || !points || !points->GetPoints())
+  if ((piece[0] == 0 && piece[1] == 1) || !points || !points->GetPoints())
   {
     return;
   }
@@ -181,19 +181,19 @@ void KeepShare(vtkDataObject* mesh, const int share[2])
   {
     if (polyData->GetNumberOfVerts() > 0)
     {
-      KeepPart(polyData->GetVerts(), share, polyData, part);
+      KeepPart(polyData->GetVerts(), piece, polyData, part);
       polyData->SetVerts(part.Cells);
     }
     else
     {
-      KeepPart(polyData->GetPolys(), share, polyData, part);
+      KeepPart(polyData->GetPolys(), piece, polyData, part);
       polyData->SetPolys(part.Cells);
     }
   }
   else if (vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(mesh))
   {
     const int type = grid->GetNumberOfCells() > 0 ? grid->GetCellType(0) : VTK_EMPTY_CELL;
-    KeepPart(grid->GetCells(), share, grid, part);
+    KeepPart(grid->GetCells(), piece, grid, part);
     grid->SetCells(type, part.Cells);
   }
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondContentHash_h
-#define vtkIsodiamondContentHash_h
-
-#include "vtkWeakPointer.h"
+#ifndef vtkIsodiamond_ContentHash_h
+#define vtkIsodiamond_ContentHash_h
 
 #include "vtkDataArray.h"
+#include "vtkWeakPointer.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondFormat.h"
-#include "vtkIsodiamondState.h"
+#include "Private/Arrays.h"
+#include "Private/Format.h"
+#include "Private/State.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -170,7 +170,7 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choi
 {
   const std::array<int, 3> dimensions =
     std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
-  const isodiamond::AffineMap& world = *volume.Place.World.Affine();
+  const isodiamond::AffineMap& world = *volume.Placement.World.Affine();
   WriteOutline(dimensions, world, output);
   vtkFieldData* fieldData = output->GetFieldData();
   isodiamond::EncodingHeader header;

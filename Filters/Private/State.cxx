@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondState.h"
+#include "Private/State.h"
 
 #include "Mesh/MeshPoints.h"
-#include "vtkIsodiamondFormat.h"
-#include "vtkIsodiamondThreads.h"
+#include "Private/Format.h"
+#include "Private/Threads.h"
 
 #include "vtkFieldData.h"
 #include "vtkStringArray.h"

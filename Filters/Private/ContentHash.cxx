@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondContentHash.h"
+#include "Private/ContentHash.h"
 
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondThreads.h"
+#include "Private/Arrays.h"
+#include "Private/Threads.h"
 
 #include <algorithm>
 #include <cstring>

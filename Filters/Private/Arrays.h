@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondArrays_h
-#define vtkIsodiamondArrays_h
+#ifndef vtkIsodiamond_Arrays_h
+#define vtkIsodiamond_Arrays_h
 
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
@@ -11,7 +11,7 @@
 #include <new>
 
 /**
- * @file vtkIsodiamondArrays.h
+ * @file Arrays.h
  * Memory of VTK's arrays, with std::bad_alloc where there is none.
  *
  * An array that cannot allocate ends the program if VTK was built without NDEBUG, as Debian's

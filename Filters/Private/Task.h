@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondTask_h
-#define vtkIsodiamondTask_h
+#ifndef vtkIsodiamond_Task_h
+#define vtkIsodiamond_Task_h
 
 #include "Field/Parallel.h"
 

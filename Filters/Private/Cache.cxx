@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondCache.h"
+#include "Private/Cache.h"
 
-#include "vtkIsodiamondQuery.h"
+#include "Private/WorldQuery.h"
 
 #include "vtkUnsignedCharArray.h"
 
@@ -100,7 +100,7 @@ void Cache::Trim(std::int64_t bytes)
 }
 
 Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
-  bool refineInterior, const Query& query, const MeshOptions& wishes, Task& task)
+  bool refineInterior, const WorldQuery& query, const MeshOptions& options, Task& task)
 {
   constexpr double buildShare = 0.8;
   Task building = task.Part(0.0, buildShare);
@@ -109,8 +109,8 @@ Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Iso
   Task extracting = task.Part(buildShare, 1.0);
   extracting.Begin("Refining", 0.0, 0.3);
   const isodiamond::RefinedSet refined(
-    hierarchy, CoreQuery(query, hierarchy.Domain(), volume.Place.World), extracting.For());
-  return ExtractMesh(refined, wishes, extracting);
+    hierarchy, CoreQuery(query, hierarchy.Domain(), volume.Placement.World), extracting.For());
+  return ExtractMesh(refined, options, extracting);
 }
 
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondInput.h"
+#include "Private/Input.h"
 
-#include "vtkIsodiamondArrays.h"
+#include "Private/Arrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -223,7 +223,7 @@ Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoun
     ViewSamples(
       volume.Array, { dimensions[0] + 2, dimensions[1] + 2, dimensions[2] + 2 }, volume.Samples);
   }
-  volume.Place = GeometryOf(grid, volume.Padding);
+  volume.Placement = GeometryOf(grid, volume.Padding);
   volume.Hidden = HiddenCellsOf(grid, volume.Padding);
   return volume;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondFormat_h
-#define vtkIsodiamondFormat_h
+#ifndef vtkIsodiamond_Format_h
+#define vtkIsodiamond_Format_h
 
 /**
- * @file vtkIsodiamondFormat.h
- * What writing and reading of hierarchies (vtkIsodiamondState.h) have to agree about.
+ * @file Format.h
+ * What writing and reading of hierarchies (State.h) have to agree about.
  */
 namespace vtkIsodiamond::format
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondState_h
-#define vtkIsodiamondState_h
+#ifndef vtkIsodiamond_State_h
+#define vtkIsodiamond_State_h
 
 #include "Build/Builder.h"
 #include "Field/AffineMap.h"
-#include "vtkIsodiamondChoice.h"
-#include "vtkIsodiamondInput.h"
+#include "Private/Choice.h"
+#include "Private/Input.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
@@ -19,7 +19,7 @@ class vtkFieldData;
 class vtkPolyData;
 
 /**
- * @file vtkIsodiamondState.h
+ * @file State.h
  * Between a hierarchy's field-data arrays and the core: writing, and checked reading.
  *
  * | array | values |
