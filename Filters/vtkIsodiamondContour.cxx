@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondContour.h"
 
-#include "Private/Arrays.h"
 #include "Private/Cache.h"
 #include "Private/Mesh.h"
 #include "Private/Threads.h"
@@ -13,8 +12,31 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <new>
 
 vtkStandardNewMacro(vtkIsodiamondContour);
+
+namespace
+{
+
+/**
+ * For vtkAppendPolyData, which allocates its output itself, and would end the program where it
+ * cannot. Its cells may have ids of twice the bits that those of the input have.
+ *
+ * @throws std::bad_alloc if so much is not to be had now
+ */
+void ExpectMemoryToAppend(std::size_t kibibytes)
+{
+  void* volatile memory = std::malloc(2 * 1024 * kibibytes); // volatile, or it would be left out
+  if (!memory && kibibytes > 0)
+  {
+    throw std::bad_alloc();
+  }
+  std::free(memory);
+}
+
+}
 
 //------------------------------------------------------------------------------
 vtkIsodiamondContour::vtkIsodiamondContour() = default;
@@ -66,7 +88,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   const int count = this->ContourValues->GetNumberOfContours();
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(this->OutputPointsPrecision);
-  std::int64_t kibibytes = 0;
+  std::size_t kibibytes = 0;
   for (int i = 0; i < count; ++i)
   {
     vtkIsodiamond::Task part = task.Part(1.0 * i / count, (i + 1.0) / count);
@@ -77,7 +99,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
       *this->Hierarchies, volume, choice.Region(), false, query, options, part)
       .Give(contour);
     append->AddInputData(contour);
-    kibibytes += static_cast<std::int64_t>(contour->GetActualMemorySize());
+    kibibytes += contour->GetActualMemorySize();
   }
   if (count == 1)
   {
@@ -85,7 +107,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   }
   else if (count > 1)
   {
-    vtkIsodiamond::ExpectMemory(2 * 1024 * kibibytes); // its cells may have ids of twice the bits
+    ExpectMemoryToAppend(kibibytes);
     vtkIsodiamond::RunSerial([&] { append->Update(); });
     output->ShallowCopy(append->GetOutput());
   }

@@ -49,17 +49,6 @@ vtkSmartPointer<Array> NewArray(const char* name, vtkIdType count, int component
   return array;
 }
 
-/** For what only VTK can allocate. @throws std::bad_alloc if so much is not to be had now */
-inline void ExpectMemory(std::int64_t bytes)
-{
-  void* volatile memory = std::malloc(static_cast<std::size_t>(bytes)); // or it would be left out
-  if (!memory && bytes > 0)
-  {
-    throw std::bad_alloc();
-  }
-  std::free(memory);
-}
-
 /**
  * The array, if its values are in a row as vtkAOSDataArrayTemplate has them, or else (structures of
  * arrays, implicit arrays) a copy that has: as many bytes as there are values.

@@ -5,20 +5,20 @@
 #include "Mesh/SurfaceExtraction.h"
 #include "Private/Arrays.h"
 #include "Private/Cells.h"
-#include "Private/Piece.h"
+#include "Private/Tuples.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
-#include "vtkIdList.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -117,56 +117,50 @@ isodiamond::Point CellOfGrid(
   return cell;
 }
 
-/** @throws std::bad_alloc if there is none for the copy of a mesh, whose cells have ids of 64 bits
- *  in arrays that grow to twice of what they hold, out of others that still exist */
-void ExpectMemoryToLeaveOut(const Mesh& mesh)
-{
-  constexpr std::int64_t kibibyte = 1024;
-  const std::int64_t ids =
-    mesh.Cells->GetNumberOfConnectivityIds() + mesh.Cells->GetNumberOfCells() + 1;
-  const auto others = static_cast<std::int64_t>(mesh.Points->GetActualMemorySize() +
-    mesh.PointData->GetActualMemorySize() + mesh.CellData->GetActualMemorySize());
-  ExpectMemory(3 * ids * static_cast<std::int64_t>(sizeof(vtkIdType)) + kibibyte * others);
-}
-
 /** Leaves out the cells that lie in hidden ones of the grid, and points that no cell has then.
  *  Cells there are of full resolution, so each lies in one. */
 template <typename Extraction>
 void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells& hidden, Mesh& mesh)
 {
-  ExpectMemoryToLeaveOut(mesh);
   std::vector<isodiamond::Vector> positions(extraction.PointCount());
   extraction.ForEachPoint(
     [&](const isodiamond::MeshPoint& point) { positions[point.Id] = point.Index; });
-  vtkNew<vtkIdList> keptCells;
-  vtkNew<vtkIdList> keptPoints;
+  std::vector<vtkIdType> keptCells;
+  std::vector<vtkIdType> keptPoints;
   std::vector<vtkIdType> newIds(positions.size(), -1);
-  vtkNew<vtkCellArray> cells;
+  vtkIdType size = 0; // of a cell: all have as many points
+  const vtkIdType* ids = nullptr;
   for (vtkIdType cell = 0; cell < mesh.Cells->GetNumberOfCells(); ++cell)
   {
-    vtkIdType size = 0;
-    const vtkIdType* ids = nullptr;
     mesh.Cells->GetCellAtId(cell, size, ids);
     if (hidden(CellOfGrid(positions, ids, size)))
     {
       continue;
     }
-    keptCells->InsertNextId(cell);
-    cells->InsertNextCell(static_cast<int>(size));
+    keptCells.push_back(cell);
     for (vtkIdType i = 0; i < size; ++i)
     {
-      vtkIdType& id = newIds[ids[i]];
-      id = id < 0 ? keptPoints->InsertNextId(ids[i]) : id;
-      cells->InsertCellPoint(id);
+      if (newIds[ids[i]] < 0)
+      {
+        newIds[ids[i]] = static_cast<vtkIdType>(keptPoints.size());
+        keptPoints.push_back(ids[i]);
+      }
     }
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(mesh.Points->GetDataType());
-  mesh.Points->GetPoints(keptPoints, points);
+  mesh.Cells = WriteCellsAs<vtkTypeInt64Array>(static_cast<std::int64_t>(keptCells.size()),
+    static_cast<int>(size), isodiamond::SerialFor,
+    [&](auto* connectivity)
+    {
+      for (const vtkIdType cell : keptCells)
+      {
+        mesh.Cells->GetCellAtId(cell, size, ids);
+        connectivity =
+          std::transform(ids, ids + size, connectivity, [&](vtkIdType id) { return newIds[id]; });
+      }
+    });
+  mesh.Points = PointsOf(mesh.Points, keptPoints);
   KeepTuples(mesh.PointData, keptPoints);
   KeepTuples(mesh.CellData, keptCells);
-  mesh.Points = points;
-  mesh.Cells = cells;
 }
 
 /** What comes after points, cells and values. */

@@ -26,7 +26,7 @@ namespace vtkIsodiamond
 struct Mesh
 {
   vtkSmartPointer<vtkPoints> Points;   ///< world positions
-  vtkSmartPointer<vtkCellArray> Cells; ///< 32-bit storage where ids fit
+  vtkSmartPointer<vtkCellArray> Cells; ///< 32-bit storage where ids fit and all are kept
   vtkNew<vtkPointData> PointData;
   vtkNew<vtkCellData> CellData; ///< "Level"
 

@@ -2,14 +2,14 @@
 #include "Private/Piece.h"
 
 #include "Private/Arrays.h"
-#include "Private/Threads.h"
+#include "Private/Cells.h"
+#include "Private/Tuples.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkExecutive.h"
-#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -38,8 +38,8 @@ struct Part
 {
   vtkIdType FirstCell = 0;
   vtkIdType LastCell = 0; ///< not in it
-  vtkNew<vtkIdList> Points;
-  vtkSmartPointer<vtkCellArray> Cells; ///< their points by place in Points
+  std::vector<vtkIdType> Points;
+  vtkSmartPointer<vtkCellArray> Cells; ///< with indices into Points
 };
 
 /** Ids of the whole's points become ids of the part's, in the same order. */
@@ -59,39 +59,27 @@ void MakePart(vtkCellArray* cells, vtkIdType pointCount, Part& part)
   {
     newIds[*id] = 1;
   }
-  part.Points->SetNumberOfIds(std::accumulate(newIds.begin(), newIds.end(), vtkIdType{ 0 }));
-  vtkIdType* points = part.Points->GetPointer(0);
-  Id count = 0;
+  const vtkIdType used = std::accumulate(newIds.begin(), newIds.end(), vtkIdType{ 0 });
+  part.Points.reserve(static_cast<std::size_t>(used));
   for (vtkIdType id = 0; id < pointCount; ++id)
   {
     if (newIds[id] != 0)
     {
-      points[count] = id;
-      newIds[id] = count++;
+      newIds[id] = static_cast<Id>(part.Points.size());
+      part.Points.push_back(id);
     }
   }
 
   vtkNew<Array> newOffsets;
-  newOffsets->SetNumberOfValues(part.LastCell - part.FirstCell + 1);
+  AllocateTuples(newOffsets, part.LastCell - part.FirstCell + 1);
   std::transform(offset + part.FirstCell, offset + part.LastCell + 1, newOffsets->GetPointer(0),
-    [first = offset[part.FirstCell]](Id place) { return place - first; });
+    [first = offset[part.FirstCell]](Id value) { return value - first; });
   vtkNew<Array> newConnectivity;
-  newConnectivity->SetNumberOfValues(end - begin);
+  AllocateTuples(newConnectivity, end - begin);
   std::transform(
     begin, end, newConnectivity->GetPointer(0), [&newIds](Id id) { return newIds[id]; });
   part.Cells = vtkSmartPointer<vtkCellArray>::New();
   part.Cells->SetData(newOffsets, newConnectivity);
-}
-
-/** Of a data set's attributes the tuples from one until another. */
-void KeepRange(vtkDataSetAttributes* data, vtkIdType first, vtkIdType last)
-{
-  vtkNew<vtkCellData> all;
-  all->ShallowCopy(data);
-  data->Initialize();
-  data->CopyAllOn();
-  data->CopyAllocate(all, last - first);
-  RunSerial([&] { data->CopyData(all, 0, last - first, first); });
 }
 
 void KeepPart(vtkCellArray* cells, const int piece[2], vtkPointSet* mesh, Part& part)
@@ -108,12 +96,11 @@ void KeepPart(vtkCellArray* cells, const int piece[2], vtkPointSet* mesh, Part& 
   {
     MakePart<vtkTypeInt32Array>(cells, mesh->GetNumberOfPoints(), part);
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(mesh->GetPoints()->GetDataType());
-  mesh->GetPoints()->GetPoints(part.Points, points);
-  mesh->SetPoints(points);
+  mesh->SetPoints(PointsOf(mesh->GetPoints(), part.Points));
   KeepTuples(mesh->GetPointData(), part.Points);
-  KeepRange(mesh->GetCellData(), part.FirstCell, part.LastCell);
+  std::vector<vtkIdType> cellIds(part.LastCell - part.FirstCell);
+  std::iota(cellIds.begin(), cellIds.end(), part.FirstCell);
+  KeepTuples(mesh->GetCellData(), cellIds);
 }
 
 }
@@ -174,8 +161,6 @@ void KeepPiece(vtkDataObject* mesh, const int piece[2])
   {
     return;
   }
-  constexpr std::int64_t kibibyte = 1024;
-  ExpectMemory(kibibyte * static_cast<std::int64_t>(mesh->GetActualMemorySize())); // of the copy
   Part part;
   if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(mesh))
   {
@@ -194,21 +179,8 @@ void KeepPiece(vtkDataObject* mesh, const int piece[2])
   {
     const int type = grid->GetNumberOfCells() > 0 ? grid->GetCellType(0) : VTK_EMPTY_CELL;
     KeepPart(grid->GetCells(), piece, grid, part);
-    grid->SetCells(type, part.Cells);
+    GiveCells(grid, type, part.Cells);
   }
-}
-
-void KeepTuples(vtkDataSetAttributes* data, vtkIdList* ids)
-{
-  vtkNew<vtkPointData> all;
-  all->ShallowCopy(data);
-  data->Initialize();
-  data->CopyAllOn();
-  data->CopyAllocate(all, ids->GetNumberOfIds());
-  vtkNew<vtkIdList> newIds; // VTK 9.1 has no CopyData without
-  newIds->SetNumberOfIds(ids->GetNumberOfIds());
-  std::iota(newIds->begin(), newIds->end(), vtkIdType{ 0 });
-  RunSerial([&] { data->CopyData(all, ids, newIds); });
 }
 
 }

@@ -6,8 +6,6 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
-class vtkDataSetAttributes;
-class vtkIdList;
 class vtkInformation;
 
 /**
@@ -51,9 +49,6 @@ void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const i
  * @throws std::bad_alloc if there is no memory for a copy
  */
 void KeepPiece(vtkDataObject* mesh, const int piece[2]);
-
-/** Of a data set's attributes the tuples of some ids, in their order. */
-void KeepTuples(vtkDataSetAttributes* data, vtkIdList* ids);
 
 }
 
