@@ -5,7 +5,7 @@
 #include "Private/Threads.h"
 
 #include <algorithm>
-#include <cstring>
+#include <xxhash.h>
 
 namespace vtkIsodiamond
 {
@@ -14,43 +14,10 @@ namespace
 
 constexpr std::int64_t BlockBytes = 1 << 16;
 
-/** Every bit of the value comes to change every bit of the result (the finalizer of SplitMix64). */
-std::uint64_t Mix(std::uint64_t value)
+ContentHash HashOf(const void* bytes, std::int64_t count)
 {
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9U;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebU;
-  return value ^ (value >> 31);
-}
-
-/** Two lanes of multiplication and rotation, with different factors. */
-struct Lanes
-{
-  ContentHash State = { 0x9e3779b97f4a7c15U, 0xd1b54a32d192ed03U };
-
-  void Add(std::uint64_t word)
-  {
-    this->State[0] = (this->State[0] ^ word) * 0xa0761d6478bd642fU;
-    this->State[0] ^= this->State[0] >> 29;
-    this->State[1] = (this->State[1] + word) * 0xe7037ed1a0b428dbU;
-    this->State[1] ^= this->State[1] >> 32;
-  }
-  ContentHash Result() const { return { Mix(this->State[0]), Mix(this->State[1]) }; }
-};
-
-ContentHash HashOf(const char* bytes, std::int64_t count)
-{
-  Lanes lanes;
-  std::int64_t at = 0;
-  std::uint64_t word = 0;
-  for (; at + 8 <= count; at += 8)
-  {
-    std::memcpy(&word, bytes + at, 8);
-    lanes.Add(word);
-  }
-  word = 0;
-  std::memcpy(&word, bytes + at, static_cast<std::size_t>(count - at));
-  lanes.Add(word);
-  return lanes.Result();
+  const XXH128_hash_t hash = XXH3_128bits(bytes, static_cast<std::size_t>(count));
+  return { hash.low64, hash.high64 };
 }
 
 }
@@ -64,26 +31,21 @@ ContentHash HashOf(vtkDataArray* array)
   const vtkSmartPointer<vtkDataArray> row = InRow(array);
   const char* bytes = static_cast<const char*>(row->GetVoidPointer(0));
   const std::int64_t count = array->GetNumberOfValues() * array->GetDataTypeSize();
-  std::vector<ContentHash> blocks((count + BlockBytes - 1) / BlockBytes);
-  SMPFor()(static_cast<std::int64_t>(blocks.size()), 16,
+  const std::int64_t blocks = (count + BlockBytes - 1) / BlockBytes;
+  std::vector<ContentHash> parts(blocks);
+  SMPFor()(blocks, 16,
     [&](std::int64_t begin, std::int64_t end)
     {
       for (std::int64_t block = begin; block < end; ++block)
       {
         const std::int64_t first = block * BlockBytes;
-        blocks[block] = HashOf(bytes + first, std::min(BlockBytes, count - first));
+        parts[block] = HashOf(bytes + first, std::min(BlockBytes, count - first));
       }
     });
-  Lanes lanes;
-  lanes.Add(static_cast<std::uint64_t>(array->GetDataType()));
-  lanes.Add(static_cast<std::uint64_t>(array->GetNumberOfComponents()));
-  lanes.Add(static_cast<std::uint64_t>(count));
-  for (const ContentHash& block : blocks)
-  {
-    lanes.Add(block[0]);
-    lanes.Add(block[1]);
-  }
-  return lanes.Result();
+  parts.push_back({ static_cast<std::uint64_t>(array->GetDataType()),
+    static_cast<std::uint64_t>(array->GetNumberOfComponents()) });
+  parts.push_back({ static_cast<std::uint64_t>(count) });
+  return HashOf(parts.data(), static_cast<std::int64_t>(parts.size() * sizeof(ContentHash)));
 }
 
 ContentHash ContentHashes::Of(vtkDataArray* array)
