@@ -154,10 +154,4 @@ void ReportException(vtkAlgorithm* filter) noexcept
   }
 }
 
-void HandleException(vtkAlgorithm* filter, vtkDataObject* output)
-{
-  output->Initialize();
-  ReportException(filter);
-}
-
 }
