@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondContour.h"
 
-#include "Private/Cache.h"
 #include "Private/Mesh.h"
 #include "Private/Threads.h"
 #include "Private/WorldQuery.h"
@@ -95,9 +94,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
     vtkIsodiamond::Choice choice;
     choice.Isovalue = this->ContourValues->GetValue(i);
     vtkNew<vtkPolyData> contour;
-    vtkIsodiamond::ExtractFrom(
-      *this->Hierarchies, volume, choice.Region(), false, query, options, part)
-      .Give(contour);
+    this->ExtractMesh(volume, choice.Region(), false, query, options, part).Give(contour);
     append->AddInputData(contour);
     kibibytes += contour->GetActualMemorySize();
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondIntervalVolume.h"
 
-#include "Private/Cache.h"
 #include "Private/Mesh.h"
 #include "Private/WorldQuery.h"
 
@@ -72,7 +71,8 @@ void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   options.Hidden = &volume.Hidden;
   options.MorePointData =
     vtkIsodiamond::FromVolume(volume, { false, false, this->InterpolateAttributes != 0 });
-  vtkIsodiamond::ExtractFrom(*this->Hierarchies, volume, { this->Isorange[0], this->Isorange[1] },
-    refineInterior, withInterior, options, task)
+  this
+    ->ExtractMesh(
+      volume, { this->Isorange[0], this->Isorange[1] }, refineInterior, withInterior, options, task)
     .Give(vtkUnstructuredGrid::SafeDownCast(output), true);
 }

@@ -4,6 +4,7 @@
 #include "Patches/WorldLengths.h"
 #include "Private/Cache.h"
 #include "Private/Input.h"
+#include "Private/Mesh.h"
 #include "Private/Piece.h"
 #include "Private/Task.h"
 #include "Private/Threads.h"
@@ -127,4 +128,20 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
         });
       vtkIsodiamond::KeepPiece(output, this->Piece);
     });
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamond::Volume& volume,
+  const isodiamond::Isoregion& region, bool refineInterior, const vtkIsodiamond::WorldQuery& query,
+  const vtkIsodiamond::MeshOptions& options, vtkIsodiamond::Task& task)
+{
+  constexpr double buildPart = 0.8;
+  vtkIsodiamond::Task building = task.Part(0.0, buildPart);
+  const isodiamond::IsodiamondHierarchy& hierarchy =
+    this->Hierarchies->Get(volume, region, refineInterior, building);
+  vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
+  extracting.Begin("Refining", 0.0, 0.3);
+  const isodiamond::RefinedSet refined(hierarchy,
+    vtkIsodiamond::CoreQuery(query, hierarchy.Domain(), volume.Placement.World), extracting.For());
+  return vtkIsodiamond::ExtractMesh(refined, options, extracting);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Cache.h"
 
-#include "Private/WorldQuery.h"
-
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -97,20 +95,6 @@ void Cache::Trim(std::int64_t bytes)
     entry->IsUsed = false;
     entry = isUsed || kept <= bytes ? std::next(entry) : this->Entries.erase(entry);
   }
-}
-
-Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
-  bool refineInterior, const WorldQuery& query, const MeshOptions& options, Task& task)
-{
-  constexpr double buildShare = 0.8;
-  Task building = task.Part(0.0, buildShare);
-  const isodiamond::IsodiamondHierarchy& hierarchy =
-    hierarchies.Get(volume, region, refineInterior, building);
-  Task extracting = task.Part(buildShare, 1.0);
-  extracting.Begin("Refining", 0.0, 0.3);
-  const isodiamond::RefinedSet refined(
-    hierarchy, CoreQuery(query, hierarchy.Domain(), volume.Placement.World), extracting.For());
-  return ExtractMesh(refined, options, extracting);
 }
 
 }

@@ -5,7 +5,6 @@
 #include "Build/Builder.h"
 #include "Private/ContentHash.h"
 #include "Private/Input.h"
-#include "Private/Mesh.h"
 #include "Private/Task.h"
 
 #include "vtkType.h"
@@ -85,13 +84,6 @@ struct CacheTrimmer
   std::int64_t Bytes;
   ~CacheTrimmer() { this->Target.Trim(this->Bytes); }
 };
-
-struct WorldQuery;
-
-/** What both one-step filters do: the hierarchy of a region, the refined set of a query, the mesh.
- */
-Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
-  bool refineInterior, const WorldQuery& query, const MeshOptions& options, Task& task);
 
 }
 
