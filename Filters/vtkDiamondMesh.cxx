@@ -2,11 +2,10 @@
 #include "vtkDiamondMesh.h"
 
 #include "Mesh/DiamondMesh.h"
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondState.h"
-#include "vtkIsodiamondTask.h"
-
-#include "vtkIsodiamondCells.h"
+#include "Private/Arrays.h"
+#include "Private/Cells.h"
+#include "Private/State.h"
+#include "Private/Task.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

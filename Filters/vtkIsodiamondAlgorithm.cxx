@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondAlgorithm.h"
 
-#include "vtkIsodiamondQuery.h"
-#include "vtkIsodiamondShare.h"
+#include "Private/Piece.h"
+#include "Private/WorldQuery.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
@@ -70,9 +70,9 @@ vtkDataObject* vtkIsodiamondAlgorithm::GetInput()
 }
 
 //------------------------------------------------------------------------------
-vtkIsodiamond::Query vtkIsodiamondAlgorithm::GetQuery() const
+vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
 {
-  vtkIsodiamond::Query query;
+  vtkIsodiamond::WorldQuery query;
   query.ErrorTolerance = this->ErrorTolerance;
   query.OutsideErrorTolerance = this->OutsideErrorTolerance;
   if (this->UseRegionOfInterest)
@@ -115,7 +115,7 @@ vtkTypeBool vtkIsodiamondAlgorithm::ProcessRequest(
 //------------------------------------------------------------------------------
 int vtkIsodiamondAlgorithm::ModifyRequest(vtkInformation* request, int when)
 {
-  vtkIsodiamond::NoteShare(this, request, when, this->Share);
+  vtkIsodiamond::NotePiece(this, request, when, this->Piece);
   return this->Superclass::ModifyRequest(request, when);
 }
 

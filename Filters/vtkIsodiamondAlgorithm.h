@@ -19,7 +19,7 @@
 class vtkDataObject;
 namespace vtkIsodiamond
 {
-struct Query;
+struct WorldQuery;
 }
 
 class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondAlgorithm : public vtkAlgorithm
@@ -144,7 +144,7 @@ protected:
   vtkIsodiamondAlgorithm();
   ~vtkIsodiamondAlgorithm() override = default;
 
-  /** Notes the share of the output that is asked for. */
+  /** Notes the piece of the output that is asked for. */
   int ModifyRequest(vtkInformation* request, int when) override;
   /** Asks for the whole input. */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
@@ -153,7 +153,7 @@ protected:
     vtkInformationVector* outputVector) = 0;
 
   /** What the properties ask of a hierarchy. @throws std::invalid_argument if they make no sense */
-  vtkIsodiamond::Query GetQuery() const;
+  vtkIsodiamond::WorldQuery GetQuery() const;
 
   double ErrorTolerance = 0.0;
   bool UseRegionOfInterest = false;
@@ -167,7 +167,7 @@ protected:
   int OutputPointsPrecision = DEFAULT_PRECISION;
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
-  int Share[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
+  int Piece[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
 
 private:
   vtkIsodiamondAlgorithm(const vtkIsodiamondAlgorithm&) = delete;

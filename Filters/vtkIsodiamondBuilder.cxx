@@ -2,12 +2,12 @@
 #include "vtkIsodiamondBuilder.h"
 
 #include "Build/Builder.h"
-#include "vtkIsodiamondInput.h"
-#include "vtkIsodiamondPointData.h"
-#include "vtkIsodiamondShare.h"
-#include "vtkIsodiamondState.h"
-#include "vtkIsodiamondTask.h"
-#include "vtkIsodiamondThreads.h"
+#include "Private/Input.h"
+#include "Private/Piece.h"
+#include "Private/PointData.h"
+#include "Private/State.h"
+#include "Private/Task.h"
+#include "Private/Threads.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -127,7 +127,7 @@ vtkTypeBool vtkIsodiamondBuilder::ProcessRequest(
 //------------------------------------------------------------------------------
 int vtkIsodiamondBuilder::ModifyRequest(vtkInformation* request, int when)
 {
-  vtkIsodiamond::NoteShare(this, request, when, this->Share);
+  vtkIsodiamond::NotePiece(this, request, when, this->Piece);
   return this->Superclass::ModifyRequest(request, when);
 }
 
@@ -148,9 +148,9 @@ int vtkIsodiamondBuilder::RequestData(
     [&](vtkIsodiamond::Task& task)
     {
       vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-      vtkIsodiamond::CheckWhole(input, inputVector[0]->GetInformationObject(0), this->Share);
+      vtkIsodiamond::CheckWhole(input, inputVector[0]->GetInformationObject(0), this->Piece);
       this->Build(input, task, output);
-      if (this->Share[0] > 0)
+      if (this->Piece[0] > 0)
       {
         output->SetPoints(vtkNew<vtkPoints>());
         output->SetLines(nullptr);
@@ -233,7 +233,7 @@ void vtkIsodiamondBuilder::BuildFromImage(
   const isodiamond::Isoregion region = choice.Region();
   const vtkIsodiamond::Volume volume = vtkIsodiamond::ReadVolume(
     image, this->FindInputArray(image), this->CloseBoundary && !region.IsVolume());
-  const isodiamond::AffineMap& world = *volume.Place.World.Affine(); // as all images'
+  const isodiamond::AffineMap& world = *volume.Placement.World.Affine(); // as all images'
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {
     this->WarnWithoutPointArrays();

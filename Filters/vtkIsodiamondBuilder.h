@@ -203,7 +203,7 @@ protected:
   ~vtkIsodiamondBuilder() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  /** Notes the share of the output that is asked for. */
+  /** Notes the piece of the output that is asked for. */
   int ModifyRequest(vtkInformation* request, int when) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -222,7 +222,7 @@ protected:
   std::vector<std::string> PointArrays;
   bool ComputeNormals = false;
   int NumberOfThreads = 0;
-  int Share[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
+  int Piece[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
 
 private:
   vtkIsodiamondBuilder(const vtkIsodiamondBuilder&) = delete;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondContour.h"
 
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondCache.h"
-#include "vtkIsodiamondMesh.h"
-#include "vtkIsodiamondQuery.h"
-#include "vtkIsodiamondThreads.h"
+#include "Private/Mesh.h"
+#include "Private/Threads.h"
+#include "Private/WorldQuery.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkInformation.h"
@@ -13,8 +11,31 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <new>
 
 vtkStandardNewMacro(vtkIsodiamondContour);
+
+namespace
+{
+
+/**
+ * For vtkAppendPolyData, which allocates its output itself, and would end the program where it
+ * cannot. Its cells may have ids of twice the bits that those of the input have.
+ *
+ * @throws std::bad_alloc if so much is not to be had now
+ */
+void ExpectMemoryToAppend(std::size_t kibibytes)
+{
+  void* volatile memory = std::malloc(2 * 1024 * kibibytes); // volatile, or it would be left out
+  if (!memory && kibibytes > 0)
+  {
+    throw std::bad_alloc();
+  }
+  std::free(memory);
+}
+
+}
 
 //------------------------------------------------------------------------------
 vtkIsodiamondContour::vtkIsodiamondContour() = default;
@@ -55,29 +76,27 @@ int vtkIsodiamondContour::FillOutputPortInformation(int, vtkInformation* info)
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
-  const vtkIsodiamond::Query& query, vtkIsodiamond::Task& task, vtkDataObject* output)
+  const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task, vtkDataObject* output)
 {
-  vtkIsodiamond::MeshOptions wishes{ volume.Place.World, volume.ArrayName };
-  wishes.WithValues = this->ComputeScalars != 0;
-  wishes.PointsPrecision = this->OutputPointsPrecision;
-  wishes.Hidden = &volume.Hidden;
-  wishes.MorePointData = vtkIsodiamond::FromVolume(volume,
+  vtkIsodiamond::MeshOptions options{ volume.Placement.World, volume.ArrayName };
+  options.WithValues = this->ComputeScalars != 0;
+  options.PointsPrecision = this->OutputPointsPrecision;
+  options.Hidden = &volume.Hidden;
+  options.MorePointData = vtkIsodiamond::FromVolume(volume,
     { this->ComputeNormals != 0, this->ComputeGradients != 0, this->InterpolateAttributes != 0 });
   const int count = this->ContourValues->GetNumberOfContours();
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(this->OutputPointsPrecision);
-  std::int64_t kibibytes = 0;
+  std::size_t kibibytes = 0;
   for (int i = 0; i < count; ++i)
   {
     vtkIsodiamond::Task part = task.Part(1.0 * i / count, (i + 1.0) / count);
     vtkIsodiamond::Choice choice;
     choice.Isovalue = this->ContourValues->GetValue(i);
     vtkNew<vtkPolyData> contour;
-    vtkIsodiamond::ExtractFrom(
-      *this->Hierarchies, volume, choice.Region(), false, query, wishes, part)
-      .Give(contour);
+    this->ExtractMesh(volume, choice.Region(), false, query, options, part).Give(contour);
     append->AddInputData(contour);
-    kibibytes += static_cast<std::int64_t>(contour->GetActualMemorySize());
+    kibibytes += contour->GetActualMemorySize();
   }
   if (count == 1)
   {
@@ -85,7 +104,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   }
   else if (count > 1)
   {
-    vtkIsodiamond::ExpectMemory(2 * 1024 * kibibytes); // its cells may have ids of twice the bits
+    ExpectMemoryToAppend(kibibytes);
     vtkIsodiamond::RunSerial([&] { append->Update(); });
     output->ShallowCopy(append->GetOutput());
   }

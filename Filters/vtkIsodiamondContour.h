@@ -104,7 +104,7 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   bool ClosesBoundary() const override { return this->CloseBoundary; }
-  void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::Query& query,
+  void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) override;
 
   vtkNew<vtkContourValues> ContourValues;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondExtractor.h"
 
-#include "vtkIsodiamondInput.h"
-#include "vtkIsodiamondMesh.h"
-#include "vtkIsodiamondQuery.h"
-#include "vtkIsodiamondShare.h"
+#include "Private/Input.h"
+#include "Private/Mesh.h"
+#include "Private/Piece.h"
+#include "Private/WorldQuery.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -20,7 +20,7 @@ vtkStandardNewMacro(vtkIsodiamondExtractor);
 struct vtkIsodiamondExtractor::Execution
 {
   std::shared_ptr<const vtkIsodiamond::State> State;
-  vtkIsodiamond::Query Query;
+  vtkIsodiamond::WorldQuery Query;
   std::optional<vtkIdType> Subdivided;
   std::optional<vtkIdType> Front;
 
@@ -115,9 +115,9 @@ vtkIdType vtkIsodiamondExtractor::GetNumberOfFrontDiamonds()
 }
 
 //------------------------------------------------------------------------------
-vtkIsodiamond::Query vtkIsodiamondExtractor::GetQuery() const
+vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetQuery() const
 {
-  vtkIsodiamond::Query query = this->Superclass::GetQuery();
+  vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
   query.InteriorTolerance = this->InteriorTolerance;
   if (this->Shape >= 0)
   {
@@ -199,7 +199,7 @@ int vtkIsodiamondExtractor::RequestData(
         task.For(),
         [&](const isodiamond::RefinedSet& refined)
         { this->WriteMesh(*execution->State, refined, writing, output); });
-      vtkIsodiamond::KeepShare(output, this->Share);
+      vtkIsodiamond::KeepPiece(output, this->Piece);
       this->Last = std::move(execution);
     });
 }
@@ -209,12 +209,12 @@ void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
   const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkUnstructuredGrid* output)
 {
   const isodiamond::GridGeometry world = state.World;
-  vtkIsodiamond::MeshOptions wishes{ world, state.ArrayName };
-  wishes.PointsPrecision = this->OutputPointsPrecision;
+  vtkIsodiamond::MeshOptions options{ world, state.ArrayName };
+  options.PointsPrecision = this->OutputPointsPrecision;
   if (state.Isodiamonds && !state.PointArrays.empty())
   {
-    wishes.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
+    options.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
   }
-  vtkIsodiamond::ExtractMesh(refined, wishes, task)
+  vtkIsodiamond::ExtractMesh(refined, options, task)
     .Give(output, refined.Hierarchy().Region().IsVolume());
 }

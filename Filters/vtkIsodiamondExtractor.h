@@ -40,7 +40,7 @@ class vtkFieldData;
 class vtkUnstructuredGrid;
 namespace vtkIsodiamond
 {
-struct Query;
+struct WorldQuery;
 struct State;
 class Task;
 }
@@ -139,7 +139,7 @@ protected:
     vtkIsodiamond::Task& task, vtkUnstructuredGrid* output);
 
   /** What the properties ask of a hierarchy. */
-  vtkIsodiamond::Query GetQuery() const;
+  vtkIsodiamond::WorldQuery GetQuery() const;
 
   double InteriorTolerance = VTK_DOUBLE_MAX;
   int Shape = -1;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondIntervalVolume.h"
 
-#include "vtkIsodiamondCache.h"
-#include "vtkIsodiamondMesh.h"
-#include "vtkIsodiamondQuery.h"
+#include "Private/Mesh.h"
+#include "Private/WorldQuery.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
@@ -55,9 +54,9 @@ int vtkIsodiamondIntervalVolume::FillOutputPortInformation(int, vtkInformation* 
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
-  const vtkIsodiamond::Query& query, vtkIsodiamond::Task& task, vtkDataObject* output)
+  const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task, vtkDataObject* output)
 {
-  vtkIsodiamond::Query withInterior = query;
+  vtkIsodiamond::WorldQuery withInterior = query;
   withInterior.InteriorTolerance = this->InteriorTolerance;
   vtkIsodiamond::CheckTolerances(withInterior);
   const auto extent = [&]
@@ -67,12 +66,13 @@ void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   };
   const bool refineInterior =
     this->InteriorTolerance < VTK_DOUBLE_MAX && this->InteriorTolerance < extent();
-  vtkIsodiamond::MeshOptions wishes{ volume.Place.World, volume.ArrayName };
-  wishes.PointsPrecision = this->OutputPointsPrecision;
-  wishes.Hidden = &volume.Hidden;
-  wishes.MorePointData =
+  vtkIsodiamond::MeshOptions options{ volume.Placement.World, volume.ArrayName };
+  options.PointsPrecision = this->OutputPointsPrecision;
+  options.Hidden = &volume.Hidden;
+  options.MorePointData =
     vtkIsodiamond::FromVolume(volume, { false, false, this->InterpolateAttributes != 0 });
-  vtkIsodiamond::ExtractFrom(*this->Hierarchies, volume, { this->Isorange[0], this->Isorange[1] },
-    refineInterior, withInterior, wishes, task)
+  this
+    ->ExtractMesh(
+      volume, { this->Isorange[0], this->Isorange[1] }, refineInterior, withInterior, options, task)
     .Give(vtkUnstructuredGrid::SafeDownCast(output), true);
 }

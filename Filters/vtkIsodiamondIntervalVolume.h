@@ -66,7 +66,7 @@ protected:
   ~vtkIsodiamondIntervalVolume() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::Query& query,
+  void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) override;
 
   double Isorange[2] = { 0.0, 1.0 };

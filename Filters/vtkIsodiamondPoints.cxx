@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondPoints.h"
 
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondCells.h"
-#include "vtkIsodiamondHierarchy.h"
-#include "vtkIsodiamondShare.h"
-#include "vtkIsodiamondState.h"
-#include "vtkIsodiamondTask.h"
+#include "Private/Arrays.h"
+#include "Private/Cells.h"
+#include "Private/Piece.h"
+#include "Private/State.h"
+#include "Private/Task.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIsodiamondHierarchy.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -23,6 +23,62 @@
 #include <type_traits>
 
 vtkStandardNewMacro(vtkIsodiamondPoints);
+
+namespace
+{
+
+/** Calls body(place, rank) for the stored diamonds: the corners of the base cube are none. */
+template <typename Body>
+void ForEachIsodiamond(const isodiamond::IsodiamondHierarchy& hierarchy, Body&& body)
+{
+  hierarchy.Diamonds().ForEach(
+    [&, depth = hierarchy.SampleGrid().Depth()](const isodiamond::Place& place, std::uint32_t rank)
+    {
+      if (place.Scale != depth)
+      {
+        body(place, rank);
+      }
+    });
+}
+
+void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
+  const isodiamond::AffineMap& world, vtkPolyData* output)
+{
+  vtkIdType count = 0;
+  ForEachIsodiamond(hierarchy, [&](const isodiamond::Place&, std::uint32_t) { ++count; });
+  vtkNew<vtkPoints> points;
+  points->GetData()->SetNumberOfComponents(3);
+  vtkIsodiamond::AllocateTuples(points->GetData(), count);
+  const auto kinds = vtkIsodiamond::NewArray<vtkSignedCharArray>("Kind", count);
+  const auto classes = vtkIsodiamond::NewArray<vtkSignedCharArray>("Class", count);
+  const auto levels = vtkIsodiamond::NewArray<vtkSignedCharArray>("Level", count);
+  const auto errors = vtkIsodiamond::NewArray<vtkDoubleArray>("Error", count);
+  const int rootScale = hierarchy.SampleGrid().Depth() - 1;
+  vtkIdType id = 0;
+  ForEachIsodiamond(hierarchy,
+    [&](const isodiamond::Place& place, std::uint32_t rank)
+    {
+      const isodiamond::Point centre = isodiamond::Centre(place);
+      points->SetPoint(id, world(centre[0], centre[1], centre[2]).data());
+      kinds->SetValue(id, static_cast<signed char>(hierarchy.KindOf(rank)));
+      classes->SetValue(
+        id, static_cast<signed char>(isodiamond::ShapeOf(place.Position).DiamondClass));
+      levels->SetValue(id, static_cast<signed char>(rootScale - place.Scale));
+      errors->SetValue(id, hierarchy.Codes().Decode(hierarchy.Threshold(rank)));
+      ++id;
+    });
+  const auto vertices = vtkIsodiamond::WriteCells(count, 1, isodiamond::SerialFor,
+    [count](auto* connectivity)
+    { std::iota(connectivity, connectivity + count, std::decay_t<decltype(*connectivity)>{}); });
+  output->SetPoints(points);
+  output->SetVerts(vertices);
+  output->GetPointData()->SetScalars(kinds);
+  output->GetPointData()->AddArray(classes);
+  output->GetPointData()->AddArray(levels);
+  output->GetPointData()->AddArray(errors);
+}
+
+}
 
 //------------------------------------------------------------------------------
 vtkIsodiamondPoints::vtkIsodiamondPoints() = default;
@@ -43,7 +99,7 @@ int vtkIsodiamondPoints::FillInputPortInformation(int, vtkInformation* info)
 //------------------------------------------------------------------------------
 int vtkIsodiamondPoints::ModifyRequest(vtkInformation* request, int when)
 {
-  vtkIsodiamond::NoteShare(this, request, when, this->Share);
+  vtkIsodiamond::NotePiece(this, request, when, this->Piece);
   return this->Superclass::ModifyRequest(request, when);
 }
 
@@ -59,67 +115,18 @@ int vtkIsodiamondPoints::RequestUpdateExtent(
 int vtkIsodiamondPoints::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  try
-  {
-    const std::shared_ptr<const vtkIsodiamond::State> state =
-      vtkIsodiamondHierarchy::ReadState(input);
-    if (!state->Isodiamonds)
+  return vtkIsodiamond::Execute(this, output,
+    [&](vtkIsodiamond::Task&)
     {
-      throw std::invalid_argument("A hierarchy of diamonds (HD) stores no isodiamonds; build a "
-                                  "relevant or minimal hierarchy from it.");
-    }
-    const isodiamond::IsodiamondHierarchy& hierarchy = *state->Isodiamonds;
-    const int depth = hierarchy.Domain().Depth();
-    // The corners of the base cube are not diamonds.
-    const auto forEach = [&](auto&& body)
-    {
-      hierarchy.Diamonds().ForEach(
-        [&](const isodiamond::Place& place, std::uint32_t rank)
-        {
-          if (place.Scale != depth)
-          {
-            body(place, rank);
-          }
-        });
-    };
-    vtkIdType count = 0;
-    forEach([&](const isodiamond::Place&, std::uint32_t) { ++count; });
-    vtkNew<vtkPoints> points;
-    points->GetData()->SetNumberOfComponents(3);
-    vtkIsodiamond::AllocateTuples(points->GetData(), count);
-    const auto kinds = vtkIsodiamond::NewArray<vtkSignedCharArray>("Kind", count);
-    const auto classes = vtkIsodiamond::NewArray<vtkSignedCharArray>("Class", count);
-    const auto levels = vtkIsodiamond::NewArray<vtkSignedCharArray>("Level", count);
-    const auto errors = vtkIsodiamond::NewArray<vtkDoubleArray>("Error", count);
-    vtkIdType id = 0;
-    forEach(
-      [&](const isodiamond::Place& place, std::uint32_t rank)
+      const std::shared_ptr<const vtkIsodiamond::State> state =
+        vtkIsodiamondHierarchy::ReadState(vtkPolyData::GetData(inputVector[0]));
+      if (!state->Isodiamonds)
       {
-        const isodiamond::Point centre = isodiamond::Centre(place);
-        points->SetPoint(id, state->World(centre[0], centre[1], centre[2]).data());
-        kinds->SetValue(id, static_cast<signed char>(hierarchy.KindOf(rank)));
-        classes->SetValue(
-          id, static_cast<signed char>(isodiamond::ShapeOf(place.Position).DiamondClass));
-        levels->SetValue(id, static_cast<signed char>(depth - 1 - place.Scale));
-        errors->SetValue(id, hierarchy.Codes().Decode(hierarchy.Threshold(rank)));
-        ++id;
-      });
-    const auto vertices = vtkIsodiamond::WriteCells(count, 1, isodiamond::SerialFor,
-      [count](auto* connectivity)
-      { std::iota(connectivity, connectivity + count, std::decay_t<decltype(*connectivity)>{}); });
-    output->SetPoints(points);
-    output->SetVerts(vertices);
-    output->GetPointData()->SetScalars(kinds);
-    output->GetPointData()->AddArray(classes);
-    output->GetPointData()->AddArray(levels);
-    output->GetPointData()->AddArray(errors);
-    vtkIsodiamond::KeepShare(output, this->Share);
-  }
-  catch (...)
-  {
-    vtkIsodiamond::HandleException(this, output);
-  }
-  return 1;
+        throw std::invalid_argument("A hierarchy of diamonds (HD) stores no isodiamonds; build a "
+                                    "relevant or minimal hierarchy from it.");
+      }
+      WritePoints(*state->Isodiamonds, state->World, output);
+      vtkIsodiamond::KeepPiece(output, this->Piece);
+    });
 }

@@ -30,14 +30,14 @@ protected:
   ~vtkIsodiamondPoints() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  /** Notes the share of the output that is asked for. */
+  /** Notes the piece of the output that is asked for. */
   int ModifyRequest(vtkInformation* request, int when) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Share[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
+  int Piece[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
 
 private:
   vtkIsodiamondPoints(const vtkIsodiamondPoints&) = delete;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondVolumeAlgorithm.h"
 
-#include "vtkIsodiamondCache.h"
-#include "vtkIsodiamondInput.h"
-#include "vtkIsodiamondQuery.h"
-#include "vtkIsodiamondShare.h"
-#include "vtkIsodiamondTask.h"
-#include "vtkIsodiamondThreads.h"
-
 #include "Patches/WorldLengths.h"
+#include "Private/Cache.h"
+#include "Private/Input.h"
+#include "Private/Mesh.h"
+#include "Private/Piece.h"
+#include "Private/Task.h"
+#include "Private/Threads.h"
+#include "Private/WorldQuery.h"
 
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -95,10 +95,10 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
   return vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task& task)
     {
-      const vtkIsodiamond::Query query = this->GetQuery();
+      const vtkIsodiamond::WorldQuery query = this->GetQuery();
       vtkIsodiamond::CheckTolerances(query);
       vtkDataSet* grid = vtkDataSet::GetData(inputVector[0]);
-      vtkIsodiamond::CheckWhole(grid, inputVector[0]->GetInformationObject(0), this->Share);
+      vtkIsodiamond::CheckWhole(grid, inputVector[0]->GetInformationObject(0), this->Piece);
       const vtkIsodiamond::InputArray array = this->FindInputArray(grid);
       const vtkIsodiamond::Volume volume =
         vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
@@ -110,7 +110,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
         throw std::invalid_argument("A view-dependent mesh needs the distance metric.");
       }
       // Full resolution is the same by either metric: grids without distances have it, too.
-      const isodiamond::GridGeometry& world = volume.Place.World;
+      const isodiamond::GridGeometry& world = volume.Placement.World;
       if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
         (world.Affine() || !query.IsFull() || isodiamond::FaultOfLengths(world).empty()))
       {
@@ -126,6 +126,23 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
           this->Hierarchies->Prepare(array.Array, volume, options);
           this->Extract(volume, query, task, output);
         });
-      vtkIsodiamond::KeepShare(output, this->Share);
+      vtkIsodiamond::KeepPiece(output, this->Piece);
     });
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamond::Volume& volume,
+  const isodiamond::Isoregion& region, bool refineInterior, const vtkIsodiamond::WorldQuery& query,
+  const vtkIsodiamond::MeshOptions& options, vtkIsodiamond::Task& task)
+{
+  constexpr double buildPart = 0.8;
+  vtkIsodiamond::Task building = task.Part(0.0, buildPart);
+  const isodiamond::IsodiamondHierarchy& hierarchy =
+    this->Hierarchies->Get(volume, region, refineInterior, building);
+  vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
+  extracting.Begin("Refining", 0.0, 0.3);
+  const isodiamond::RefinedSet refined(hierarchy,
+    vtkIsodiamond::CoreQuery(query, hierarchy.SampleGrid(), volume.Placement.World),
+    extracting.For());
+  return vtkIsodiamond::ExtractMesh(refined, options, extracting);
 }

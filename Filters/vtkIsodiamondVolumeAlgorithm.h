@@ -30,10 +30,16 @@
 #include <memory> // for the cache
 
 class vtkDataSet;
+namespace isodiamond
+{
+class Isoregion;
+}
 namespace vtkIsodiamond
 {
 class Cache;
 struct InputArray;
+struct Mesh;
+struct MeshOptions;
 class Task;
 struct Volume;
 }
@@ -121,8 +127,14 @@ protected:
 
   /** Makes the output, from hierarchies of the cache, which is ready for the volume. Runs in a
    *  scope of vtkSMPTools. @throws std::exception that says what is wrong */
-  virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::Query& query,
+  virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) = 0;
+
+  /** The mesh of a region: its hierarchy is one of the cache, refined by a query. */
+  vtkIsodiamond::Mesh ExtractMesh(const vtkIsodiamond::Volume& volume,
+    const isodiamond::Isoregion& region, bool refineInterior,
+    const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::MeshOptions& options,
+    vtkIsodiamond::Task& task);
 
   vtkIsodiamond::InputArray FindInputArray(vtkDataSet* input);
 
@@ -132,11 +144,11 @@ protected:
   vtkTypeBool InterpolateAttributes = 1;
   int CacheSize = 512;
 
-  std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
-
 private:
   vtkIsodiamondVolumeAlgorithm(const vtkIsodiamondVolumeAlgorithm&) = delete;
   void operator=(const vtkIsodiamondVolumeAlgorithm&) = delete;
+
+  std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
 };
 
 #endif

@@ -18,6 +18,14 @@ if(BUILD_TESTING)
     PATHS "${VTK_DIR}" NO_DEFAULT_PATH) # the VTK that ParaView brought
 endif()
 
+# Hashes of the volumes that the cache knows. xxHash comes without a configuration for CMake.
+find_path(XXHASH_INCLUDE_DIR xxhash.h)
+find_library(XXHASH_LIBRARY xxhash)
+mark_as_advanced(XXHASH_INCLUDE_DIR XXHASH_LIBRARY)
+if(NOT XXHASH_INCLUDE_DIR OR NOT XXHASH_LIBRARY)
+  message(FATAL_ERROR "xxHash is missing. Isodiamonds needs its development files, 0.8 or later (Debian: libxxhash-dev).")
+endif()
+
 vtk_module_scan(
   MODULE_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module"
   REQUEST_MODULES IsodiamondFilters

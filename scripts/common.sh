@@ -4,7 +4,8 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
 
-compile_packages="cmake ninja-build g++"
+# libxxhash: hashes by which the filters know content again.
+compile_packages="cmake ninja-build g++ libxxhash-dev"
 # Rendering without a screen.
 render_packages="xvfb xauth"
 # The MRI head of the demo.

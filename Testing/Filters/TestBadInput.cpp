@@ -3,6 +3,7 @@
 // again afterwards.
 #include "FilterTestTools.h"
 
+#include "vtkBitArray.h"
 #include "vtkDiamondMesh.h"
 #include "vtkDoubleArray.h"
 #include "vtkExecutive.h"
@@ -113,6 +114,19 @@ TEST(BadInput, ArraysThatCannotBeContoured)
       filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "cells");
     },
     "not point data");
+  ExpectRefusal(
+    [](vtkAlgorithm* filter)
+    {
+      const auto image = test::BallImage({ 9, 9, 9 });
+      vtkNew<vtkBitArray> bits;
+      bits->SetName("bits");
+      bits->SetNumberOfTuples(image->GetNumberOfPoints());
+      bits->Fill(1.0);
+      image->GetPointData()->SetScalars(bits);
+      filter->SetInputDataObject(0, image);
+      filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "bits");
+    },
+    "not supported");
 }
 
 TEST(BadInput, NoInputAtAll)

@@ -3,6 +3,7 @@
 #include "FilterTestTools.h"
 
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkFlyingEdges3D.h"
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
@@ -66,6 +67,36 @@ void ExpectSameSurfaceAsFlyingEdges(vtkImageData* image, double voxel)
 TEST(Contour, EqualsFlyingEdgesOnAPlainImage)
 {
   ExpectSameSurfaceAsFlyingEdges(test::BallImage({ 33, 33, 33 }), 1.0);
+}
+
+TEST(Contour, IsTheSameOfSamplesOfAnyType)
+{
+  // Values on both sides of zero, and of unsigned types of the middle of up to 32 bits.
+  const auto image = test::BallImage({ 12, 12, 12 });
+  const auto ofType = [&](int type)
+  {
+    const auto samples = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+    const int bits = std::min(8 * samples->GetDataTypeSize(), 32);
+    const double middle = samples->GetDataTypeMin() == 0.0 ? std::ldexp(1.0, bits - 1) : 0.0;
+    samples->SetName("samples");
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      const double value = 100.0 * image->GetPointData()->GetScalars()->GetTuple1(i);
+      samples->InsertNextTuple1(middle + std::floor(vtkMath::ClampValue(value, -100.0, 100.0)));
+    }
+    vtkNew<vtkImageData> copy;
+    copy->CopyStructure(image);
+    copy->GetPointData()->SetScalars(samples);
+    return test::SortedTriangles(Contour(copy, middle + 0.5));
+  };
+  const test::Triangles expected = ofType(VTK_DOUBLE);
+  ASSERT_FALSE(expected.empty());
+  for (const int type : { VTK_FLOAT, VTK_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_CHAR, VTK_SHORT,
+         VTK_UNSIGNED_SHORT, VTK_INT, VTK_UNSIGNED_INT, VTK_LONG, VTK_UNSIGNED_LONG, VTK_LONG_LONG,
+         VTK_UNSIGNED_LONG_LONG, VTK_ID_TYPE })
+  {
+    EXPECT_EQ(ofType(type), expected) << vtkImageScalarTypeNameMacro(type);
+  }
 }
 
 TEST(Contour, HonoursOriginSpacingExtentAndDirection)

@@ -10,6 +10,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondExtractor.h"
@@ -19,6 +20,7 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -210,20 +212,53 @@ TEST(Memory, ContourOfAGridWithHiddenCells)
   image->GetPointGhostArray()->SetValue(
     image->GetNumberOfPoints() / 3, vtkDataSetAttributes::HIDDENPOINT);
   const auto grid = test::Rectilinear(image, test::UnevenPlace);
-  const MakeFilter make = [&]
+  ExpectAllErrors(
+    [&]
+    {
+      const auto contour = NewInjecting<vtkIsodiamondContour>();
+      contour->SetInputData(grid);
+      contour->SetValue(0, 0.0);
+      return contour;
+    },
+    2);
+}
+
+namespace
+{
+
+/** A contour of which the second of three pieces is asked for. */
+class PieceOfContour : public vtkIsodiamondContour
+{
+protected:
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override
   {
-    const auto contour = NewInjecting<vtkIsodiamondContour>();
-    contour->SetInputData(grid);
-    contour->SetValue(0, 0.0);
-    return contour;
-  };
-  // Not malloc: here VTK allocates itself, where it has been made sure that it can.
-  ExpectErrors(make, OfNew, 1, 2);
-  ExpectErrors(make, OfNew, Never, 2);
+    vtkInformation* output = outputVector->GetInformationObject(0);
+    output->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 1);
+    output->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 3);
+    return this->vtkIsodiamondContour::RequestUpdateExtent(request, inputVector, outputVector);
+  }
+};
+
+}
+
+TEST(Memory, PieceOfAContour)
+{
+  const auto image = ImageWithAttributes(Size);
+  ExpectAllErrors(
+    [&]
+    {
+      const auto contour = NewInjecting<PieceOfContour>();
+      contour->SetInputData(image);
+      contour->SetValue(0, 0.0);
+      return contour;
+    },
+    9);
 }
 
 TEST(Memory, ContourOfSeveralValues)
 {
+  // Not malloc: vtkAppendPolyData allocates itself, where it has been made sure that it can.
   const auto image = ImageWithAttributes(Size);
   const MakeFilter make = [&]
   {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondShare.h"
+#include "Private/Piece.h"
 
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondThreads.h"
+#include "Private/Arrays.h"
+#include "Private/Cells.h"
+#include "Private/Tuples.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkExecutive.h"
-#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -38,8 +38,8 @@ struct Part
 {
   vtkIdType FirstCell = 0;
   vtkIdType LastCell = 0; ///< not in it
-  vtkNew<vtkIdList> Points;
-  vtkSmartPointer<vtkCellArray> Cells; ///< their points by place in Points
+  std::vector<vtkIdType> Points;
+  vtkSmartPointer<vtkCellArray> Cells; ///< with indices into Points
 };
 
 /** Ids of the whole's points become ids of the part's, in the same order. */
@@ -59,47 +59,35 @@ void MakePart(vtkCellArray* cells, vtkIdType pointCount, Part& part)
   {
     newIds[*id] = 1;
   }
-  part.Points->SetNumberOfIds(std::accumulate(newIds.begin(), newIds.end(), vtkIdType{ 0 }));
-  vtkIdType* points = part.Points->GetPointer(0);
-  Id count = 0;
+  const vtkIdType used = std::accumulate(newIds.begin(), newIds.end(), vtkIdType{ 0 });
+  part.Points.reserve(static_cast<std::size_t>(used));
   for (vtkIdType id = 0; id < pointCount; ++id)
   {
     if (newIds[id] != 0)
     {
-      points[count] = id;
-      newIds[id] = count++;
+      newIds[id] = static_cast<Id>(part.Points.size());
+      part.Points.push_back(id);
     }
   }
 
   vtkNew<Array> newOffsets;
-  newOffsets->SetNumberOfValues(part.LastCell - part.FirstCell + 1);
+  AllocateTuples(newOffsets, part.LastCell - part.FirstCell + 1);
   std::transform(offset + part.FirstCell, offset + part.LastCell + 1, newOffsets->GetPointer(0),
-    [first = offset[part.FirstCell]](Id place) { return place - first; });
+    [first = offset[part.FirstCell]](Id value) { return value - first; });
   vtkNew<Array> newConnectivity;
-  newConnectivity->SetNumberOfValues(end - begin);
+  AllocateTuples(newConnectivity, end - begin);
   std::transform(
     begin, end, newConnectivity->GetPointer(0), [&newIds](Id id) { return newIds[id]; });
   part.Cells = vtkSmartPointer<vtkCellArray>::New();
   part.Cells->SetData(newOffsets, newConnectivity);
 }
 
-/** Of a data set's attributes the tuples from one until another. */
-void KeepRange(vtkDataSetAttributes* data, vtkIdType first, vtkIdType last)
-{
-  vtkNew<vtkCellData> all;
-  all->ShallowCopy(data);
-  data->Initialize();
-  data->CopyAllOn();
-  data->CopyAllocate(all, last - first);
-  RunSerial([&] { data->CopyData(all, 0, last - first, first); });
-}
-
-void KeepPart(vtkCellArray* cells, const int share[2], vtkPointSet* mesh, Part& part)
+void KeepPart(vtkCellArray* cells, const int piece[2], vtkPointSet* mesh, Part& part)
 {
   const vtkIdType count = cells->GetNumberOfCells();
-  const int piece = std::clamp(share[0], 0, share[1]);
-  part.FirstCell = count * piece / share[1];
-  part.LastCell = count * std::min(piece + 1, share[1]) / share[1];
+  const int number = std::clamp(piece[0], 0, piece[1]);
+  part.FirstCell = count * number / piece[1];
+  part.LastCell = count * std::min(number + 1, piece[1]) / piece[1];
   if (cells->IsStorage64Bit())
   {
     MakePart<vtkTypeInt64Array>(cells, mesh->GetNumberOfPoints(), part);
@@ -108,12 +96,11 @@ void KeepPart(vtkCellArray* cells, const int share[2], vtkPointSet* mesh, Part& 
   {
     MakePart<vtkTypeInt32Array>(cells, mesh->GetNumberOfPoints(), part);
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(mesh->GetPoints()->GetDataType());
-  mesh->GetPoints()->GetPoints(part.Points, points);
-  mesh->SetPoints(points);
+  mesh->SetPoints(PointsOf(mesh->GetPoints(), part.Points));
   KeepTuples(mesh->GetPointData(), part.Points);
-  KeepRange(mesh->GetCellData(), part.FirstCell, part.LastCell);
+  std::vector<vtkIdType> cellIds(part.LastCell - part.FirstCell);
+  std::iota(cellIds.begin(), cellIds.end(), part.FirstCell);
+  KeepTuples(mesh->GetCellData(), cellIds);
 }
 
 }
@@ -135,20 +122,20 @@ void RequestWhole(vtkInformation* inputInformation)
   inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }
 
-void NoteShare(vtkAlgorithm* filter, vtkInformation* request, int when, int share[2])
+void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[2])
 {
   if (when == vtkExecutive::AfterForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     vtkInformation* output = filter->GetOutputInformation(0);
-    share[0] = output->Get(Pipeline::UPDATE_PIECE_NUMBER()); // 0 if there is none
-    share[1] = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
+    piece[0] = output->Get(Pipeline::UPDATE_PIECE_NUMBER()); // 0 if there is none
+    piece[1] = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
   }
 }
 
-void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int share[2])
+void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int piece[2])
 {
   vtkInformation* data = volume ? volume->GetInformation() : nullptr;
-  if (share[1] == 1 || !data || !data->Has(vtkDataObject::DATA_EXTENT()) ||
+  if (piece[1] == 1 || !data || !data->Has(vtkDataObject::DATA_EXTENT()) ||
     !inputInformation->Has(Pipeline::WHOLE_EXTENT()))
   {
     return;
@@ -167,48 +154,33 @@ void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const i
   }
 }
 
-void KeepShare(vtkDataObject* mesh, const int share[2])
+void KeepPiece(vtkDataObject* mesh, const int piece[2])
 {
   vtkPointSet* points = vtkPointSet::SafeDownCast(mesh);
-  if ((share[0] == 0 && share[1] == 1) || !points || !points->GetPoints())
+  if ((piece[0] == 0 && piece[1] == 1) || !points || !points->GetPoints())
   {
     return;
   }
-  constexpr std::int64_t kibibyte = 1024;
-  ExpectMemory(kibibyte * static_cast<std::int64_t>(mesh->GetActualMemorySize())); // of the copy
   Part part;
   if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(mesh))
   {
     if (polyData->GetNumberOfVerts() > 0)
     {
-      KeepPart(polyData->GetVerts(), share, polyData, part);
+      KeepPart(polyData->GetVerts(), piece, polyData, part);
       polyData->SetVerts(part.Cells);
     }
     else
     {
-      KeepPart(polyData->GetPolys(), share, polyData, part);
+      KeepPart(polyData->GetPolys(), piece, polyData, part);
       polyData->SetPolys(part.Cells);
     }
   }
   else if (vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(mesh))
   {
     const int type = grid->GetNumberOfCells() > 0 ? grid->GetCellType(0) : VTK_EMPTY_CELL;
-    KeepPart(grid->GetCells(), share, grid, part);
-    grid->SetCells(type, part.Cells);
+    KeepPart(grid->GetCells(), piece, grid, part);
+    GiveCells(grid, type, part.Cells);
   }
-}
-
-void KeepTuples(vtkDataSetAttributes* data, vtkIdList* ids)
-{
-  vtkNew<vtkPointData> all;
-  all->ShallowCopy(data);
-  data->Initialize();
-  data->CopyAllOn();
-  data->CopyAllocate(all, ids->GetNumberOfIds());
-  vtkNew<vtkIdList> newIds; // VTK 9.1 has no CopyData without
-  newIds->SetNumberOfIds(ids->GetNumberOfIds());
-  std::iota(newIds->begin(), newIds->end(), vtkIdType{ 0 });
-  RunSerial([&] { data->CopyData(all, ids, newIds); });
 }
 
 }

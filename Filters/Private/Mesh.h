@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondMesh_h
-#define vtkIsodiamondMesh_h
+#ifndef vtkIsodiamond_Mesh_h
+#define vtkIsodiamond_Mesh_h
 
+#include "Private/PointData.h"
+#include "Private/Task.h"
 #include "Refinement/RefinedSet.h"
-#include "vtkIsodiamondPointData.h"
-#include "vtkIsodiamondTask.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
@@ -26,7 +26,7 @@ namespace vtkIsodiamond
 struct Mesh
 {
   vtkSmartPointer<vtkPoints> Points;   ///< world positions
-  vtkSmartPointer<vtkCellArray> Cells; ///< 32-bit storage where ids fit
+  vtkSmartPointer<vtkCellArray> Cells; ///< 32-bit storage where ids fit and all are kept
   vtkNew<vtkPointData> PointData;
   vtkNew<vtkCellData> CellData; ///< "Level"
 
@@ -49,7 +49,7 @@ struct MeshOptions
 };
 
 /** Extracts a mesh. Runs in the calling thread's vtkSMPTools scope. */
-Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& wishes, Task& task);
+Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& options, Task& task);
 
 }
 

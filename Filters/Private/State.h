@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondState_h
-#define vtkIsodiamondState_h
+#ifndef vtkIsodiamond_State_h
+#define vtkIsodiamond_State_h
 
 #include "Build/Builder.h"
 #include "Field/AffineMap.h"
-#include "vtkIsodiamondChoice.h"
-#include "vtkIsodiamondInput.h"
+#include "Private/Choice.h"
+#include "Private/Input.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
@@ -19,27 +19,9 @@ class vtkFieldData;
 class vtkPolyData;
 
 /**
- * @file vtkIsodiamondState.h
- * Between a hierarchy's field-data arrays and the core: writing, and checked reading.
- *
- * | array | values |
- * |---|---|
- * | IsodiamondHeader | int64: format version, model, shape, dimensions (3), m_r, metric, whether |
- * | | isovertices are exact |
- * | IsodiamondParameters | float64: isovalue, isorange (2), error scale, field scale, index to |
- * | | world (3x4) |
- * | IsodiamondArrayName | string: name of the input's array |
- * | IsodiamondBrickCounts, ...BrickIndices | uint32, see isodiamond::EncodingArrays |
- * | IsodiamondBrickMasks | uint64 |
- * | IsodiamondRecords | uint16 |
- * | IsodiamondIsovertices | uint8 |
- * | IsodiamondInsideValues (interval volumes only) | of the samples' type |
- * | IsodiamondInteriorCodes (where the interior can be refined) | uint16 |
- * | IsodiamondPointData:NAME (where wanted) | of any type: other arrays at the stored points, that
- * | | | is, the isovertices, then the inside values; "Normals" are normals | | IsodiamondSamples
- * (HD only) | the input's samples | | IsodiamondErrors (HD only) | uint16, see
- * isodiamond::ScalarHierarchy | | IsodiamondMinima, IsodiamondMaxima (HD only) | of the samples'
- * type |
+ * @file State.h
+ * Between a hierarchy's field-data arrays and the core: writing, and checked reading. The arrays
+ * are those of docs/file-format.md, with names and indices in Format.h.
  */
 namespace vtkIsodiamond
 {

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondMesh.h"
-
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondCells.h"
+#include "Private/Mesh.h"
 
 #include "Mesh/IntervalExtraction.h"
 #include "Mesh/SurfaceExtraction.h"
-#include "vtkIsodiamondShare.h"
+#include "Private/Arrays.h"
+#include "Private/Cells.h"
+#include "Private/Tuples.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
-#include "vtkIdList.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -58,25 +57,25 @@ vtkSmartPointer<vtkPoints> WritePoints(
 }
 
 template <typename Extraction>
-void AddPoints(const Extraction& extraction, const MeshOptions& wishes, bool isDouble, Mesh& mesh)
+void AddPoints(const Extraction& extraction, const MeshOptions& options, bool isDouble, Mesh& mesh)
 {
-  if (wishes.PointsPrecision != vtkAlgorithm::DEFAULT_PRECISION)
+  if (options.PointsPrecision != vtkAlgorithm::DEFAULT_PRECISION)
   {
-    isDouble = wishes.PointsPrecision == vtkAlgorithm::DOUBLE_PRECISION;
+    isDouble = options.PointsPrecision == vtkAlgorithm::DOUBLE_PRECISION;
   }
-  mesh.Points = isDouble ? WritePoints<vtkDoubleArray>(extraction, wishes.World)
-                         : WritePoints<vtkFloatArray>(extraction, wishes.World);
+  mesh.Points = isDouble ? WritePoints<vtkDoubleArray>(extraction, options.World)
+                         : WritePoints<vtkFloatArray>(extraction, options.World);
 }
 
 template <typename Extraction>
-void AddMorePointData(const Extraction& extraction, const MeshOptions& wishes, Mesh& mesh)
+void AddMorePointData(const Extraction& extraction, const MeshOptions& options, Mesh& mesh)
 {
-  if (!wishes.MorePointData)
+  if (!options.MorePointData)
   {
     return;
   }
   const std::vector<PointWriter> writers =
-    wishes.MorePointData(extraction.PointCount(), mesh.PointData);
+    options.MorePointData(extraction.PointCount(), mesh.PointData);
   for (const PointWriter& write : writers)
   {
     extraction.ForEachPoint(write);
@@ -118,107 +117,101 @@ isodiamond::Point CellOfGrid(
   return cell;
 }
 
-/** @throws std::bad_alloc if there is none for the copy of a mesh, whose cells have ids of 64 bits
- *  in arrays that grow to twice of what they hold, out of others that still exist */
-void ExpectMemoryToLeaveOut(const Mesh& mesh)
-{
-  constexpr std::int64_t kibibyte = 1024;
-  const std::int64_t ids =
-    mesh.Cells->GetNumberOfConnectivityIds() + mesh.Cells->GetNumberOfCells() + 1;
-  const auto others = static_cast<std::int64_t>(mesh.Points->GetActualMemorySize() +
-    mesh.PointData->GetActualMemorySize() + mesh.CellData->GetActualMemorySize());
-  ExpectMemory(3 * ids * static_cast<std::int64_t>(sizeof(vtkIdType)) + kibibyte * others);
-}
-
 /** Leaves out the cells that lie in hidden ones of the grid, and points that no cell has then.
  *  Cells there are of full resolution, so each lies in one. */
 template <typename Extraction>
 void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells& hidden, Mesh& mesh)
 {
-  ExpectMemoryToLeaveOut(mesh);
   std::vector<isodiamond::Vector> positions(extraction.PointCount());
   extraction.ForEachPoint(
     [&](const isodiamond::MeshPoint& point) { positions[point.Id] = point.Index; });
-  vtkNew<vtkIdList> keptCells;
-  vtkNew<vtkIdList> keptPoints;
+  std::vector<vtkIdType> keptCells;
+  std::vector<vtkIdType> keptPoints;
   std::vector<vtkIdType> newIds(positions.size(), -1);
-  vtkNew<vtkCellArray> cells;
+  vtkIdType size = 0; // of a cell: all have as many points
+  const vtkIdType* ids = nullptr;
   for (vtkIdType cell = 0; cell < mesh.Cells->GetNumberOfCells(); ++cell)
   {
-    vtkIdType size = 0;
-    const vtkIdType* ids = nullptr;
     mesh.Cells->GetCellAtId(cell, size, ids);
     if (hidden(CellOfGrid(positions, ids, size)))
     {
       continue;
     }
-    keptCells->InsertNextId(cell);
-    cells->InsertNextCell(static_cast<int>(size));
+    keptCells.push_back(cell);
     for (vtkIdType i = 0; i < size; ++i)
     {
-      vtkIdType& id = newIds[ids[i]];
-      id = id < 0 ? keptPoints->InsertNextId(ids[i]) : id;
-      cells->InsertCellPoint(id);
+      if (newIds[ids[i]] < 0)
+      {
+        newIds[ids[i]] = static_cast<vtkIdType>(keptPoints.size());
+        keptPoints.push_back(ids[i]);
+      }
     }
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(mesh.Points->GetDataType());
-  mesh.Points->GetPoints(keptPoints, points);
+  mesh.Cells = WriteCellsAs<vtkTypeInt64Array>(static_cast<std::int64_t>(keptCells.size()),
+    static_cast<int>(size), isodiamond::SerialFor,
+    [&](auto* connectivity)
+    {
+      for (const vtkIdType cell : keptCells)
+      {
+        mesh.Cells->GetCellAtId(cell, size, ids);
+        connectivity =
+          std::transform(ids, ids + size, connectivity, [&](vtkIdType id) { return newIds[id]; });
+      }
+    });
+  mesh.Points = PointsOf(mesh.Points, keptPoints);
   KeepTuples(mesh.PointData, keptPoints);
   KeepTuples(mesh.CellData, keptCells);
-  mesh.Points = points;
-  mesh.Cells = cells;
 }
 
 /** What comes after points, cells and values. */
 template <typename Extraction>
-void Complete(const Extraction& extraction, const MeshOptions& wishes, Mesh& mesh)
+void Complete(const Extraction& extraction, const MeshOptions& options, Mesh& mesh)
 {
-  AddMorePointData(extraction, wishes, mesh);
-  if (wishes.Hidden != nullptr && wishes.Hidden->Any())
+  AddMorePointData(extraction, options, mesh);
+  if (options.Hidden != nullptr && options.Hidden->Any())
   {
-    LeaveOutHidden(extraction, *wishes.Hidden, mesh);
+    LeaveOutHidden(extraction, *options.Hidden, mesh);
   }
 }
 
-void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& wishes,
+void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
   const isodiamond::IntervalExtraction extraction(refined, parallelFor);
-  AddPoints(extraction, wishes, true, mesh);
+  AddPoints(extraction, options, true, mesh);
   const auto levels = NewArray<vtkSignedCharArray>("Level", extraction.TetrahedronCount());
   mesh.Cells = WriteCells(extraction.TetrahedronCount(), 4, parallelFor,
     [&](auto* connectivity)
-    { extraction.WriteTetrahedra(wishes.World.Mirrors(), connectivity, levels->GetPointer(0)); });
+    { extraction.WriteTetrahedra(options.World.Mirrors(), connectivity, levels->GetPointer(0)); });
   mesh.CellData->AddArray(levels);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
   {
-    AddValues<vtkDoubleArray>(extraction, wishes.ArrayName, mesh);
+    AddValues<vtkDoubleArray>(extraction, options.ArrayName, mesh);
   }
   else
   {
-    AddValues<vtkFloatArray>(extraction, wishes.ArrayName, mesh);
+    AddValues<vtkFloatArray>(extraction, options.ArrayName, mesh);
   }
-  Complete(extraction, wishes, mesh);
+  Complete(extraction, options, mesh);
 }
 
-void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& wishes,
+void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
   const isodiamond::SurfaceExtraction extraction(refined, parallelFor);
-  AddPoints(extraction, wishes, false, mesh);
+  AddPoints(extraction, options, false, mesh);
   const auto levels = NewArray<vtkSignedCharArray>("Level", extraction.TriangleCount());
   mesh.Cells = WriteCells(extraction.TriangleCount(), 3, parallelFor,
     [&](auto* connectivity)
-    { extraction.WriteTriangles(wishes.World.Mirrors(), connectivity, levels->GetPointer(0)); });
+    { extraction.WriteTriangles(options.World.Mirrors(), connectivity, levels->GetPointer(0)); });
   mesh.CellData->AddArray(levels);
-  if (wishes.WithValues)
+  if (options.WithValues)
   {
-    const auto values = NewArray<vtkFloatArray>(wishes.ArrayName.c_str(), extraction.PointCount());
+    const auto values = NewArray<vtkFloatArray>(options.ArrayName.c_str(), extraction.PointCount());
     values->Fill(refined.Hierarchy().Region().Isovalue());
     mesh.PointData->SetScalars(values);
   }
-  Complete(extraction, wishes, mesh);
+  Complete(extraction, options, mesh);
 }
 
 }
@@ -239,17 +232,17 @@ void Mesh::Give(vtkUnstructuredGrid* output, bool isVolume) const
   output->GetCellData()->ShallowCopy(this->CellData);
 }
 
-Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& wishes, Task& task)
+Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& options, Task& task)
 {
   task.Begin("Extracting the mesh", 0.0, 1.0);
   Mesh mesh;
   if (refined.Hierarchy().Region().IsVolume())
   {
-    ExtractVolume(refined, wishes, task.For(), mesh);
+    ExtractVolume(refined, options, task.For(), mesh);
   }
   else
   {
-    ExtractSurface(refined, wishes, task.For(), mesh);
+    ExtractSurface(refined, options, task.For(), mesh);
   }
   return mesh;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondGrid_h
-#define vtkIsodiamondGrid_h
+#ifndef vtkIsodiamond_Grid_h
+#define vtkIsodiamond_Grid_h
 
 #include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
@@ -15,7 +15,7 @@ class vtkDataObject;
 class vtkDataSet;
 
 /**
- * @file vtkIsodiamondGrid.h
+ * @file Grid.h
  * VTK's structured data sets as grids: images, rectilinear grids and structured grids.
  */
 namespace vtkIsodiamond

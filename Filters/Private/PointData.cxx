@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondPointData.h"
-
-#include "vtkIsodiamondArrays.h"
+#include "Private/PointData.h"
 
 #include "Field/Gradients.h"
 #include "Field/Trilinear.h"
+#include "Private/Arrays.h"
 
 #include "vtkArrayListTemplate.h"
 #include "vtkDataArray.h"
@@ -39,7 +38,7 @@ PointWriter WriteGradients(const Volume& volume, vtkFloatArray* normals, vtkFloa
   return [&volume, write, normals, gradients](const isodiamond::MeshPoint& point)
   {
     const isodiamond::Vector gradient =
-      isodiamond::Gradients(volume.Samples, volume.Place.World)(point.Index);
+      isodiamond::Gradients(volume.Samples, volume.Placement.World)(point.Index);
     if (normals)
     {
       write(normals, point.Id, isodiamond::NormalOf(gradient));

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondPointData_h
-#define vtkIsodiamondPointData_h
-
-#include "vtkIsodiamondInput.h"
+#ifndef vtkIsodiamond_PointData_h
+#define vtkIsodiamond_PointData_h
 
 #include "Mesh/MeshPoints.h"
+#include "Private/Input.h"
 
 #include "vtkSmartPointer.h"
 
@@ -15,7 +14,7 @@
 class vtkPointData;
 
 /**
- * @file vtkIsodiamondPointData.h
+ * @file PointData.h
  * What a mesh's points have besides a position and the field's value.
  */
 namespace vtkIsodiamond

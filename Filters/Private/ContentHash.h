@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondContentHash_h
-#define vtkIsodiamondContentHash_h
-
-#include "vtkWeakPointer.h"
+#ifndef vtkIsodiamond_ContentHash_h
+#define vtkIsodiamond_ContentHash_h
 
 #include "vtkDataArray.h"
+#include "vtkWeakPointer.h"
 
 #include <array>
 #include <cstdint>
@@ -13,8 +12,12 @@
 namespace vtkIsodiamond
 {
 
-/** 128 bits that stand for the values of an array: equal for equal ones, and by no chance that
- *  matters for others. Not made against anyone who seeks collisions. */
+/**
+ * 128 bits that stand for an array: XXH3 of its blocks, and of their hashes together with its type,
+ * components and size. Equal arrays have equal ones. That others differ rests on XXH3 spreading as
+ * evenly as chance, which is tested and not proven: two arrays then collide with a probability of
+ * about 2^-127, any two of a million with 2^-88. Not made against anyone who seeks collisions.
+ */
 using ContentHash = std::array<std::uint64_t, 2>;
 
 /** Of an array's type, components and values; all 0 without one. Runs in the calling thread's

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondShare_h
-#define vtkIsodiamondShare_h
+#ifndef vtkIsodiamond_Piece_h
+#define vtkIsodiamond_Piece_h
 
 #include "vtkType.h"
 
 class vtkAlgorithm;
 class vtkDataObject;
-class vtkDataSetAttributes;
-class vtkIdList;
 class vtkInformation;
 
 /**
- * @file vtkIsodiamondShare.h
+ * @file Piece.h
  * In parallel every process makes the whole mesh, from the whole input, and keeps its share of it.
  * See docs/parallel.md.
  */
@@ -27,9 +25,9 @@ void RequestWhole(vtkInformation* inputInformation);
  * which has both: composite inputs are iterated over by the pipeline, and for every block of theirs
  * RequestData is asked for piece 0 of 1.
  *
- * @param share piece, and number of pieces
+ * @param piece its number, and number of pieces
  */
-void NoteShare(vtkAlgorithm* filter, vtkInformation* request, int when, int share[2]);
+void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[2]);
 
 /**
  * Refuses a part of a volume where several processes are to share its mesh: of other parts in other
@@ -38,7 +36,7 @@ void NoteShare(vtkAlgorithm* filter, vtkInformation* request, int when, int shar
  *
  * @throws std::invalid_argument
  */
-void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int share[2]);
+void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int piece[2]);
 
 /**
  * Leaves a piece of a mesh: its cells from cells * piece / pieces until the same of the next piece,
@@ -47,13 +45,10 @@ void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const i
  * cells leave some without a cell, but with all arrays.
  *
  * @param mesh a vtkPolyData or vtkUnstructuredGrid, whose cells are of one kind
- * @param share piece, and number of pieces
+ * @param piece its number, and number of pieces
  * @throws std::bad_alloc if there is no memory for a copy
  */
-void KeepShare(vtkDataObject* mesh, const int share[2]);
-
-/** Of a data set's attributes the tuples of some ids, in their order. */
-void KeepTuples(vtkDataSetAttributes* data, vtkIdList* ids);
+void KeepPiece(vtkDataObject* mesh, const int piece[2]);
 
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondInput_h
-#define vtkIsodiamondInput_h
+#ifndef vtkIsodiamond_Input_h
+#define vtkIsodiamond_Input_h
 
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
-#include "vtkIsodiamondGrid.h"
+#include "Private/Grid.h"
 
 #include "vtkDataSet.h"
 #include "vtkSmartPointer.h"
@@ -27,7 +27,7 @@ struct Volume
   int Padding = 0;                     ///< layers of samples around it
   vtkSmartPointer<vtkDataArray> Array; ///< holds the samples, one component
   isodiamond::AnySamples Samples;
-  Geometry Place; ///< of the samples, padding included
+  Geometry Placement; ///< of the samples, padding included
   isodiamond::HiddenCells Hidden;
   std::string ArrayName;
 };

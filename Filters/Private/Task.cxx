@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondTask.h"
+#include "Private/Task.h"
 
-#include "vtkIsodiamondThreads.h"
+#include "Private/Threads.h"
 
 #include "vtkVersion.h"
 
@@ -152,12 +152,6 @@ void ReportException(vtkAlgorithm* filter) noexcept
   {
     // No memory even to say so. VTK's pipeline expects no exceptions.
   }
-}
-
-void HandleException(vtkAlgorithm* filter, vtkDataObject* output)
-{
-  output->Initialize();
-  ReportException(filter);
 }
 
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondGrid.h"
+#include "Private/Grid.h"
 
-#include "vtkIsodiamondArrays.h"
+#include "Private/Arrays.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"

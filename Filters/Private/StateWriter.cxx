@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondArrays.h"
-#include "vtkIsodiamondFormat.h"
-#include "vtkIsodiamondState.h"
+#include "Private/Arrays.h"
+#include "Private/Format.h"
+#include "Private/State.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -23,8 +23,6 @@ namespace vtkIsodiamond
 {
 namespace
 {
-
-using namespace format;
 
 template <typename Array, typename T>
 void AddArray(vtkFieldData* fieldData, const char* name, const std::vector<T>& values)
@@ -90,35 +88,43 @@ void WriteOutline(
 void WriteHeader(const isodiamond::EncodingHeader& header, const Choice& choice,
   const isodiamond::AffineMap& world, const std::string& arrayName, vtkFieldData* fieldData)
 {
-  AddArray<vtkTypeInt64Array>(fieldData, HeaderName,
-    std::vector<std::int64_t>{ FormatVersion, static_cast<int>(header.Kind),
-      static_cast<int>(choice.Shape), header.Dimensions[0], header.Dimensions[1],
-      header.Dimensions[2], header.RelevantCount, static_cast<int>(header.Metric),
-      header.ExactIsovertices ? 1 : 0 });
-  std::vector<double> parameters = { choice.Isovalue, choice.Isorange[0], choice.Isorange[1],
-    header.ErrorScale, header.FieldScale };
-  for (const std::array<double, 4>& row : world.Rows)
+  std::vector<std::int64_t> values(HeaderAt::Size);
+  values[HeaderAt::Version] = format::Version;
+  values[HeaderAt::Model] = static_cast<int>(header.TheModel);
+  values[HeaderAt::Shape] = static_cast<int>(choice.Shape);
+  std::copy(
+    header.Dimensions.begin(), header.Dimensions.end(), values.begin() + HeaderAt::Dimensions);
+  values[HeaderAt::RelevantCount] = header.RelevantCount;
+  values[HeaderAt::Metric] = static_cast<int>(header.Metric);
+  values[HeaderAt::ExactIsovertices] = header.ExactIsovertices ? 1 : 0;
+  AddArray<vtkTypeInt64Array>(fieldData, format::Header, values);
+  std::vector<double> parameters(ParameterAt::Size);
+  parameters[ParameterAt::Isovalue] = choice.Isovalue;
+  std::copy(
+    choice.Isorange.begin(), choice.Isorange.end(), parameters.begin() + ParameterAt::Isorange);
+  parameters[ParameterAt::ErrorScale] = header.ErrorScale;
+  parameters[ParameterAt::FieldScale] = header.FieldScale;
+  for (int i = 0; i < 12; ++i)
   {
-    parameters.insert(parameters.end(), row.begin(), row.end());
+    parameters[ParameterAt::World + i] = world.Rows[i / 4][i % 4];
   }
-  AddArray<vtkDoubleArray>(fieldData, ParametersName, parameters);
+  AddArray<vtkDoubleArray>(fieldData, format::Parameters, parameters);
   vtkNew<vtkStringArray> name;
-  name->SetName("IsodiamondArrayName");
+  name->SetName(format::ArrayName);
   name->InsertNextValue(arrayName.c_str());
   fieldData->AddArray(name);
 }
 
-/** Numbers for who looks at the field data, in ParaView's Information for instance. Nothing reads
- *  them. */
+/** Numbers for who looks at the field data, in ParaView's Information for instance. */
 void WriteNumbers(const isodiamond::Encoding& encoding, vtkFieldData* fieldData)
 {
   const isodiamond::EncodingHeader& header = encoding.Header;
   const std::array<std::pair<const char*, std::int64_t>, 5> numbers = { {
-    { "NumberOfActiveIsodiamonds", header.ActiveCount },
-    { "NumberOfRelevantIsodiamonds", header.RelevantCount },
-    { "NumberOfCreationIsodiamonds", header.CreationCount },
-    { "NumberOfIsovertices", static_cast<std::int64_t>(encoding.Arrays.Isovertices.size()) },
-    { "StorageSize", isodiamond::EncodingView(encoding).StorageSize() },
+    { format::NumberOfActiveIsodiamonds, header.ActiveCount },
+    { format::NumberOfRelevantIsodiamonds, header.RelevantCount },
+    { format::NumberOfCreationIsodiamonds, header.CreationCount },
+    { format::NumberOfIsovertices, static_cast<std::int64_t>(encoding.Arrays.Isovertices.size()) },
+    { format::StorageSize, isodiamond::EncodingView(encoding).StorageSize() },
   } };
   for (const auto& [name, number] : numbers)
   {
@@ -130,7 +136,7 @@ void WriteNumbers(const isodiamond::Encoding& encoding, vtkFieldData* fieldData)
 void WriteLargestTolerance(vtkFieldData* fieldData)
 {
   AddArray<vtkDoubleArray>(
-    fieldData, "LargestErrorTolerance", std::vector<double>{ LargestTolerance(fieldData) });
+    fieldData, format::LargestErrorTolerance, std::vector<double>{ LargestTolerance(fieldData) });
 }
 
 }
@@ -142,25 +148,24 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice
   WriteOutline(encoding.Header.Dimensions, world, output);
   vtkFieldData* fieldData = output->GetFieldData();
   WriteHeader(encoding.Header, choice, world, arrayName, fieldData);
-  AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickCounts", encoding.Arrays.BrickCounts);
-  AddArray<vtkTypeUInt32Array>(fieldData, "IsodiamondBrickIndices", encoding.Arrays.BrickIndices);
-  AddArray<vtkTypeUInt64Array>(fieldData, "IsodiamondBrickMasks", encoding.Arrays.BrickMasks);
-  AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondRecords", encoding.Arrays.Records);
-  AddArray<vtkTypeUInt8Array>(fieldData, "IsodiamondIsovertices", encoding.Arrays.Isovertices);
+  AddArray<vtkTypeUInt32Array>(fieldData, format::BrickCounts, encoding.Arrays.BrickCounts);
+  AddArray<vtkTypeUInt32Array>(fieldData, format::BrickIndices, encoding.Arrays.BrickIndices);
+  AddArray<vtkTypeUInt64Array>(fieldData, format::BrickMasks, encoding.Arrays.BrickMasks);
+  AddArray<vtkTypeUInt16Array>(fieldData, format::Records, encoding.Arrays.Records);
+  AddArray<vtkTypeUInt8Array>(fieldData, format::Isovertices, encoding.Arrays.Isovertices);
   if (encoding.Header.Region.IsVolume())
   {
-    AddSamples(fieldData, "IsodiamondInsideValues", encoding.InsideValues);
+    AddSamples(fieldData, format::InsideValues, encoding.InsideValues);
   }
   if (!encoding.Arrays.InteriorCodes.empty())
   {
-    AddArray<vtkTypeUInt16Array>(
-      fieldData, "IsodiamondInteriorCodes", encoding.Arrays.InteriorCodes);
+    AddArray<vtkTypeUInt16Array>(fieldData, format::InteriorCodes, encoding.Arrays.InteriorCodes);
   }
   WriteNumbers(encoding, fieldData);
   WriteLargestTolerance(fieldData);
   for (vtkDataArray* array : pointArrays)
   {
-    array->SetName((std::string(PointArrayPrefix) + array->GetName()).c_str());
+    array->SetName((std::string(format::PointDataPrefix) + array->GetName()).c_str());
     fieldData->AddArray(array);
   }
 }
@@ -170,11 +175,11 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choi
 {
   const std::array<int, 3> dimensions =
     std::visit([](const auto& view) { return view.Dimensions(); }, volume.Samples);
-  const isodiamond::AffineMap& world = *volume.Place.World.Affine();
+  const isodiamond::AffineMap& world = *volume.Placement.World.Affine();
   WriteOutline(dimensions, world, output);
   vtkFieldData* fieldData = output->GetFieldData();
   isodiamond::EncodingHeader header;
-  header.Kind = isodiamond::Model::HierarchyOfDiamonds;
+  header.TheModel = isodiamond::Model::HierarchyOfDiamonds;
   header.Dimensions = dimensions;
   header.Region = choice.Region();
   header.ErrorScale = encoding.ErrorScale;
@@ -182,11 +187,11 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choi
   header.ExactIsovertices = exactIsovertices;
   WriteHeader(header, choice, world, volume.ArrayName, fieldData);
   // The input's own array under another name: shared memory would rename it for the input too.
-  AddSamples(fieldData, "IsodiamondSamples", volume.Array->GetDataType(),
+  AddSamples(fieldData, format::Samples, volume.Array->GetDataType(),
     volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());
-  AddArray<vtkTypeUInt16Array>(fieldData, "IsodiamondErrors", encoding.Codes);
-  AddSamples(fieldData, "IsodiamondMinima", encoding.Minima);
-  AddSamples(fieldData, "IsodiamondMaxima", encoding.Maxima);
+  AddArray<vtkTypeUInt16Array>(fieldData, format::Errors, encoding.Codes);
+  AddSamples(fieldData, format::Minima, encoding.Minima);
+  AddSamples(fieldData, format::Maxima, encoding.Maxima);
   WriteLargestTolerance(fieldData);
 }
 

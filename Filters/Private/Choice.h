@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondChoice_h
-#define vtkIsodiamondChoice_h
+#ifndef vtkIsodiamond_Choice_h
+#define vtkIsodiamond_Choice_h
 
 #include "Field/Isoregion.h"
 

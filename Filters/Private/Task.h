@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondTask_h
-#define vtkIsodiamondTask_h
+#ifndef vtkIsodiamond_Task_h
+#define vtkIsodiamond_Task_h
 
 #include "Field/Parallel.h"
 
@@ -61,9 +61,6 @@ private:
  *  it. */
 void ReportException(vtkAlgorithm* filter) noexcept;
 
-/** The same, and the output becomes empty. */
-void HandleException(vtkAlgorithm* filter, vtkDataObject* output);
-
 /** Runs work(task) of a filter's execution. @return what RequestData does: a failed execution is
  *  one with an error and an empty output */
 template <typename Work>
@@ -76,7 +73,8 @@ int Execute(vtkAlgorithm* filter, vtkDataObject* output, Work&& work)
   }
   catch (...)
   {
-    HandleException(filter, output);
+    output->Initialize();
+    ReportException(filter);
   }
   return 1;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondState.h"
+#include "Private/State.h"
 
 #include "Mesh/MeshPoints.h"
-#include "vtkIsodiamondFormat.h"
-#include "vtkIsodiamondThreads.h"
+#include "Private/Format.h"
+#include "Private/Threads.h"
 
 #include "vtkFieldData.h"
 #include "vtkStringArray.h"
@@ -16,9 +16,6 @@
 
 namespace vtkIsodiamond
 {
-
-using namespace format;
-
 namespace
 {
 
@@ -102,18 +99,18 @@ void ReadIsodiamonds(Reader& reader, const isodiamond::EncodingHeader& header, S
 {
   isodiamond::EncodingView view;
   view.Header = header;
-  view.Arrays.BrickCounts = reader.Stored<std::uint32_t>("IsodiamondBrickCounts");
-  view.Arrays.BrickIndices = reader.Stored<std::uint32_t>("IsodiamondBrickIndices");
-  view.Arrays.BrickMasks = reader.Stored<std::uint64_t>("IsodiamondBrickMasks");
-  view.Arrays.Records = reader.Stored<std::uint16_t>("IsodiamondRecords");
-  view.Arrays.Isovertices = reader.Stored<std::uint8_t>("IsodiamondIsovertices");
+  view.Arrays.BrickCounts = reader.Stored<std::uint32_t>(format::BrickCounts);
+  view.Arrays.BrickIndices = reader.Stored<std::uint32_t>(format::BrickIndices);
+  view.Arrays.BrickMasks = reader.Stored<std::uint64_t>(format::BrickMasks);
+  view.Arrays.Records = reader.Stored<std::uint16_t>(format::Records);
+  view.Arrays.Isovertices = reader.Stored<std::uint8_t>(format::Isovertices);
   if (header.Region.IsVolume())
   {
-    view.InsideValues = reader.Samples("IsodiamondInsideValues", { 0, 1, 1 });
+    view.InsideValues = reader.Samples(format::InsideValues, { 0, 1, 1 });
   }
-  if (reader.Has("IsodiamondInteriorCodes"))
+  if (reader.Has(format::InteriorCodes))
   {
-    view.Arrays.InteriorCodes = reader.Stored<std::uint16_t>("IsodiamondInteriorCodes");
+    view.Arrays.InteriorCodes = reader.Stored<std::uint16_t>(format::InteriorCodes);
   }
   RunThreaded(0,
     [&] { state.Isodiamonds = std::make_unique<isodiamond::IsodiamondHierarchy>(view, SMPFor()); });
@@ -127,7 +124,7 @@ void ReadPointArrays(vtkFieldData* fieldData, State& state)
   {
     vtkAbstractArray* found = fieldData->GetAbstractArray(i);
     const std::string name = found->GetName() ? found->GetName() : "";
-    if (name.rfind(PointArrayPrefix, 0) != 0)
+    if (name.rfind(format::PointDataPrefix, 0) != 0)
     {
       continue;
     }
@@ -141,18 +138,17 @@ void ReadPointArrays(vtkFieldData* fieldData, State& state)
     state.StorageSize += array->GetNumberOfValues() * array->GetDataTypeSize();
     auto own = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
     own->ShallowCopy(array);
-    own->SetName(name.substr(std::strlen(PointArrayPrefix)).c_str());
+    own->SetName(name.substr(std::strlen(format::PointDataPrefix)).c_str());
     state.PointArrays.push_back(own);
   }
 }
 
 void ReadScalars(Reader& reader, const isodiamond::EncodingHeader& header, State& state)
 {
-  const isodiamond::AnySamples samples = reader.Samples("IsodiamondSamples", header.Dimensions);
-  const isodiamond::ArrayView<std::uint16_t> errors =
-    reader.Stored<std::uint16_t>("IsodiamondErrors");
-  const isodiamond::AnySamples minima = reader.Samples("IsodiamondMinima", { 0, 1, 1 });
-  const isodiamond::AnySamples maxima = reader.Samples("IsodiamondMaxima", { 0, 1, 1 });
+  const isodiamond::AnySamples samples = reader.Samples(format::Samples, header.Dimensions);
+  const isodiamond::ArrayView<std::uint16_t> errors = reader.Stored<std::uint16_t>(format::Errors);
+  const isodiamond::AnySamples minima = reader.Samples(format::Minima, { 0, 1, 1 });
+  const isodiamond::AnySamples maxima = reader.Samples(format::Maxima, { 0, 1, 1 });
   state.Scalars = std::make_unique<isodiamond::ScalarHierarchy>(
     samples, header.ErrorScale, errors.Data, errors.Size, minima, maxima);
 }
@@ -170,49 +166,55 @@ int Dimension(std::int64_t value)
 void ReadArrays(vtkFieldData* fieldData, State& state)
 {
   Reader reader(fieldData, state);
-  const isodiamond::ArrayView<std::int64_t> header = reader.Values<std::int64_t>(HeaderName);
-  if (header.Size != HeaderCount || header[0] != FormatVersion)
+  const isodiamond::ArrayView<std::int64_t> header = reader.Values<std::int64_t>(format::Header);
+  if (header.Size != HeaderAt::Size || header[HeaderAt::Version] != format::Version)
   {
     throw std::invalid_argument("the hierarchy has an unknown format version");
   }
   const auto isFlag = [&](int at) { return header[at] == 0 || header[at] == 1; };
-  if (header[1] < 0 || header[1] > 2 || !isFlag(2) || !isFlag(MetricAt) || !isFlag(ExactAt) ||
-    (header[1] == 0 && header[MetricAt] != 0)) // an HD has no distances
+  const std::int64_t model = header[HeaderAt::Model];
+  if (model < 0 || model > 2 || !isFlag(HeaderAt::Shape) || !isFlag(HeaderAt::Metric) ||
+    !isFlag(HeaderAt::ExactIsovertices) ||
+    (model == 0 && header[HeaderAt::Metric] != 0)) // an HD has no distances
   {
     throw std::invalid_argument("the hierarchy is of an unknown model, shape or metric");
   }
-  const isodiamond::ArrayView<double> parameters = reader.Values<double>(ParametersName);
-  if (parameters.Size != ParameterCount ||
-    !std::all_of(parameters.Data + ErrorScaleAt, parameters.Data + parameters.Size,
+  const isodiamond::ArrayView<double> parameters = reader.Values<double>(format::Parameters);
+  if (parameters.Size != ParameterAt::Size ||
+    !std::all_of(parameters.Data + ParameterAt::ErrorScale, parameters.Data + parameters.Size,
       [](double value) { return std::isfinite(value); }))
   {
     throw std::invalid_argument("the hierarchy's parameters are malformed");
   }
   vtkStringArray* name =
-    vtkStringArray::SafeDownCast(fieldData->GetAbstractArray("IsodiamondArrayName"));
+    vtkStringArray::SafeDownCast(fieldData->GetAbstractArray(format::ArrayName));
   if (name && name->GetNumberOfValues() == 1)
   {
     state.ArrayName = name->GetValue(0);
   }
-  state.Model = static_cast<int>(header[1]);
-  state.Chosen = { static_cast<isodiamond::Shape>(header[2]), parameters[0],
-    { parameters[1], parameters[2] } };
+  state.Model = static_cast<int>(model);
+  state.Chosen = { static_cast<isodiamond::Shape>(header[HeaderAt::Shape]),
+    parameters[ParameterAt::Isovalue],
+    { parameters[ParameterAt::Isorange], parameters[ParameterAt::Isorange + 1] } };
   for (int i = 0; i < 12; ++i)
   {
-    state.World.Rows[i / 4][i % 4] = parameters[WorldAt + i];
+    state.World.Rows[i / 4][i % 4] = parameters[ParameterAt::World + i];
   }
-  state.Metric = static_cast<isodiamond::ErrorMetric>(header[MetricAt]);
-  state.ExactIsovertices = header[ExactAt] != 0;
+  state.Metric = static_cast<isodiamond::ErrorMetric>(header[HeaderAt::Metric]);
+  state.ExactIsovertices = header[HeaderAt::ExactIsovertices] != 0;
   isodiamond::EncodingHeader core;
-  core.Kind = static_cast<isodiamond::Model>(header[1]);
-  core.Dimensions = { Dimension(header[3]), Dimension(header[4]), Dimension(header[5]) };
+  core.TheModel = static_cast<isodiamond::Model>(model);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    core.Dimensions[axis] = Dimension(header[HeaderAt::Dimensions + axis]);
+  }
   core.Region = state.Chosen.Region();
   core.Metric = state.Metric;
-  core.ErrorScale = parameters[ErrorScaleAt];
-  core.FieldScale = parameters[FieldScaleAt];
+  core.ErrorScale = parameters[ParameterAt::ErrorScale];
+  core.FieldScale = parameters[ParameterAt::FieldScale];
   core.ExactIsovertices = state.ExactIsovertices;
-  core.RelevantCount = header[6];
-  if (core.Kind == isodiamond::Model::HierarchyOfDiamonds)
+  core.RelevantCount = header[HeaderAt::RelevantCount];
+  if (core.TheModel == isodiamond::Model::HierarchyOfDiamonds)
   {
     ReadScalars(reader, core, state);
   }
@@ -226,8 +228,8 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
 /** A scale among a hierarchy's parameters; 1 if there is no hierarchy. */
 double Parameter(vtkFieldData* fieldData, int index)
 {
-  vtkDataArray* parameters = fieldData ? fieldData->GetArray(ParametersName) : nullptr;
-  const bool valid = parameters && parameters->GetNumberOfTuples() == ParameterCount &&
+  vtkDataArray* parameters = fieldData ? fieldData->GetArray(format::Parameters) : nullptr;
+  const bool valid = parameters && parameters->GetNumberOfTuples() == ParameterAt::Size &&
     parameters->GetNumberOfComponents() == 1;
   return isodiamond::ErrorCode(valid ? parameters->GetTuple1(index) : 1.0).Scale();
 }
@@ -236,29 +238,30 @@ double Parameter(vtkFieldData* fieldData, int index)
 
 bool HasHierarchy(vtkFieldData* fieldData)
 {
-  return fieldData && fieldData->GetAbstractArray(HeaderName) != nullptr;
+  return fieldData && fieldData->GetAbstractArray(format::Header) != nullptr;
 }
 
 double LargestTolerance(vtkFieldData* fieldData)
 {
-  vtkDataArray* header = fieldData ? fieldData->GetArray(HeaderName) : nullptr;
+  vtkDataArray* header = fieldData ? fieldData->GetArray(format::Header) : nullptr;
   const bool isDistance = header && header->GetNumberOfComponents() == 1 &&
-    header->GetNumberOfTuples() == HeaderCount &&
-    header->GetTuple1(MetricAt) == static_cast<int>(isodiamond::ErrorMetric::Distance);
-  return (isDistance ? DistanceOfInterest : 1.0) * Parameter(fieldData, ErrorScaleAt);
+    header->GetNumberOfTuples() == HeaderAt::Size &&
+    header->GetTuple1(HeaderAt::Metric) == static_cast<int>(isodiamond::ErrorMetric::Distance);
+  return (isDistance ? DistanceOfInterest : 1.0) * Parameter(fieldData, ParameterAt::ErrorScale);
 }
 
 double FieldScale(vtkFieldData* fieldData)
 {
-  return Parameter(fieldData, FieldScaleAt);
+  return Parameter(fieldData, ParameterAt::FieldScale);
 }
 
 std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
 {
   if (!HasHierarchy(fieldData))
   {
-    throw std::invalid_argument(
-      "The input is not an isodiamond hierarchy: it has no field data array \"IsodiamondHeader\".");
+    throw std::invalid_argument("The input is not an isodiamond hierarchy: it has no field data "
+                                "array \"" +
+      std::string(format::Header) + "\".");
   }
   try
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondArrays_h
-#define vtkIsodiamondArrays_h
+#ifndef vtkIsodiamond_Arrays_h
+#define vtkIsodiamond_Arrays_h
 
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
@@ -11,7 +11,7 @@
 #include <new>
 
 /**
- * @file vtkIsodiamondArrays.h
+ * @file Arrays.h
  * Memory of VTK's arrays, with std::bad_alloc where there is none.
  *
  * An array that cannot allocate ends the program if VTK was built without NDEBUG, as Debian's
@@ -47,17 +47,6 @@ vtkSmartPointer<Array> NewArray(const char* name, vtkIdType count, int component
   array->SetNumberOfComponents(components);
   AllocateTuples(array, count);
   return array;
-}
-
-/** For what only VTK can allocate. @throws std::bad_alloc if so much is not to be had now */
-inline void ExpectMemory(std::int64_t bytes)
-{
-  void* volatile memory = std::malloc(static_cast<std::size_t>(bytes)); // or it would be left out
-  if (!memory && bytes > 0)
-  {
-    throw std::bad_alloc();
-  }
-  std::free(memory);
 }
 
 /**

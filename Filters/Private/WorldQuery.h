@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondQuery_h
-#define vtkIsodiamondQuery_h
+#ifndef vtkIsodiamond_WorldQuery_h
+#define vtkIsodiamond_WorldQuery_h
 
+#include "Private/State.h"
+#include "Private/Threads.h"
 #include "Refinement/RefinedSet.h"
 #include "Refinement/ScalarQuery.h"
-#include "vtkIsodiamondHierarchy.h"
-#include "vtkIsodiamondState.h"
-#include "vtkIsodiamondThreads.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkIsodiamondHierarchy.h"
 #include "vtkPolyData.h"
 
 #include <array>
@@ -27,8 +27,9 @@ struct View
   double TolerancePerDistance = 0.0;
 };
 
-/** What a filter's properties ask of a hierarchy. */
-struct Query
+/** What a filter's properties ask of a hierarchy, in the world; isodiamond::Query asks it of the
+ *  core, in index space. */
+struct WorldQuery
 {
   double ErrorTolerance = 0.0;
   double InteriorTolerance = HUGE_VAL;
@@ -65,7 +66,7 @@ inline void CheckTolerance(double tolerance, const std::string& name = "error")
 }
 
 /** The same for all tolerances of a query. */
-inline void CheckTolerances(const Query& query)
+inline void CheckTolerances(const WorldQuery& query)
 {
   CheckTolerance(query.ErrorTolerance);
   CheckTolerance(query.InteriorTolerance, "interior");
@@ -78,7 +79,7 @@ inline void CheckTolerances(const Query& query)
 /** The query in terms of the core. @param world from the grid's index space; for a
  *  view not that of a curvilinear grid */
 inline isodiamond::Query CoreQuery(
-  const Query& query, const isodiamond::Grid& grid, const isodiamond::GridGeometry& world)
+  const WorldQuery& query, const isodiamond::Grid& grid, const isodiamond::GridGeometry& world)
 {
   isodiamond::Query result;
   result.Tolerance = query.ErrorTolerance;
@@ -102,7 +103,7 @@ inline isodiamond::Query CoreQuery(
 }
 
 /** Says so where a relevant or minimal hierarchy cannot do what the query asks. */
-inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, const Query& query)
+inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, const WorldQuery& query)
 {
   const isodiamond::IsodiamondHierarchy& hierarchy = *state.Isodiamonds;
   const Choice& own = state.Chosen;
@@ -129,7 +130,7 @@ inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, cons
  * @throws std::exception that says what is wrong with the query
  */
 template <typename Use>
-void RefineState(const State& state, const Query& query, int numberOfThreads,
+void RefineState(const State& state, const WorldQuery& query, int numberOfThreads,
   const isodiamond::ParallelFor& parallelFor, Use&& use)
 {
   RunThreaded(numberOfThreads,
@@ -137,14 +138,14 @@ void RefineState(const State& state, const Query& query, int numberOfThreads,
     {
       if (state.Isodiamonds)
       {
-        const isodiamond::Grid& grid = state.Isodiamonds->Domain();
+        const isodiamond::Grid& grid = state.Isodiamonds->SampleGrid();
         use(isodiamond::RefinedSet(
           *state.Isodiamonds, CoreQuery(query, grid, state.World), parallelFor));
         return;
       }
       const isodiamond::Encoding answer =
         isodiamond::EncodeQuery(*state.Scalars, query.Override(state.Chosen).Region(),
-          CoreQuery(query, state.Scalars->Domain(), state.World), state.ExactIsovertices,
+          CoreQuery(query, state.Scalars->SampleGrid(), state.World), state.ExactIsovertices,
           parallelFor);
       const isodiamond::IsodiamondHierarchy hierarchy(answer, parallelFor);
       use(isodiamond::RefinedSet(hierarchy, {}, parallelFor));
@@ -154,7 +155,7 @@ void RefineState(const State& state, const Query& query, int numberOfThreads,
 /** The hierarchy that a data set holds, ready for a query.
  *  @throws std::exception that says what is wrong with the input or the query */
 inline std::shared_ptr<const State> ReadForQuery(
-  vtkAlgorithm* filter, vtkPolyData* input, const Query& query)
+  vtkAlgorithm* filter, vtkPolyData* input, const WorldQuery& query)
 {
   CheckTolerances(query);
   if (!input)

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondCache.h"
-
-#include "vtkIsodiamondQuery.h"
+#include "Private/Cache.h"
 
 #include "vtkUnsignedCharArray.h"
 
@@ -97,20 +95,6 @@ void Cache::Trim(std::int64_t bytes)
     entry->IsUsed = false;
     entry = isUsed || kept <= bytes ? std::next(entry) : this->Entries.erase(entry);
   }
-}
-
-Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
-  bool refineInterior, const Query& query, const MeshOptions& wishes, Task& task)
-{
-  constexpr double buildShare = 0.8;
-  Task building = task.Part(0.0, buildShare);
-  const isodiamond::IsodiamondHierarchy& hierarchy =
-    hierarchies.Get(volume, region, refineInterior, building);
-  Task extracting = task.Part(buildShare, 1.0);
-  extracting.Begin("Refining", 0.0, 0.3);
-  const isodiamond::RefinedSet refined(
-    hierarchy, CoreQuery(query, hierarchy.Domain(), volume.Place.World), extracting.For());
-  return ExtractMesh(refined, wishes, extracting);
 }
 
 }

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondCache_h
-#define vtkIsodiamondCache_h
-
-#include "vtkIsodiamondContentHash.h"
-#include "vtkIsodiamondInput.h"
-#include "vtkIsodiamondMesh.h"
-#include "vtkIsodiamondTask.h"
+#ifndef vtkIsodiamond_Cache_h
+#define vtkIsodiamond_Cache_h
 
 #include "Build/Builder.h"
+#include "Private/ContentHash.h"
+#include "Private/Input.h"
+#include "Private/Task.h"
 
 #include "vtkType.h"
 
@@ -86,13 +84,6 @@ struct CacheTrimmer
   std::int64_t Bytes;
   ~CacheTrimmer() { this->Target.Trim(this->Bytes); }
 };
-
-struct Query;
-
-/** What both one-step filters do: the hierarchy of a region, the refined set of a query, the mesh.
- */
-Mesh ExtractFrom(Cache& hierarchies, const Volume& volume, const isodiamond::Isoregion& region,
-  bool refineInterior, const Query& query, const MeshOptions& wishes, Task& task);
 
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkIsodiamondInput.h"
+#include "Private/Input.h"
 
-#include "vtkIsodiamondArrays.h"
+#include "Private/Arrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -9,44 +9,48 @@
 #include "vtkPointData.h"
 
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
+#include <type_traits>
 
 namespace vtkIsodiamond
 {
 namespace
 {
 
-template <typename From, typename To>
-isodiamond::AnySamples SamplesAs(vtkDataArray* array, const std::array<int, 3>& dimensions)
+/** The type that the core has for one of VTK's, which has several names for integers of one size.
+ */
+template <typename T>
+auto CoreType()
 {
-  static_assert(sizeof(From) == sizeof(To), "one type under two names");
-  return isodiamond::SampleView<To>(static_cast<const To*>(array->GetVoidPointer(0)), dimensions);
-}
-
-/** Integers by their size: VTK has several names for each. */
-template <typename From>
-isodiamond::AnySamples ViewInteger(vtkDataArray* array, const std::array<int, 3>& dimensions)
-{
-  if constexpr (sizeof(From) == 1)
+  if constexpr (std::is_floating_point_v<T>)
   {
-    return std::is_signed_v<From> ? SamplesAs<From, std::int8_t>(array, dimensions)
-                                  : SamplesAs<From, std::uint8_t>(array, dimensions);
+    return T();
   }
-  else if constexpr (sizeof(From) == 2)
+  else if constexpr (sizeof(T) == 1)
   {
-    return std::is_signed_v<From> ? SamplesAs<From, std::int16_t>(array, dimensions)
-                                  : SamplesAs<From, std::uint16_t>(array, dimensions);
+    return std::conditional_t<std::is_signed_v<T>, std::int8_t, std::uint8_t>();
   }
-  else if constexpr (sizeof(From) == 4)
+  else if constexpr (sizeof(T) == 2)
   {
-    return std::is_signed_v<From> ? SamplesAs<From, std::int32_t>(array, dimensions)
-                                  : SamplesAs<From, std::uint32_t>(array, dimensions);
+    return std::conditional_t<std::is_signed_v<T>, std::int16_t, std::uint16_t>();
+  }
+  else if constexpr (sizeof(T) == 4)
+  {
+    return std::conditional_t<std::is_signed_v<T>, std::int32_t, std::uint32_t>();
   }
   else
   {
-    return std::is_signed_v<From> ? SamplesAs<From, std::int64_t>(array, dimensions)
-                                  : SamplesAs<From, std::uint64_t>(array, dimensions);
+    return std::conditional_t<std::is_signed_v<T>, std::int64_t, std::uint64_t>();
   }
+}
+
+template <typename T>
+isodiamond::AnySamples SamplesOf(vtkDataArray* array, const std::array<int, 3>& dimensions)
+{
+  using To = decltype(CoreType<T>());
+  static_assert(sizeof(T) == sizeof(To), "one type under two names");
+  return isodiamond::SampleView<To>(static_cast<const To*>(array->GetVoidPointer(0)), dimensions);
 }
 
 /** A copy with one layer of the finite minimum on all six sides. */
@@ -116,49 +120,9 @@ bool ViewSamples(
 {
   switch (array->GetDataType())
   {
-    case VTK_FLOAT:
-      samples = SamplesAs<float, float>(array, dimensions);
-      return true;
-    case VTK_DOUBLE:
-      samples = SamplesAs<double, double>(array, dimensions);
-      return true;
-    case VTK_CHAR:
-      samples = ViewInteger<char>(array, dimensions);
-      return true;
-    case VTK_SIGNED_CHAR:
-      samples = ViewInteger<signed char>(array, dimensions);
-      return true;
-    case VTK_UNSIGNED_CHAR:
-      samples = ViewInteger<unsigned char>(array, dimensions);
-      return true;
-    case VTK_SHORT:
-      samples = ViewInteger<short>(array, dimensions);
-      return true;
-    case VTK_UNSIGNED_SHORT:
-      samples = ViewInteger<unsigned short>(array, dimensions);
-      return true;
-    case VTK_INT:
-      samples = ViewInteger<int>(array, dimensions);
-      return true;
-    case VTK_UNSIGNED_INT:
-      samples = ViewInteger<unsigned int>(array, dimensions);
-      return true;
-    case VTK_LONG:
-      samples = ViewInteger<long>(array, dimensions);
-      return true;
-    case VTK_UNSIGNED_LONG:
-      samples = ViewInteger<unsigned long>(array, dimensions);
-      return true;
-    case VTK_LONG_LONG:
-    case VTK_ID_TYPE:
-      samples = ViewInteger<long long>(array, dimensions);
-      return true;
-    case VTK_UNSIGNED_LONG_LONG:
-      samples = ViewInteger<unsigned long long>(array, dimensions);
-      return true;
-    default:
-      return false;
+    vtkTemplateMacro(samples = SamplesOf<VTK_TT>(array, dimensions); return true);
   }
+  return false;
 }
 
 InputArray OrScalars(const InputArray& found, vtkInformation* request, vtkDataObject* input)
@@ -223,7 +187,7 @@ Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoun
     ViewSamples(
       volume.Array, { dimensions[0] + 2, dimensions[1] + 2, dimensions[2] + 2 }, volume.Samples);
   }
-  volume.Place = GeometryOf(grid, volume.Padding);
+  volume.Placement = GeometryOf(grid, volume.Padding);
   volume.Hidden = HiddenCellsOf(grid, volume.Padding);
   return volume;
 }

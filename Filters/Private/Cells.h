@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondCells_h
-#define vtkIsodiamondCells_h
-
-#include "vtkIsodiamondArrays.h"
+#ifndef vtkIsodiamond_Cells_h
+#define vtkIsodiamond_Cells_h
 
 #include "Field/Parallel.h"
+#include "Private/Arrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkNew.h"
@@ -17,7 +16,7 @@
 #include <limits>
 
 /**
- * @file vtkIsodiamondCells.h
+ * @file Cells.h
  * Cells of a mesh that are all alike.
  */
 namespace vtkIsodiamond

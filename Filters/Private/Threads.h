@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkIsodiamondThreads_h
-#define vtkIsodiamondThreads_h
+#ifndef vtkIsodiamond_Threads_h
+#define vtkIsodiamond_Threads_h
 
 #include "Field/Parallel.h"
 
@@ -22,7 +22,7 @@
 #include <vector>
 
 /**
- * @file vtkIsodiamondThreads.h
+ * @file Threads.h
  * The core's parallel-for on vtkSMPTools.
  *
  * VTK as packaged with ParaView starts with the backend "Sequential"; unless the user chose one

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamond_Format_h
+#define vtkIsodiamond_Format_h
+
+/**
+ * @file Format.h
+ * What writing and reading of hierarchies (State.h) have to agree about: names of field-data
+ * arrays, and what is where in the header and among the parameters. docs/file-format.md describes
+ * them all.
+ */
+namespace vtkIsodiamond::format
+{
+
+inline constexpr int Version = 2;
+
+inline constexpr const char* Header = "IsodiamondHeader";
+inline constexpr const char* Parameters = "IsodiamondParameters";
+inline constexpr const char* ArrayName = "IsodiamondArrayName";
+
+/** Of RI and MI. */
+inline constexpr const char* BrickCounts = "IsodiamondBrickCounts";
+inline constexpr const char* BrickIndices = "IsodiamondBrickIndices";
+inline constexpr const char* BrickMasks = "IsodiamondBrickMasks";
+inline constexpr const char* Records = "IsodiamondRecords";
+inline constexpr const char* Isovertices = "IsodiamondIsovertices";
+inline constexpr const char* InsideValues = "IsodiamondInsideValues";
+inline constexpr const char* InteriorCodes = "IsodiamondInteriorCodes";
+inline constexpr const char* PointDataPrefix = "IsodiamondPointData:"; ///< an array's name follows
+
+/** Of an HD. */
+inline constexpr const char* Samples = "IsodiamondSamples";
+inline constexpr const char* Errors = "IsodiamondErrors";
+inline constexpr const char* Minima = "IsodiamondMinima";
+inline constexpr const char* Maxima = "IsodiamondMaxima";
+
+/** Numbers for who looks at the field data, the first of any hierarchy, the others of RI and MI.
+ * Nothing reads them. */
+inline constexpr const char* LargestErrorTolerance = "LargestErrorTolerance";
+inline constexpr const char* NumberOfActiveIsodiamonds = "NumberOfActiveIsodiamonds";
+inline constexpr const char* NumberOfRelevantIsodiamonds = "NumberOfRelevantIsodiamonds";
+inline constexpr const char* NumberOfCreationIsodiamonds = "NumberOfCreationIsodiamonds";
+inline constexpr const char* NumberOfIsovertices = "NumberOfIsovertices";
+inline constexpr const char* StorageSize = "StorageSize";
+
+}
+
+/** Indices into the header. */
+namespace vtkIsodiamond::HeaderAt
+{
+
+enum : int
+{
+  Version,
+  Model,
+  Shape,
+  Dimensions, ///< three
+  RelevantCount = Dimensions + 3,
+  Metric,
+  ExactIsovertices,
+  Size ///< how many there are
+};
+
+}
+
+/** Indices into the parameters. */
+namespace vtkIsodiamond::ParameterAt
+{
+
+enum : int
+{
+  Isovalue,
+  Isorange, ///< two
+  ErrorScale = Isorange + 2,
+  FieldScale,
+  World,            ///< three rows of four
+  Size = World + 12 ///< how many there are
+};
+
+}
+
+#endif
