@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Interval volumes: patches, meshes at every tolerance in every model, volumes.
 #include "IntervalTestTools.h"
+#include "Patches/IntervalCases.h"
 #include "Patches/IntervalPatches.h"
 #include "Refinement/ScalarQuery.h"
 
@@ -43,6 +44,30 @@ TEST(IntervalPatches, HaveTheNumbersOfTetrahedraThatTheSearchPromises)
     ASSERT_NE(size, sizes.end());
     EXPECT_EQ(IntervalPatches()[code].size(), size->second) << code;
   }
+}
+
+// All half-tetrahedra at once, and each by itself.
+TEST(IntervalPatches, CasesByWordsAreThoseOneByOne)
+{
+  std::array<int, 81> seen{};
+  const test::Field field = test::NoiseField({ 17, 14, 16 }, 3);
+  const test::Built built(
+    BuildIsodiamonds(Model::Relevant, field.View(), Isoregion(3.0, 5.0), SerialFor), SerialFor);
+  const IsodiamondHierarchy& hierarchy = *built.Hierarchy;
+  hierarchy.Diamonds().ForEach(
+    [&](const Place& place, std::uint32_t rank)
+    {
+      const int type = TypeOf(place.Position);
+      const TypeTable& shape = tables::Types[type];
+      const IntervalCases cases(hierarchy, rank, type);
+      for (int half = 0; half < shape.HalfTetrahedronCount; ++half)
+      {
+        const int expected = IntervalCase(hierarchy, rank, shape.HalfTetrahedra[half]);
+        ASSERT_EQ(cases(half), expected) << rank << ", " << half;
+        ++seen[expected];
+      }
+    });
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 0), 0);
 }
 
 // Random places of the isovertices, random tetrahedra: all volumes positive, their sum that of the

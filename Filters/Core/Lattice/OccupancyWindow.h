@@ -36,8 +36,14 @@ public:
         ForEachWordBetween(level.Bricks[index].Occupancy, origin, first, last,
           [&](int z, std::uint64_t bits)
           {
-            std::uint8_t* start = this->Bytes.data() + this->IndexAt(origin + Point{ 0, 0, z });
-            ForEachBit(bits, [&](int bit) { start[(bit & 7) + Width * (bit >> 3)] = 1; });
+            const int start = this->IndexAt(origin + Point{ 0, 0, z });
+            ForEachBit(bits,
+              [&](int bit)
+              {
+                const int index = start + (bit & 7) + Width * (bit >> 3);
+                assert(Holds(index));
+                this->Bytes[index] = 1;
+              });
           });
       });
   }
@@ -47,11 +53,12 @@ public:
   std::uint32_t Around(
     const Point& position, const std::array<std::int16_t, Count>& distances) const
   {
-    const std::uint8_t* centre = this->Bytes.data() + this->IndexAt(position);
+    const int centre = this->IndexAt(position);
     std::uint32_t mask = 0;
     for (std::size_t i = 0; i < Count; ++i)
     {
-      mask |= static_cast<std::uint32_t>(centre[distances[i]]) << i;
+      assert(Holds(centre + distances[i]));
+      mask |= static_cast<std::uint32_t>(this->Bytes[centre + distances[i]]) << i;
     }
     return mask;
   }
@@ -63,12 +70,10 @@ public:
   }
 
 private:
-  int IndexAt(const Point& position) const
-  {
-    const int index = Distance(position) - Distance(this->First);
-    assert(index >= 0 && index < static_cast<int>(this->Bytes.size()) && "in the window");
-    return index;
-  }
+  /** Also of the start of a row, which may lie before the window. */
+  int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
+
+  static bool Holds(int index) { return index >= 0 && index < Width * Width * Width; }
 
   Point First{};
   std::array<std::uint8_t, std::size_t{ Width } * Width * Width> Bytes{};

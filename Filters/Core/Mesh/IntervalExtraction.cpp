@@ -3,6 +3,7 @@
 
 #include "Mesh/PatchPoints.h"
 #include "Mesh/VertexWindow.h"
+#include "Patches/IntervalCases.h"
 #include "Patches/IntervalPatches.h"
 #include "Patches/SurfacePatch.h"
 
@@ -80,42 +81,10 @@ const PatchTables& AllPatchTables()
   return tables;
 }
 
-/** The cases of an interval volume in the half-tetrahedra of a diamond. */
-class IntervalCases
-{
-public:
-  IntervalCases(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
-    : Centre(hierarchy.Sign(parent.Rank))
-  {
-    // Signs of vertices follow from the centre's and the crossings on the way there.
-    const std::uint32_t lower = hierarchy.Edges(parent.Rank);
-    const std::uint32_t upper = hierarchy.UpperEdges(parent.Rank);
-    const VertexMasks& words = tables::MasksByAge[parent.Type];
-    this->AboveLower = words(this->Centre > 0 ? ~lower : lower);
-    this->AboveUpper = words(this->Centre > 1 ? ~upper : upper);
-  }
-
-  int operator()(int half) const
-  {
-    return this->Centre + CaseOfVertices[(this->AboveLower >> (4 * half)) & 7U] +
-      CaseOfVertices[(this->AboveUpper >> (4 * half)) & 7U];
-  }
-
-private:
-  /** What a set of outer vertices above one surface, by age, adds to the case. */
-  static constexpr std::array<std::int8_t, 8> CaseOfVertices = { 0, PatchCase({ 0, 1, 0, 0 }),
-    PatchCase({ 0, 0, 1, 0 }), PatchCase({ 0, 1, 1, 0 }), PatchCase({ 0, 0, 0, 1 }),
-    PatchCase({ 0, 1, 0, 1 }), PatchCase({ 0, 0, 1, 1 }), PatchCase({ 0, 1, 1, 1 }) };
-
-  int Centre;
-  HalfTetrahedronMask AboveLower = 0; ///< the vertices above the lower surface, by age
-  HalfTetrahedronMask AboveUpper = 0;
-};
-
 std::int64_t CountTetrahedra(
   const PatchTables& tables, const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
 {
-  const IntervalCases cases(hierarchy, parent);
+  const IntervalCases cases(hierarchy, parent.Rank, parent.Type);
   std::int64_t tetrahedra = 0;
   parent.ForEachLeaf([&](int half) { tetrahedra += tables[cases(half)].TetrahedronCount; });
   return tetrahedra;
@@ -140,7 +109,7 @@ public:
 
   void Write(const LeafParent& parent)
   {
-    const IntervalCases cases(this->Hierarchy, parent);
+    const IntervalCases cases(this->Hierarchy, parent.Rank, parent.Type);
     const int level = this->Hierarchy.SampleGrid().Depth() - 1 - parent.LeafScale();
     const DiamondPoints* own = this->Window.At(parent.At.Position);
     const auto& places = this->Places[parent.Type];

@@ -46,8 +46,9 @@ void VertexWindow::Fill(const ExtractionPasses& passes, int scale, int step)
           ForEachBit(bits,
             [&](int bit)
             {
-              this->Points[start + ((bit & 7) << step) + ((Width * (bit >> 3)) << step)] =
-                passes.PointsOf(number, brick.Rank(z, bit));
+              const int index = start + ((bit & 7) << step) + ((Width * (bit >> 3)) << step);
+              assert(Holds(index));
+              this->Points[index] = passes.PointsOf(number, brick.Rank(z, bit));
             });
         });
     });

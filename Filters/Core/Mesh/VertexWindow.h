@@ -30,7 +30,9 @@ public:
    *  Distance() from there. */
   const DiamondPoints* At(const Point& position) const
   {
-    return &this->Points[this->IndexAt(position)];
+    const int index = this->IndexAt(position);
+    assert(this->Holds(index));
+    return &this->Points[index];
   }
 
   /** @param offset of a vertex from a diamond's position */
@@ -42,12 +44,9 @@ public:
 private:
   static constexpr int Width = 10;
 
-  int IndexAt(const Point& position) const
-  {
-    const int index = Distance(position) - Distance(this->First);
-    assert(index >= 0 && index < static_cast<int>(this->Points.size()) && "in the window");
-    return index;
-  }
+  /** Also of the start of a row, which may lie before the window. */
+  int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
+  static bool Holds(int index) { return index >= 0 && index < Width * Width * Width; }
   void Fill(const ExtractionPasses& passes, int scale, int step);
 
   Point First; ///< the first position

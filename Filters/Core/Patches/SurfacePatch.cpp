@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Patches/SurfacePatch.h"
 
+#include "Patches/IntervalCases.h"
 #include "Patches/IntervalPatches.h"
 
 #include <algorithm>
@@ -61,27 +62,6 @@ const CaseTriangles& AllTriangles()
     return all;
   }();
   return triangles;
-}
-
-/** The case of an interval volume in a half-tetrahedron of the diamond of a rank. */
-int IntervalCase(
-  const IsodiamondHierarchy& hierarchy, std::uint32_t rank, const HalfTetrahedron& half)
-{
-  // The signs of the outer vertices follow from the centre's and the crossings on the way there.
-  const int centre = hierarchy.Sign(rank);
-  const std::uint32_t lower = hierarchy.Edges(rank);
-  const std::uint32_t upper = hierarchy.UpperEdges(rank);
-  PatchSigns signs{ centre, 0, 0, 0 };
-  for (int i = 0; i < 3; ++i)
-  {
-    const int edge = half.Vertices[half.ByAge[i]];
-    const int crossesLower = static_cast<int>((lower >> edge) & 1U);
-    const int crossesUpper = static_cast<int>((upper >> edge) & 1U);
-    const int change =
-      (centre > 0 ? -crossesLower : crossesLower) + (centre > 1 ? -crossesUpper : crossesUpper);
-    signs[i + 1] = centre + change;
-  }
-  return PatchCase(signs);
 }
 
 }
