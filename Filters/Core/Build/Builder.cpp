@@ -69,8 +69,7 @@ DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const 
       {
         own.Surface[rank] = code;
       }
-      if (refineInterior &&
-        DiamondSigns(region, source.SampleGrid, source.Samples, place).HasAllVerticesInside())
+      if (refineInterior && HasAllVerticesInside(region, source.SampleGrid, source.Samples, place))
       {
         own.Interior[rank] = code;
       }
@@ -90,8 +89,7 @@ DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& r
     [&](const Place& place, std::uint32_t rank)
     {
       if (!relevant.Region().IsVolume() ||
-        !DiamondSigns(relevant.Region(), source.SampleGrid, source.Samples, place)
-           .HasAllVerticesInside())
+        !HasAllVerticesInside(relevant.Region(), source.SampleGrid, source.Samples, place))
       {
         return;
       }

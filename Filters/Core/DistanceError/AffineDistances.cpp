@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DistanceError/DistanceMeasures.h"
 #include "DistanceError/DistanceWalk.h"
-#include "DistanceError/ScaleZeroDistances.h"
 
 namespace isodiamond
 {
@@ -10,12 +9,6 @@ void MeasureCoarse(const IsovertexClusters& clusters, const AffineLengths& lengt
   ErrorMaxima& errors, const ParallelFor& parallelFor)
 {
   DistanceWalk(clusters, lengths, errors).Run(parallelFor);
-}
-
-void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor)
-{
-  ScaleZeroDistances<AffineLengths>::Run(clusters, lengths, errors, parallelFor);
 }
 
 }

@@ -95,6 +95,26 @@ private:
   std::array<std::uint32_t, 2> Above{}; ///< by surface
 };
 
+/** The same as DiamondSigns::HasAllVerticesInside(), of samples: knows at the first vertex that is
+ * not. */
+inline bool HasAllVerticesInside(
+  const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
+{
+  const ParityTable& shape = tables::Parities[Parity(place.Position)];
+  bool any = false;
+  bool all = region.IsVolume();
+  for (int i = 0; i < shape.VertexCount && all; ++i)
+  {
+    const Point vertex = VertexAt(place, shape.Offsets[i]);
+    if (grid.IsSampled(vertex))
+    {
+      any = true;
+      all = region.SignOf(SampleAt(samples, vertex)) == InsideSign;
+    }
+  }
+  return any && all;
+}
+
 }
 
 #endif

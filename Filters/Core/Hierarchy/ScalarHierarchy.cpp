@@ -76,8 +76,7 @@ public:
           {
             const Place place{ scale, position };
             if (Parity(position) != 0 && this->Hierarchy.Error(place) > accepted &&
-              DiamondSigns(this->Region, grid, this->Hierarchy.Samples(), place)
-                .HasAllVerticesInside())
+              HasAllVerticesInside(this->Region, grid, this->Hierarchy.Samples(), place))
             {
               this->Queue.push_back(place);
             }

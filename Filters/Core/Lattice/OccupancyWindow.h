@@ -25,10 +25,12 @@ public:
   /** Nothing is there. */
   OccupancyWindow() = default;
 
-  /** @param first position of the window */
-  OccupancyWindow(const BrickLevel& level, const Point& first)
-    : First(first)
+  OccupancyWindow(const BrickLevel& level, const Point& first) { this->Fill(level, first); }
+
+  /** To be called once. @param first position of the window */
+  void Fill(const BrickLevel& level, const Point& first)
   {
+    this->First = first;
     const Point last = first + Point{ Width - 1, Width - 1, Width - 1 };
     level.ForEachBrickBetween(first, last,
       [&](std::int64_t index, const Point& origin)
@@ -53,12 +55,13 @@ public:
   std::uint32_t Around(
     const Point& position, const std::array<std::int16_t, Count>& distances) const
   {
-    const int centre = this->IndexAt(position);
+    const int index = this->IndexAt(position);
+    const std::uint8_t* centre = this->Bytes.data() + index;
     std::uint32_t mask = 0;
     for (std::size_t i = 0; i < Count; ++i)
     {
-      assert(Holds(centre + distances[i]));
-      mask |= static_cast<std::uint32_t>(this->Bytes[centre + distances[i]]) << i;
+      assert(Holds(index + distances[i]));
+      mask |= static_cast<std::uint32_t>(centre[distances[i]]) << i;
     }
     return mask;
   }

@@ -78,7 +78,7 @@ public:
   {
     if (this->HasFiner)
     {
-      this->Finer = FinerWindow(
+      this->Finer.Fill(
         refined.Diamonds().Level(brick.Scale() - 1), 2 * brick.Origin() + Point{ -1, -1, -1 });
     }
   }

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceError/DistanceMeasures.h"
+#include "DistanceError/ScaleZeroDistances.h"
+
+namespace isodiamond
+{
+
+void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& lengths,
+  ErrorMaxima& errors, const ParallelFor& parallelFor)
+{
+  ScaleZeroDistances<AffineLengths>::Run(clusters, lengths, errors, parallelFor);
+}
+
+}
