@@ -66,8 +66,8 @@ vtkSmartPointer<vtkDataArray> PaddedCopy(
   {
     for (int y = 0; y < dimensions[1]; ++y)
     {
-      const vtkIdType from = (vtkIdType{ z } * dimensions[1] + y) * dimensions[0];
-      const vtkIdType to = (vtkIdType{ z + 1 } * padded[1] + y + 1) * padded[0] + 1;
+      const vtkIdType from = isodiamond::SampleIndex(dimensions, { 0, y, z });
+      const vtkIdType to = isodiamond::SampleIndex(padded, { 1, y + 1, z + 1 });
       copy->InsertTuples(to, dimensions[0], from, array);
     }
   }

@@ -140,8 +140,7 @@ PointWriter WriteOthers(const Volume& volume, const std::vector<std::string>& na
       .ForEachCorner(
         [&](const isodiamond::Point& sample, double weight)
         {
-          ids[corners] =
-            (vtkIdType{ sample[2] } * dimensions[1] + sample[1]) * dimensions[0] + sample[0];
+          ids[corners] = isodiamond::SampleIndex(dimensions, sample);
           weights[corners++] = weight;
         });
     arrays->Values.Interpolate(corners, ids.data(), weights.data(), vtkIdType{ point.Id });
