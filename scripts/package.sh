@@ -5,6 +5,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
+[ $# -eq 0 ] || fail "takes no arguments"
 install_packages dpkg-dev file # what cpack finds dependencies with
 install_build_packages
 configure_and_build package
