@@ -11,8 +11,9 @@
  * Raises the distance errors of all diamonds: of scale 1 and above (DistanceWalk.h), and of scale 0
  * (ScaleZeroDistances.h).
  *
- * Those two are templates of the kind of lengths, and each kind has its own file: of two in one,
- * compilers would inline less, and the time is spent in small functions.
+ * Those two are templates of the kind of lengths. Their time is spent in small functions, of which
+ * compilers inline less the more a file has: so the kinds are in files of their own, and the
+ * frequent one, affine, in one for each template.
  */
 namespace isodiamond
 {

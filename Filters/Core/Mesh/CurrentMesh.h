@@ -7,7 +7,6 @@
 #include "Refinement/RefinedSet.h"
 
 #include <array>
-#include <optional>
 
 /**
  * @file CurrentMesh.h
@@ -146,13 +145,13 @@ inline LeafParent MakeLeafParent(const RefinedBrick& brick, const Place& place, 
   std::uint32_t children, std::uint32_t wanted)
 {
   const int type = TypeOf(place.Position);
-  const VertexMasks& words = tables::MasksAsListed[type];
-  HalfTetrahedronMask leaves = HalvesOfChildren(children) & HalvesWithAny(words(wanted));
+  const VertexMasks& masks = tables::MasksAsListed[type];
+  HalfTetrahedronMask leaves = HalvesOfChildren(children) & HalvesWithAny(masks(wanted));
   if (!brick.IsInner(place))
   {
     const std::uint32_t sampled =
       SampledVertices(brick.Hierarchy().SampleGrid(), place, tables::Types[type]);
-    leaves &= ~HalvesWithAny(words(AllEdges & ~sampled));
+    leaves &= ~HalvesWithAny(masks(AllEdges & ~sampled));
   }
   return { place, rank, type, leaves };
 }
