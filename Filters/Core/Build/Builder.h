@@ -19,6 +19,12 @@ struct BuildOptions
   bool ExactIsovertices = true;
   /** With the distance metric, whether every feature is kept at any tolerance. */
   bool PreserveFeatures = true;
+  /** Whether the mesh of every tolerance is homeomorphic to that of full resolution: critical
+   *  diamonds are always subdivided; DiamondSigns.h. */
+  bool PreserveTopology = false;
+  /** Solids and cavities of fewer connected samples are removed before all else; SmallPieces.h.
+   *  Not from an HD: it holds samples, and its errors are theirs. 0 keeps all. */
+  std::int64_t MinimumPieceSize = 0;
   /** Of an interval volume: keep every diamond that has all vertices inside, with its field error,
    *  so that queries can have an interior tolerance. */
   bool RefineInterior = false;
@@ -40,7 +46,8 @@ struct BuildOptions
 Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options = {});
 
-/** The same from an HD, which has the field errors already; the result is the same to the bit. */
+/** The same from an HD, which has the field errors already; the result is the same to the bit.
+ *  @throws std::invalid_argument if small pieces are to be removed */
 Encoding BuildIsodiamonds(Model model, const ScalarHierarchy& hierarchy, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options = {});
 

@@ -91,6 +91,13 @@ struct EncodingHeader
   double ErrorScale = 1.0; ///< of the records' ErrorCode, in the metric's units
   double FieldScale = 1.0; ///< of the interior codes' ErrorCode, in field units
   bool ExactIsovertices = true;
+  /** Whether distances were measured both ways: from full resolution to the patches, and back. */
+  bool TwoSided = false;
+  /** Whether every mesh is homeomorphic to that of full resolution. */
+  bool PreservesTopology = false;
+  /** Solids and cavities of fewer samples were removed: so many. */
+  std::int64_t MinimumPieceSize = 0;
+  std::int64_t RemovedPieces = 0;
   /** Whether it holds the subdivided diamonds of one query only, not all that lead to the surface;
    *  never so in files. */
   bool IsAnswer = false;

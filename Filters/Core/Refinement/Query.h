@@ -27,6 +27,9 @@ struct Query
   /** From where the mesh is seen: a diamond's tolerance is at least what the distance from there
    *  makes of it. For errors that are distances. */
   std::optional<Viewpoint> View = std::nullopt;
+  /** Of an HD: whether the mesh is to be homeomorphic to that of full resolution. RI and MI are
+   *  built so, or not. */
+  bool PreserveTopology = false;
 };
 
 }
