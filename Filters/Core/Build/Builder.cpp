@@ -4,6 +4,7 @@
 #include "Build/ActivationThresholds.h"
 #include "Build/Classification.h"
 #include "DistanceError/DistanceError.h"
+#include "Field/CriticalDiamonds.h"
 #include "Field/DiamondSigns.h"
 #include "FieldError/FieldError.h"
 #include "Hierarchy/Encoder.h"
@@ -85,6 +86,7 @@ DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& r
   DiamondCodes own(members.Size(), refineInterior);
   own.Surface =
     DistanceErrors(relevant, source.Samples, options.World, options.PreserveFeatures, parallelFor);
+  RaiseByWayBack(relevant, options.World, options.Hidden, own.Surface, parallelFor);
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
@@ -122,6 +124,27 @@ void RefineAtHiddenCells(const HiddenCells& hidden, const DiamondMask& active,
         codes.Surface[rank] = ErrorCode::Always;
       }
     });
+}
+
+/** What is always subdivided, with all ancestors, so that every mesh has full resolution's
+ * topology: critical diamonds, and what carries a surface to where hidden cells are cut out. */
+DiamondMask RefinedForTopology(const Grid& grid, const SignLattice& signs,
+  const DiamondMask& active, const BuildOptions& options, const ParallelFor& parallelFor)
+{
+  DiamondMask refined = CriticalDiamonds(grid, signs, parallelFor);
+  if (HasHiddenCells(options))
+  {
+    active.ForEach(
+      [&](const Place& place)
+      {
+        if (options.Hidden->Touch(place))
+        {
+          refined.Insert(place);
+        }
+      });
+  }
+  refined.CloseOverParents(grid);
+  return refined;
 }
 
 /** Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
@@ -222,6 +245,11 @@ public:
     {
       const SignLattice signs(grid, source.Samples, region, parallelFor);
       this->Kinds = Classify(grid, signs, parallelFor, this->Interior);
+      if (options.PreserveTopology)
+      {
+        this->ForTopology =
+          RefinedForTopology(grid, signs, this->Kinds.Active, options, parallelFor);
+      }
     }
     this->Kinds.Members.Insert(grid.Depth(), 0, CornerBrick());
     this->Members = DiamondSet(grid, this->Kinds.Members);
@@ -234,6 +262,8 @@ public:
     this->Header.FieldScale = source.FieldScale;
     this->Header.ErrorScale = errorScale;
     this->Header.ExactIsovertices = options.ExactIsovertices;
+    this->Header.TwoSided = options.Metric == ErrorMetric::Distance;
+    this->Header.PreservesTopology = options.PreserveTopology;
     this->Header.ActiveCount = this->Kinds.Active.Size();
     this->Header.CreationCount = this->Kinds.Creation.Size();
     this->Header.RelevantCount = this->Members.Size() - 8 - this->Header.ActiveCount;
@@ -269,6 +299,8 @@ public:
       RefineAtHiddenCells(
         *this->Options.Hidden, this->Kinds.Active, this->Members, this->For, codes);
     }
+    this->ForTopology.ForEach(
+      [&](const Place& place) { codes.Surface[this->Members.Rank(place)] = ErrorCode::Always; });
     this->Report("Finding thresholds", 0.8, 0.9);
     RaiseToThresholds(this->Origin.SampleGrid, this->Members, this->For, codes);
   }
@@ -298,6 +330,7 @@ private:
   const ParallelFor& For;
   bool Interior; ///< whether it is refined
   Classification Kinds;
+  DiamondMask ForTopology; ///< empty if topology need not be preserved
   DiamondSet Members;
   EncodingHeader Header;
 };

@@ -1,42 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Build/Classification.h"
 
+#include "Field/SignBlock.h"
+
 #include <algorithm>
 
 namespace isodiamond
 {
 namespace
 {
-
-/** The signs of a brick and of one layer around it. */
-struct SignBlock
-{
-  std::array<std::array<SignLattice::Row, 10>, 10> Rows; ///< [z + 1][y + 1]
-  /** Signs that occur, bit by sign. */
-  std::uint32_t Signs = 0;
-
-  SignBlock(const SignLattice& signs, int scale, const Point& origin)
-  {
-    std::uint32_t below = 0;
-    std::uint32_t between = 0;
-    std::uint32_t above = 0;
-    const int top = signs.SurfaceCount() - 1;
-    for (int z = 0; z < 10; ++z)
-    {
-      for (int y = 0; y < 10; ++y)
-      {
-        const SignLattice::Row row =
-          signs.Load(scale, origin[0], origin[1] + y - 1, origin[2] + z - 1);
-        this->Rows[z][y] = row;
-        below |= row.Below(0);
-        between |= row.Above[0] & row.Below(top);
-        above |= row.Above[top];
-      }
-    }
-    this->Signs =
-      (below != 0 ? 1U : 0U) | (between != 0 ? 2U : 0U) | (above != 0 ? 1U << (top + 1) : 0U);
-  }
-};
 
 /** Masks of positions by kind. */
 template <typename Word>
@@ -69,7 +41,7 @@ KindMasks<std::uint32_t> ClassifyPositions(const SignBlock& block, int oddX, int
   for (int i = 0; i < shape.VertexCount; ++i)
   {
     const Point& offset = shape.Offsets[i];
-    const SignLattice::Row& row = block.Rows[z + 1 + offset[2]][y + 1 + offset[1]];
+    const SignLattice::Row& row = block.RowAt(y, z, offset);
     for (int surface = 0; surface < Surfaces; ++surface)
     {
       vertices[surface].Above |= row.Above[surface] >> (1 + offset[0]);
@@ -131,8 +103,7 @@ public:
   {
     const Point origin = box.Origin(index);
     const SignBlock block(this->Signs, this->Scale, origin);
-    const bool mixed = (block.Signs & (block.Signs - 1)) != 0;
-    if (!mixed && !(block.Signs == 1U << InsideSign && this->WantsInside(origin)))
+    if (!block.IsMixed() && !(block.Signs == 1U << InsideSign && this->WantsInside(origin)))
     {
       return;
     }
@@ -183,27 +154,6 @@ private:
   bool KeepInside;
   std::array<int, 3> Count;
 };
-
-/**
- * Finds something in each brick of a scale: find(index, list) appends to the list. Rows of bricks
- * are independent, each has its own list; the lists follow each other as the rows do.
- */
-template <typename Found, typename Find>
-std::vector<std::vector<Found>> FindInRows(
-  const BrickBox& box, const ParallelFor& parallelFor, const Find& find)
-{
-  const std::int64_t rows = std::int64_t{ 1 } * box.Count[1] * box.Count[2];
-  std::vector<std::vector<Found>> found(rows);
-  parallelFor(rows, 4,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t index = begin * box.Count[0]; index < end * box.Count[0]; ++index)
-      {
-        find(index, found[index / box.Count[0]]);
-      }
-    });
-  return found;
-}
 
 /** Whether a diamond whose sampled vertices all have one sign lies inside. */
 bool IsInside(const Grid& grid, const SignLattice& signs, const Place& place)

@@ -2,6 +2,7 @@
 #include "DistanceError/DistanceMeasures.h"
 #include "DistanceError/DistanceWalk.h"
 #include "DistanceError/ScaleZeroDistances.h"
+#include "DistanceError/WayBack.h"
 
 namespace isodiamond
 {
@@ -16,6 +17,13 @@ void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& leng
   ErrorMaxima& errors, const ParallelFor& parallelFor)
 {
   ScaleZeroDistances<AxesLengths>::Run(clusters, lengths, errors, parallelFor);
+}
+
+void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths,
+  const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const ParallelFor& parallelFor)
+{
+  MeasureAllBack(relevant, lengths, hidden, code, codes, parallelFor);
 }
 
 }

@@ -47,4 +47,14 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   return errors.Result();
 }
 
+void RaiseByWayBack(const IsodiamondHierarchy& relevant, const GridGeometry& world,
+  const HiddenCells* hidden, std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor)
+{
+  const ErrorCode code(DistanceErrorScale(relevant.SampleGrid(), world));
+  const HiddenCells* cells = hidden != nullptr && hidden->Any() ? hidden : nullptr;
+  std::visit([&](const auto& lengths)
+    { MeasureBack(relevant, lengths, cells, code, codes, parallelFor); },
+    WorldLengthsOf(world));
+}
+
 }

@@ -3,6 +3,7 @@
 #define isodiamond_DistanceError_h
 
 #include "Field/GridGeometry.h"
+#include "Field/HiddenCells.h"
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 
@@ -49,6 +50,19 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world);
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
   const ParallelFor& parallelFor);
+
+/**
+ * Raises distance errors to the way back: how far a point of a diamond's patches can be from the
+ * surface of full resolution, of an interval volume from the same of both. So if every leaf of a
+ * mesh lies in a diamond with an error of at most t, no point of the mesh is farther than t from
+ * full resolution. Rounded up by 1/32 at most. See WayBack.h.
+ *
+ * @param relevant, world as above
+ * @param hidden cells without any surface; null for none
+ * @param codes of DistanceErrors()
+ */
+void RaiseByWayBack(const IsodiamondHierarchy& relevant, const GridGeometry& world,
+  const HiddenCells* hidden, std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor);
 
 }
 

@@ -4,6 +4,7 @@
 
 #include "DistanceError/ErrorMaxima.h"
 #include "DistanceError/IsovertexClusters.h"
+#include "Field/HiddenCells.h"
 #include "Field/Parallel.h"
 
 /**
@@ -27,6 +28,15 @@ void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& le
   ErrorMaxima& errors, const ParallelFor& parallelFor);
 void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& lengths,
   ErrorMaxima& errors, const ParallelFor& parallelFor);
+
+/** Raises errors to the way back (WayBack.h), from the young to the old.
+ *  @param codes by rank, of the way forth */
+void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengths,
+  const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const ParallelFor& parallelFor);
+void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths,
+  const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const ParallelFor& parallelFor);
 
 }
 

@@ -10,6 +10,10 @@ namespace isodiamond
 /** A vector or position of real coordinates. */
 using Vector = std::array<double, 3>;
 
+inline Vector operator+(const Vector& a, const Vector& b)
+{
+  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
+}
 inline Vector operator-(const Vector& a, const Vector& b)
 {
   return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };

@@ -54,8 +54,13 @@ public:
   {
   }
 
-  void RefineFront()
+  /** @param always subdivided in any case; null for nothing */
+  void RefineFront(const DiamondMask* always)
   {
+    if (always != nullptr)
+    {
+      always->ForEach([&](const Place& place) { this->Queue.push_back(place); });
+    }
     this->Visit(Place{ this->Hierarchy.SampleGrid().Depth() - 1, { 1, 1, 1 } });
     this->EmptyQueue();
   }
@@ -212,11 +217,11 @@ ValueRange ScalarHierarchy::Range(const Place& place) const
   return { read(this->Minima), read(this->Maxima) };
 }
 
-ScalarHierarchy::WalkResult ScalarHierarchy::Refine(
-  const Isoregion& region, ErrorCode::Type accepted, ErrorCode::Type acceptedInside) const
+ScalarHierarchy::WalkResult ScalarHierarchy::Refine(const Isoregion& region,
+  ErrorCode::Type accepted, ErrorCode::Type acceptedInside, const DiamondMask* always) const
 {
   Walk walk(*this, region, accepted);
-  walk.RefineFront();
+  walk.RefineFront(always);
   if (region.IsVolume() && acceptedInside < ErrorCode::Always - 1)
   {
     walk.RefineInside(acceptedInside);

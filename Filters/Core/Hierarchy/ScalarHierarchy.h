@@ -63,9 +63,11 @@ public:
    * @param acceptedInside with less than Always - 1, the set holds the diamonds too, on the front
    *        or not, that have all vertices inside the interval volume and a greater code; then
    *        every diamond is visited
+   * @param always what the set holds in any case, with all ancestors; null for nothing
    */
   WalkResult Refine(const Isoregion& region, ErrorCode::Type accepted,
-    ErrorCode::Type acceptedInside = ErrorCode::Always - 1) const;
+    ErrorCode::Type acceptedInside = ErrorCode::Always - 1,
+    const DiamondMask* always = nullptr) const;
 
 private:
   std::int64_t Offset(const Place& place) const;

@@ -68,6 +68,9 @@ public:
     return squared;
   }
 
+  /** Not a number if there is none. */
+  Vector UnitNormal() const { return std::sqrt(this->Inverse[3]) * this->Normal; }
+
 private:
   /** @param inverse of the squared length; infinite if there is none */
   static double SquaredToSide(const Vector& p, const Vector& side, double inverse)

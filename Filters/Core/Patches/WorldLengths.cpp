@@ -45,6 +45,14 @@ AffineLengths::AffineLengths(const AffineMap& world)
     factor[j][j] = std::hypot(rest[0], rest[1], rest[2]);
     directions[j] = { rest[0] / factor[j][j], rest[1] / factor[j][j], rest[2] / factor[j][j] };
   }
+  auto& inverse = this->Inverse;
+  for (int i = 0; i < 3; ++i)
+  {
+    inverse[i][i] = 1.0 / factor[i][i];
+  }
+  inverse[0][1] = -factor[0][1] * inverse[0][0] * inverse[1][1];
+  inverse[1][2] = -factor[1][2] * inverse[1][1] * inverse[2][2];
+  inverse[0][2] = -(factor[0][1] * inverse[1][2] + factor[0][2] * inverse[2][2]) * inverse[0][0];
 }
 
 bool AffineLengths::IsValid() const
@@ -70,6 +78,19 @@ double AffineLengths::SquaredRadius(const FineBox& box, const FinePosition& midd
     squared = std::max(squared, Dot(reach, reach));
   }
   return squared;
+}
+
+std::array<Vector, 2> AffineLengths::IndexBox(const Vector& point, double radius) const
+{
+  std::array<Vector, 2> box{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Vector row = this->Inverse[axis];
+    const double reach = radius * std::sqrt(Dot(row, row));
+    box[0][axis] = Dot(row, point) - reach;
+    box[1][axis] = Dot(row, point) + reach;
+  }
+  return box;
 }
 
 double AffineLengths::TypicalStep() const
@@ -117,6 +138,30 @@ double AxesLengths::SquaredRadius(const FineBox& box, const FinePosition& middle
     reach[axis] = std::max(std::abs(below[axis]), std::abs(above[axis]));
   }
   return Dot(reach, reach);
+}
+
+std::array<Vector, 2> AxesLengths::IndexBox(const Vector& point, double radius) const
+{
+  std::array<Vector, 2> box{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double a = this->IndexAlong(axis, point[axis] - radius);
+    const double b = this->IndexAlong(axis, point[axis] + radius);
+    box[0][axis] = std::min(a, b);
+    box[1][axis] = std::max(a, b);
+  }
+  return box;
+}
+
+double AxesLengths::IndexAlong(int axis, double place) const
+{
+  const std::vector<double>& coordinates = this->Coordinates[axis];
+  const bool isRising = coordinates.back() > coordinates.front();
+  const auto next = std::upper_bound(coordinates.begin() + 1, coordinates.end() - 1, place,
+    [=](double a, double b) { return isRising ? a < b : a > b; });
+  const auto last = next - 1;
+  return this->Padding + static_cast<double>(last - coordinates.begin()) +
+    (place - *last) / (*next - *last);
 }
 
 double AxesLengths::TypicalStep() const

@@ -50,6 +50,9 @@ public:
   /** The squared radius of the ball around the middle of a box that holds the box. */
   double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
 
+  /** A box of index space, low and high, that holds all that is within a radius of a point. */
+  std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
+
   /** From index space; upper triangular. */
   const std::array<std::array<double, 3>, 3>& Factor() const { return this->Triangular; }
 
@@ -67,6 +70,7 @@ private:
   }
 
   std::array<std::array<double, 3>, 3> Triangular{};
+  std::array<std::array<double, 3>, 3> Inverse{};
 };
 
 /** The lengths of a world of coordinates along the axes; the same as above. */
@@ -90,6 +94,7 @@ public:
     return (*this)(FineUnits * to) - (*this)(FineUnits * from);
   }
   double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
+  std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
 
   /** Their mean, on the axis where that is longest. */
   double TypicalStep() const;
@@ -100,6 +105,8 @@ public:
 private:
   /** Between samples, and beyond the first and the last by the outermost steps. */
   double Along(int axis, std::int32_t position) const;
+  /** The index of a place on an axis. */
+  double IndexAlong(int axis, double place) const;
 
   AxisCoordinates Coordinates; ///< from the first sample on
   int Padding = 0;

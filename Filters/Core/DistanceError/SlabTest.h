@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_SlabTest_h
+#define isodiamond_SlabTest_h
+
+#include "DistanceError/FineSurface.h"
+#include "Patches/ConvexPolygon.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace isodiamond
+{
+
+/** The cells that a box of index space touches, of those in another box. */
+inline CellBox CellsIn(const std::array<Vector, 2>& box, const CellBox& whole)
+{
+  CellBox cells;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    constexpr double rounding = 1e-6;
+    const double last = whole.High[axis];
+    const double low = std::clamp(std::floor(box[0][axis] - rounding), 0.0, last - 1.0);
+    const double high = std::clamp(std::ceil(box[1][axis] + rounding), low + 1.0, last);
+    cells.Low[axis] = static_cast<int>(low);
+    cells.High[axis] = static_cast<int>(high);
+  }
+  return cells;
+}
+
+/** A ball in the world. */
+struct Ball
+{
+  Vector Middle;
+  double Radius = 0.0;
+};
+
+/** The balls that hold cells, and so their triangles. */
+template <typename Lengths>
+class CellBalls
+{
+public:
+  explicit CellBalls(const Lengths& lengths)
+    : InWorld(lengths)
+    , OfAll(this->RadiusOf({ 0, 0, 0 }))
+  {
+  }
+
+  Ball operator()(const Point& cell) const
+  {
+    return { this->InWorld(MiddleOf(cell)),
+      Lengths::IsLinear ? this->OfAll : this->RadiusOf(cell) };
+  }
+
+private:
+  static FinePosition MiddleOf(const Point& cell)
+  {
+    return FineUnits * cell + FinePosition{ FineUnits / 2, FineUnits / 2, FineUnits / 2 };
+  }
+
+  double RadiusOf(const Point& cell) const
+  {
+    FineBox box;
+    box.Add(FineUnits * cell);
+    box.Add(FineUnits * (cell + Point{ 1, 1, 1 }));
+    return std::sqrt(this->InWorld.SquaredRadius(box, MiddleOf(cell)));
+  }
+
+  const Lengths& InWorld;
+  double OfAll; ///< where lengths are linear
+};
+
+/**
+ * Whether a surface passes a flat piece within a distance, all over it: it crosses neither of two
+ * copies that are moved by the distance, up and down in some direction, but the way from one to the
+ * other.
+ *
+ * Of the surface counts what lies over the piece, in that direction. It is closed but for the
+ * grid's boundary and for hidden cells: where the copies leave the grid, the answer is no.
+ */
+template <typename Lengths>
+class SlabTest
+{
+public:
+  /** @param normal of the piece @param direction the two are of unit length, at less than a right
+   *         angle
+   *  @param known how near is near enough in any case @param limit and at most */
+  SlabTest(const ConvexPolygon& piece, const Vector& normal, const Vector& direction, double known,
+    double limit, const FineSurface& fine, const Lengths& lengths, const CellBalls<Lengths>& balls)
+    : Piece(piece)
+    , Upward(direction)
+    , Known(known)
+    , Limit(limit)
+    , InWorld(lengths)
+    , Found(known)
+    , Way(piece.Middle())
+  {
+    const CellBox whole = fine.Whole();
+    const std::array<Vector, 2> box = this->IndexBox(whole);
+    if (this->LeavesGrid)
+    {
+      return;
+    }
+    for (int i = 0; i < piece.Count; ++i)
+    {
+      const Vector& from = piece.Corners[i];
+      const Vector& to = piece.Corners[i + 1 == piece.Count ? 0 : i + 1];
+      this->Inward[i] = { Cross(direction, to - from), from, lengths };
+    }
+    // No corner, no line between two of them: what is symmetric has many triangles meet there.
+    this->Line = 0.41 * piece.Corners[0] + 0.33 * piece.Corners[1] + 0.26 * piece.Corners[2];
+    this->Heights = { 1.0 / Dot(normal, direction) * normal, this->Line, lengths };
+    this->IsClear = fine.ForEachCell(CellsIn(box, whole),
+      [&](const Point& cell, const auto& triangles)
+      {
+        const Ball ball = balls(cell);
+        if (this->MayReach(ball))
+        {
+          const Vector off = Cross(ball.Middle - this->Line, direction);
+          const bool isNearLine = Dot(off, off) <= ball.Radius * ball.Radius;
+          triangles(
+            [&](const FineSurface::Triangle& triangle) { this->Look(triangle, isNearLine); });
+        }
+        return !this->IsCrossed;
+      });
+  }
+
+  bool IsBetween() const { return this->IsClear && this->Crossings % 2 == 1; }
+
+  /** How far from the piece the surface is, where it passes between. */
+  double Greatest() const { return this->Found; }
+
+  /** If not, a place of the piece where it is not. */
+  const Vector& InTheWay() const { return this->Way; }
+
+private:
+  /** Where the piece and its copies are. */
+  std::array<Vector, 2> IndexBox(const CellBox& whole)
+  {
+    std::array<Vector, 2> all = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL },
+      { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
+    for (int i = 0; i < this->Piece.Count; ++i)
+    {
+      for (const double height : { -this->Limit, this->Limit })
+      {
+        const Vector corner = this->Piece.Corners[i] + height * this->Upward;
+        const Vector index = this->InWorld.IndexBox(corner, 0.0)[0];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          all[0][axis] = std::min(all[0][axis], index[axis]);
+          all[1][axis] = std::max(all[1][axis], index[axis]);
+          this->LeavesGrid =
+            this->LeavesGrid || index[axis] < 0.0 || index[axis] > whole.High[axis];
+        }
+      }
+    }
+    return all;
+  }
+
+  /** The signed distance from a plane, times some length. Of fine positions it is linear where
+   *  lengths are. */
+  class Plane
+  {
+  public:
+    Plane() = default;
+    Plane(const Vector& normal, const Vector& point, const Lengths& lengths)
+      : Normal(normal)
+      , Offset(Dot(normal, point))
+      , Length(std::sqrt(Dot(normal, normal)))
+      , InWorld(&lengths)
+    {
+      if constexpr (Lengths::IsLinear)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          FinePosition unit{};
+          unit[axis] = FineUnits;
+          this->InFine[axis] = 1.0 / FineUnits * Dot(normal, lengths(unit));
+        }
+      }
+    }
+
+    const Vector& Across() const { return this->Normal; }
+    double operator()(const Vector& point) const { return Dot(this->Normal, point) - this->Offset; }
+    double operator()(const FinePosition& p) const
+    {
+      if constexpr (Lengths::IsLinear)
+      {
+        return this->InFine[0] * p[0] + this->InFine[1] * p[1] + this->InFine[2] * p[2] -
+          this->Offset;
+      }
+      else
+      {
+        return (*this)((*this->InWorld)(p));
+      }
+    }
+
+    /** What of a ball is highest. */
+    double Top(const Ball& ball) const { return (*this)(ball.Middle) + this->Length * ball.Radius; }
+    double Bottom(const Ball& ball) const
+    {
+      return (*this)(ball.Middle) - this->Length * ball.Radius;
+    }
+
+  private:
+    Vector Normal{};
+    double Offset = 0.0;
+    double Length = 0.0;
+    Vector InFine{};
+    const Lengths* InWorld = nullptr;
+  };
+
+  /** Whether what a ball holds may be between the copies. */
+  bool MayReach(const Ball& ball) const
+  {
+    bool mayReach = this->Heights.Bottom(ball)<this->Limit&& this->Heights.Top(ball)> - this->Limit;
+    for (int i = 0; i < this->Piece.Count && mayReach; ++i)
+    {
+      mayReach = this->Inward[i].Top(ball) >= 0.0;
+    }
+    return mayReach;
+  }
+
+  void Look(const FineSurface::Triangle& triangle, bool isNearLine)
+  {
+    std::array<double, 3> heights;
+    for (int i = 0; i < 3; ++i)
+    {
+      heights[i] = this->Heights(triangle[i]);
+    }
+    const double low = std::min({ heights[0], heights[1], heights[2] });
+    const double high = std::max({ heights[0], heights[1], heights[2] });
+    const bool isBetween = low < this->Limit && high > -this->Limit;
+    const bool isKnown = high <= this->Known && low >= -this->Known;
+    if (isBetween && (isNearLine || !isKnown) && !this->IsBeside(triangle))
+    {
+      const std::array<Vector, 3> corners = { this->InWorld(triangle[0]),
+        this->InWorld(triangle[1]), this->InWorld(triangle[2]) };
+      if (!isKnown)
+      {
+        this->LookOver(corners);
+      }
+      this->Crossings += isNearLine && this->CrossesLine(corners) ? 1 : 0;
+    }
+  }
+
+  /** Whether a triangle lies beyond one of the piece's sides. */
+  bool IsBeside(const FineSurface::Triangle& triangle) const
+  {
+    for (int i = 0; i < this->Piece.Count; ++i)
+    {
+      const Plane& side = this->Inward[i];
+      if (side(triangle[0]) < 0.0 && side(triangle[1]) < 0.0 && side(triangle[2]) < 0.0)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /** What lies over the piece of a triangle that is not all within what is known. */
+  void LookOver(const std::array<Vector, 3>& corners)
+  {
+    std::array<ConvexPolygon, 2> over;
+    int current = 0;
+    for (const Vector& corner : corners)
+    {
+      over[0].Add(corner);
+    }
+    for (int i = 0; i < this->Piece.Count && !over[current].IsEmpty(); ++i)
+    {
+      if (over[current].Sides(this->Piece.Corners[i], this->Inward[i].Across())[0] < 0.0)
+      {
+        KeepAbove(
+          over[current], this->Piece.Corners[i], this->Inward[i].Across(), over[1 - current]);
+        current = 1 - current;
+      }
+    }
+    if (!over[current].IsEmpty())
+    {
+      this->CompareHeights(over[current]);
+    }
+  }
+
+  void CompareHeights(const ConvexPolygon& over)
+  {
+    const auto [low, high] = over.Sides(this->Line, this->Heights.Across());
+    if (low >= this->Limit || high <= -this->Limit)
+    {
+      return; // another sheet
+    }
+    this->Found = std::max({ this->Found, high, -low });
+    if (high < this->Limit && low > -this->Limit)
+    {
+      return;
+    }
+    this->IsCrossed = true;
+    double farthest = 0.0;
+    for (int i = 0; i < over.Count; ++i)
+    {
+      const double height = this->Heights(over.Corners[i]);
+      if (std::abs(height) > farthest)
+      {
+        farthest = std::abs(height);
+        this->Way = over.Corners[i] - height * this->Upward;
+      }
+    }
+  }
+
+  /** Whether the line up and down meets a triangle. */
+  bool CrossesLine(const std::array<Vector, 3>& corners) const
+  {
+    const auto side = [&](int i, int j)
+    { return Dot(Cross(corners[i] - this->Line, corners[j] - this->Line), this->Upward) > 0.0; };
+    const bool first = side(0, 1);
+    return first == side(1, 2) && first == side(2, 0);
+  }
+
+  const ConvexPolygon& Piece;
+  Vector Upward;
+  Plane Heights; ///< over the piece, in the direction
+  double Known;
+  double Limit;
+  const Lengths& InWorld;
+  std::array<Plane, ConvexPolygon::MostCorners> Inward; ///< of the sides
+  Vector Line{};                                        ///< the foot of a line across the piece
+  bool LeavesGrid = false;
+  bool IsClear = false; ///< whether no copy is crossed
+  bool IsCrossed = false;
+  int Crossings = 0; ///< of the line
+  double Found;
+  Vector Way;
+};
+
+}
+
+#endif

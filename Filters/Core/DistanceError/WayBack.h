@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_WayBack_h
+#define isodiamond_WayBack_h
+
+#include "DistanceError/ErrorMaxima.h"
+#include "DistanceError/FineSurface.h"
+#include "DistanceError/SlabTest.h"
+#include "DistanceError/SpineNeighbourhood.h"
+#include "Patches/ConvexPolygon.h"
+#include "Patches/PatchDistance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The way back of one diamond: how far a point of its patches can be from the surface of full
+ * resolution. A leaf of a mesh lies in one diamond only, so no mates and no stand-ins count.
+ *
+ * Only what exceeds the error so far is of interest. Let two copies of a flat piece be moved away
+ * from it by a distance, up and down. If the surface crosses neither of them, but the way from one
+ * to the other, it has to pass between, all over the piece: no point of the piece is farther. Few
+ * triangles need a look for that. What it does not hold for is measured at the place that is in the
+ * way, and if that does not help cut, until the nearest triangles tell.
+ *
+ * The result is the greatest distance but for a part of 1/16 at most, never less.
+ */
+template <typename Lengths>
+class WayBack
+{
+public:
+  /** @param fine the surface of the number. All must outlive it. */
+  WayBack(const IsodiamondHierarchy& hierarchy, const Lengths& lengths, int surface,
+    const FineSurface& fine)
+    : Hierarchy(hierarchy)
+    , Neighbourhood(hierarchy)
+    , InWorld(lengths)
+    , Surface(surface)
+    , Fine(fine)
+    , Balls(lengths)
+    , Least(lengths.TypicalStep() / 128.0)
+  {
+  }
+
+  /** The greater of a diamond's error so far and of the way back. */
+  double Measure(const Place& diamond, double error)
+  {
+    this->Known = std::max(error, this->Least);
+    this->Bound = 0.0;
+    this->Neighbourhood.ForEachTetrahedron(diamond, true,
+      [&](int /*number*/, const HalfPlace& tetrahedron) { this->MeasureFrom(tetrahedron); });
+    return std::max(error, this->Bound);
+  }
+
+private:
+  static constexpr double Precision = 1.0 / 8.0;
+
+  Vector Corner(const HalfPlace& tetrahedron, int edge) const
+  {
+    const OwnedEdge owned = OwnedEdgeOf(tetrahedron, edge);
+    const auto rank = static_cast<std::uint32_t>(this->Hierarchy.Diamonds().Rank(owned.Owner));
+    return this->InWorld(
+      IsovertexAt(this->Hierarchy, owned.Owner, rank, owned.Edge, this->Surface));
+  }
+
+  /** Whether a bound of a piece is good enough, as it exceeds what is known by little. */
+  bool IsAccepted(double bound)
+  {
+    if (!(bound <= (1.0 + Precision) * this->Known))
+    {
+      return false;
+    }
+    this->Bound = std::max(this->Bound, bound);
+    return true;
+  }
+
+  /** The patch of a tetrahedron. */
+  void MeasureFrom(const HalfPlace& tetrahedron)
+  {
+    const SurfacePatch patch =
+      PatchOf(this->Hierarchy, tetrahedron.Rank, *tetrahedron.Half, this->Surface);
+    std::array<Vector, 6> corners; // by edge
+    std::uint32_t known = 0;
+    for (int i = 0; i < patch.TriangleCount; ++i)
+    {
+      for (const std::uint8_t edge : patch.Triangles[i])
+      {
+        if (((known >> edge) & 1U) == 0)
+        {
+          known |= 1U << edge;
+          corners[edge] = this->Corner(tetrahedron, edge);
+        }
+      }
+    }
+    if (patch.TriangleCount == 2 && this->IsBetweenAsOne(patch, corners))
+    {
+      return;
+    }
+    for (int i = 0; i < patch.TriangleCount; ++i)
+    {
+      const std::array<std::uint8_t, 3>& edges = patch.Triangles[i];
+      this->MeasureFrom({ 3, { corners[edges[0]], corners[edges[1]], corners[edges[2]] } });
+    }
+  }
+
+  /** Two triangles that are nearly flat: whether the surface passes them both. */
+  bool IsBetweenAsOne(const SurfacePatch& patch, const std::array<Vector, 6>& corners)
+  {
+    const auto [quadrilateral, isOne] = Join(patch, corners);
+    if (!isOne)
+    {
+      return false;
+    }
+    const Vector across = Cross(quadrilateral.Corners[2] - quadrilateral.Corners[0],
+      quadrilateral.Corners[3] - quadrilateral.Corners[1]);
+    const Vector normal = (1.0 / std::sqrt(Dot(across, across))) * across;
+    ConvexPolygon flat = quadrilateral;
+    const Vector middle = quadrilateral.Middle();
+    double bend = 0.0;
+    for (int i = 0; i < 4; ++i)
+    {
+      const double height = Dot(flat.Corners[i] - middle, normal);
+      flat.Corners[i] = flat.Corners[i] - height * normal;
+      bend = std::max(bend, std::abs(height));
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      const Vector& corner = flat.Corners[(i + 1) % 4];
+      if (!(Dot(Cross(corner - flat.Corners[i], flat.Corners[(i + 2) % 4] - corner), normal) > 0.0))
+      {
+        return false; // not convex
+      }
+    }
+    if (!(bend < 0.25 * this->Known))
+    {
+      return false;
+    }
+    const SlabTest<Lengths> test(flat, normal, normal, this->Known - bend,
+      (1.0 + Precision) * this->Known - bend, this->Fine, this->InWorld, this->Balls);
+    return test.IsBetween() && this->IsAccepted(test.Greatest() + bend);
+  }
+
+  /** The corners of two triangles in order, and whether these share an edge. */
+  static std::pair<ConvexPolygon, bool> Join(
+    const SurfacePatch& patch, const std::array<Vector, 6>& corners)
+  {
+    const std::array<std::uint8_t, 3>& first = patch.Triangles[0];
+    const std::array<std::uint8_t, 3>& second = patch.Triangles[1];
+    ConvexPolygon joined;
+    int shared = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      const auto has = [](const std::array<std::uint8_t, 3>& edges, std::uint8_t edge)
+      { return std::find(edges.begin(), edges.end(), edge) != edges.end(); };
+      joined.Add(corners[first[i]]);
+      if (has(second, first[i]) && has(second, first[(i + 1) % 3]))
+      {
+        ++shared;
+        const auto other = std::find_if(
+          second.begin(), second.end(), [&](std::uint8_t edge) { return !has(first, edge); });
+        joined.Add(corners[other != second.end() ? *other : second[0]]);
+      }
+    }
+    return { joined, shared == 1 };
+  }
+
+  /** All of a triangle, in pieces. */
+  void MeasureFrom(const ConvexPolygon& triangle)
+  {
+    const Vector across =
+      Cross(triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]);
+    const Vector normal = (1.0 / std::sqrt(Dot(across, across))) * across;
+    this->Pieces.assign(1, triangle);
+    while (!this->Pieces.empty())
+    {
+      const ConvexPolygon piece = this->Pieces.back();
+      this->Pieces.pop_back();
+      if (!this->IsBetween(piece, normal) && !this->IsNear(piece))
+      {
+        this->Halve(piece);
+      }
+    }
+  }
+
+  /** Whether the surface passes a piece within what is known, all over it: up and down, or across
+   *  the surface where it is in the way. */
+  bool IsBetween(const ConvexPolygon& piece, const Vector& normal)
+  {
+    Vector direction = normal;
+    bool isTurned = !std::isfinite(normal[0]);
+    while (std::isfinite(direction[0]))
+    {
+      const SlabTest<Lengths> test(piece, normal, direction, this->Known,
+        (1.0 + Precision) * this->Known, this->Fine, this->InWorld, this->Balls);
+      if (test.IsBetween())
+      {
+        return this->IsAccepted(test.Greatest());
+      }
+      const double before = this->Known;
+      const Nearest nearest = this->FindNearest(test.InTheWay(), before);
+      if (this->Known <= before)
+      {
+        const Vector across = nearest.Triangle.UnitNormal();
+        const double cosine = Dot(across, normal);
+        if (isTurned || !(std::abs(cosine) > 0.25))
+        {
+          return false;
+        }
+        isTurned = true;
+        direction = (cosine > 0.0 ? 1.0 : -1.0) * across;
+      }
+    }
+    return false;
+  }
+
+  /** Whether all of a piece is near enough to a triangle, or small. */
+  bool IsNear(const ConvexPolygon& piece)
+  {
+    const Vector middle = piece.Middle();
+    const double radius = std::sqrt(piece.SquaredRadius(middle));
+    const Nearest nearest = this->FindNearest(middle, std::max(this->Known - radius, 0.0));
+    const double bound = std::sqrt(nearest.Squared) + radius;
+    if (bound <= this->Known ||
+      (radius <= Precision / 2.0 * this->Known && this->IsAccepted(bound)))
+    {
+      return true;
+    }
+    double farthest = 0.0; // the distance to a triangle is convex
+    for (int i = 0; i < piece.Count; ++i)
+    {
+      farthest = std::max(farthest, nearest.Triangle.Squared(piece.Corners[i]));
+    }
+    return this->IsAccepted(std::sqrt(farthest));
+  }
+
+  struct Nearest
+  {
+    double Squared = std::numeric_limits<double>::infinity();
+    TriangleDistance Triangle;
+  };
+
+  /** The nearest triangle of the surface, or some that is near enough: what is known rises to its
+   *  distance. */
+  Nearest FindNearest(const Vector& point, double enough)
+  {
+    Nearest nearest;
+    double radius = 0.5 * this->InWorld.TypicalStep();
+    CellBox done;
+    bool isWhole = false;
+    while (nearest.Squared > std::max(enough * enough, radius * radius / 4.0) && !isWhole)
+    {
+      const CellBox box = CellsIn(this->InWorld.IndexBox(point, radius), this->Fine.Whole());
+      this->Fine.ForEachCell(box,
+        [&](const Point& cell, const auto& triangles)
+        {
+          if (!done.Holds(cell) && this->MayBeNearer(cell, point, nearest))
+          {
+            triangles([&](const FineSurface::Triangle& corners)
+              { this->Compare(point, corners, nearest); });
+          }
+          return nearest.Squared > enough * enough;
+        });
+      isWhole = box.Low == this->Fine.Whole().Low && box.High == this->Fine.Whole().High;
+      done = box;
+      radius *= 2.0;
+    }
+    this->Known = std::max(this->Known, std::sqrt(nearest.Squared));
+    return nearest;
+  }
+
+  bool MayBeNearer(const Point& cell, const Vector& point, const Nearest& nearest) const
+  {
+    const Ball ball = this->Balls(cell);
+    const Vector to = ball.Middle - point;
+    const double reach = std::sqrt(nearest.Squared) + ball.Radius;
+    return Dot(to, to) < reach * reach;
+  }
+
+  void Compare(const Vector& point, const FineSurface::Triangle& corners, Nearest& nearest) const
+  {
+    const TriangleDistance triangle(
+      this->InWorld(corners[0]), this->InWorld(corners[1]), this->InWorld(corners[2]));
+    const double squared = triangle.Squared(point);
+    if (squared < nearest.Squared)
+    {
+      nearest = { squared, triangle };
+    }
+  }
+
+  /** Cuts across the longest way from a corner to another. */
+  void Halve(const ConvexPolygon& piece)
+  {
+    Vector longest{};
+    Vector middle{};
+    for (int i = 0; i < piece.Count; ++i)
+    {
+      for (int j = 0; j < i; ++j)
+      {
+        const Vector way = piece.Corners[i] - piece.Corners[j];
+        if (Dot(way, way) > Dot(longest, longest))
+        {
+          longest = way;
+          middle = 0.5 * (piece.Corners[i] + piece.Corners[j]);
+        }
+      }
+    }
+    std::array<ConvexPolygon, 2> halves;
+    KeepAbove(piece, middle, longest, halves[0]);
+    KeepAbove(piece, middle, -1.0 * longest, halves[1]);
+    for (const ConvexPolygon& half : halves)
+    {
+      if (!half.IsEmpty())
+      {
+        this->Pieces.push_back(half);
+      }
+    }
+  }
+
+  const IsodiamondHierarchy& Hierarchy;
+  SpineNeighbourhood Neighbourhood;
+  const Lengths& InWorld;
+  int Surface;
+  const FineSurface& Fine;
+  CellBalls<Lengths> Balls;
+  double Least;       ///< what is less is no error
+  double Known = 0.0; ///< the error is not less: that so far, or a distance that was found
+  double Bound = 0.0; ///< nothing that was looked at is farther
+  std::vector<ConvexPolygon> Pieces;
+};
+
+/** Raises the errors of all diamonds to the way back. */
+template <typename Lengths>
+void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
+  const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const ParallelFor& parallelFor)
+{
+  const DiamondSet& set = relevant.Diamonds();
+  const std::vector<BrickPlace> bricks = AllBricks(set);
+  for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
+  {
+    const FineSurface fine(relevant, surface, hidden, parallelFor);
+    parallelFor(static_cast<std::int64_t>(bricks.size()), 4,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        WayBack<Lengths> wayBack(relevant, lengths, surface, fine);
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const int scale = bricks[i].Scale;
+          set.ForEachInBrick(scale, set.Level(scale).Bricks[bricks[i].Index],
+            [&](const Place& place, std::uint32_t rank)
+            {
+              if (codes[rank] == 0 || codes[rank] == ErrorCode::Always)
+              {
+                return;
+              }
+              const double error = code.Decode(codes[rank]) / DistanceMargin;
+              const double greater = wayBack.Measure(place, error);
+              if (greater > error)
+              {
+                codes[rank] = code.Encode(greater * DistanceMargin);
+              }
+            });
+        }
+      });
+  }
+}
+
+}
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_ConvexPolygon_h
+#define isodiamond_ConvexPolygon_h
+
+#include "Field/Vector.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace isodiamond
+{
+
+/** A flat convex polygon: a triangle of a patch, or a piece of one that planes have cut off. */
+struct ConvexPolygon
+{
+  /** Each cut adds a corner; what has so many already is not cut any more. */
+  static constexpr int MostCorners = 8;
+
+  int Count = 0;
+  std::array<Vector, MostCorners> Corners;
+
+  bool IsEmpty() const { return this->Count < 3; }
+  void Add(const Vector& corner) { this->Corners[this->Count++] = corner; }
+
+  Vector Middle() const
+  {
+    Vector sum{};
+    for (int i = 0; i < this->Count; ++i)
+    {
+      sum = sum + this->Corners[i];
+    }
+    return (1.0 / this->Count) * sum;
+  }
+
+  /** The squared distance of a point to the farthest corner: nothing is farther. */
+  double SquaredRadius(const Vector& point) const
+  {
+    double largest = 0.0;
+    for (int i = 0; i < this->Count; ++i)
+    {
+      const Vector to = this->Corners[i] - point;
+      largest = std::max(largest, Dot(to, to));
+    }
+    return largest;
+  }
+
+  /** The least and the greatest of the corners' dot products with a normal, from a point on. */
+  std::array<double, 2> Sides(const Vector& point, const Vector& normal) const
+  {
+    std::array<double, 2> sides = { HUGE_VAL, -HUGE_VAL };
+    for (int i = 0; i < this->Count; ++i)
+    {
+      const double side = Dot(this->Corners[i] - point, normal);
+      sides = { std::min(sides[0], side), std::max(sides[1], side) };
+    }
+    return sides;
+  }
+};
+
+/** What of a polygon lies above the plane through a point. */
+inline void KeepAbove(
+  const ConvexPolygon& whole, const Vector& point, const Vector& normal, ConvexPolygon& above)
+{
+  above.Count = 0;
+  if (whole.Count == ConvexPolygon::MostCorners)
+  {
+    above = whole; // more is on the safe side
+    return;
+  }
+  const double offset = Dot(point, normal);
+  double last = Dot(whole.Corners[whole.Count - 1], normal) - offset;
+  for (int i = 0; i < whole.Count; ++i)
+  {
+    const Vector& from = whole.Corners[i == 0 ? whole.Count - 1 : i - 1];
+    const Vector& to = whole.Corners[i];
+    const double next = Dot(to, normal) - offset;
+    if ((last > 0.0 && next < 0.0) || (last < 0.0 && next > 0.0))
+    {
+      above.Add(from + (last / (last - next)) * (to - from));
+    }
+    if (next >= 0.0)
+    {
+      above.Add(to);
+    }
+    last = next;
+  }
+}
+
+}
+
+#endif
