@@ -42,6 +42,7 @@ struct BuildOptions
  * samples -> signs -> isodiamonds -> own errors -> activation thresholds -> encoding.
  *
  * @param model Model::Relevant or Model::Minimal
+ * @throws std::invalid_argument if pieces are to be removed that are smaller than a negative number
  */
 Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options = {});
