@@ -256,6 +256,42 @@ TEST(SmallPieces, CanWindThroughTheWholeGrid)
   }
 }
 
+namespace
+{
+
+void ExpectSameForThreads(const Signs& signs, std::int64_t minimum, std::int64_t least)
+{
+  Signs expected = signs;
+  const std::int64_t removed = RemoveByRuns(expected, minimum, SerialFor);
+  EXPECT_GE(removed, least);
+  for (int repetition = 0; repetition < 15; ++repetition)
+  {
+    Signs found = signs;
+    ASSERT_EQ(RemoveByRuns(found, minimum, test::ThreadedFor(4)), removed);
+    ASSERT_EQ(found, expected);
+  }
+}
+
+}
+
+// Where threads are likely to meet: large pieces with few ways through them, so that a join that is
+// lost parts them, and one piece that all add to up to its last sample.
+TEST(SmallPieces, AreTheSameForManyThreads)
+{
+  std::mt19937 random(18);
+  Signs layers = RandomSigns({ 128, 64, 256 }, 0.5, random);
+  Signs comb = layers;
+  ForEachPoint(layers.Dims,
+    [&](const Point& p)
+    {
+      layers.Above[layers.Index(p)] &= p[0] % 2 == 0 ? 1 : 0;
+      comb.Above[comb.Index(p)] = p[2] == 0 || (p[0] % 4 == 0 && p[1] % 2 == 0) ? 1 : 0;
+    });
+  ExpectSameForThreads(layers, 100, 10000);
+  ExpectSameForThreads(RandomSigns({ 128, 64, 256 }, 0.2, random), 1000, 10000);
+  ExpectSameForThreads(comb, std::count(comb.Above.begin(), comb.Above.end(), 1), 0);
+}
+
 TEST(SmallPieces, AreGoneAfterwards)
 {
   std::mt19937 random(12);
