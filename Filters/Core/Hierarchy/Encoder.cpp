@@ -184,7 +184,7 @@ private:
     const int length = 1 << place.Scale;
     const int step = this->Exact ? 1 : length;
     const EdgeSamples<T> values(this->Samples.Pointer() + this->Samples.Index(centre),
-      step * this->Strides[parity][vertex], length / step);
+      step * this->Strides[parity][vertex], this->Exact ? length : 1);
     return this->SignOf.Along(values, centre, step * tables::Parities[parity].Offsets[vertex]);
   }
 

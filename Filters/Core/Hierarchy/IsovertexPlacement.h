@@ -98,6 +98,14 @@ bool IsBracketed(const Edge& edge, const Isoregion& region, int surface, int beg
     region.IsAbove(surface, edge(end)) == edge.IsAbove(region, surface, end);
 }
 
+/** Signs that are the values' need no look at them. */
+template <typename T>
+constexpr bool IsBracketed(const EdgeSamples<T>& /*edge*/, const Isoregion& /*region*/,
+  int /*surface*/, int /*begin*/, int /*end*/)
+{
+  return true;
+}
+
 /** The crossing on the step that begins at sample i, in steps from the centre; in the middle of
  *  the step if an end is not finite. */
 template <typename Edge>
