@@ -31,8 +31,7 @@ public:
   }
 
   /** An edge with these signs along it. @param step between the points at the ends of a step */
-  const EdgeSamples<T>& Along(
-    const EdgeSamples<T>& edge, const Point& /*centre*/, const Point& /*step*/) const
+  EdgeSamples<T> Along(EdgeSamples<T> edge, const Point& /*centre*/, const Point& /*step*/) const
   {
     return edge;
   }
