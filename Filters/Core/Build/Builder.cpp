@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace isodiamond
@@ -27,6 +28,39 @@ struct Source
   double FieldScale = 1.0;
   /** The code of a diamond's own field error, and the range of its domain. */
   std::function<std::pair<ErrorCode::Type, ValueRange>(const Place&)> Summary;
+};
+
+/** The signs that a build goes by: the samples', or, where small pieces were removed, those of what
+ *  is left. */
+class BuildSigns
+{
+public:
+  /** All must outlive it. @param remaining null where nothing was removed */
+  BuildSigns(const Isoregion& region, const Source& source, const SignLattice* remaining)
+    : Region(region)
+    , Origin(source)
+    , Remaining(remaining)
+  {
+  }
+
+  /** Whether these are others than the samples'. */
+  bool AreChanged() const { return this->Remaining != nullptr; }
+
+  bool HasAllVerticesInside(const Place& place) const
+  {
+    return isodiamond::HasAllVerticesInside(this->Region, this->Origin.SampleGrid, place,
+      [this](const Point& vertex)
+      {
+        return this->Remaining != nullptr
+          ? this->Remaining->Sign(0, vertex)
+          : this->Region.SignOf(SampleAt(this->Origin.Samples, vertex));
+      });
+  }
+
+private:
+  const Isoregion& Region;
+  const Source& Origin;
+  const SignLattice* Remaining;
 };
 
 /** Codes by rank: of own errors where they count, else 0, or thresholds made of these. For the
@@ -57,20 +91,29 @@ void ForEachMember(const DiamondSet& members, const ParallelFor& parallelFor, co
   }
 }
 
-/** The field metric. */
-DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const DiamondSet& members,
-  bool refineInterior, const ParallelFor& parallelFor)
+/**
+ * The field metric.
+ *
+ * Ranges are the samples', also where small pieces were removed. That subdivides what these
+ * crossed, which is not needed, but never too little: where signs differ, values do. Only a domain
+ * that has come to lie inside altogether can have all of its samples on one side outside.
+ */
+DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const BuildSigns& signs,
+  const DiamondSet& members, bool refineInterior, const ParallelFor& parallelFor)
 {
   DiamondCodes own(members.Size(), refineInterior);
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
       const auto [code, range] = source.Summary(place);
-      if (OwnErrorCounts(region, source.SampleGrid, range, place))
+      const bool holdsVolume = signs.AreChanged() &&
+        source.SampleGrid.SticksOut(place.Position, place.Scale) &&
+        signs.HasAllVerticesInside(place);
+      if (holdsVolume || OwnErrorCounts(region, source.SampleGrid, range, place))
       {
         own.Surface[rank] = code;
       }
-      if (refineInterior && HasAllVerticesInside(region, source.SampleGrid, source.Samples, place))
+      if (refineInterior && signs.HasAllVerticesInside(place))
       {
         own.Interior[rank] = code;
       }
@@ -80,7 +123,8 @@ DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const 
 
 /** The distance metric; inside of an interval volume the field's. */
 DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& relevant,
-  const BuildOptions& options, bool refineInterior, const ParallelFor& parallelFor)
+  const BuildSigns& signs, const BuildOptions& options, bool refineInterior,
+  const ParallelFor& parallelFor)
 {
   const DiamondSet& members = relevant.Diamonds();
   DiamondCodes own(members.Size(), refineInterior);
@@ -90,8 +134,7 @@ DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& r
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
-      if (!relevant.Region().IsVolume() ||
-        !HasAllVerticesInside(relevant.Region(), source.SampleGrid, source.Samples, place))
+      if (!relevant.Region().IsVolume() || !signs.HasAllVerticesInside(place))
       {
         return;
       }
@@ -242,14 +285,18 @@ public:
   {
     this->Report("Classifying diamonds", 0.0, 0.2);
     const Grid& grid = source.SampleGrid;
+    this->Signs.emplace(grid, source.Samples, region, parallelFor, options.MinimumPieceSize);
+    this->Kinds = Classify(grid, *this->Signs, parallelFor, this->Interior);
+    if (options.PreserveTopology)
     {
-      const SignLattice signs(grid, source.Samples, region, parallelFor);
-      this->Kinds = Classify(grid, signs, parallelFor, this->Interior);
-      if (options.PreserveTopology)
-      {
-        this->ForTopology =
-          RefinedForTopology(grid, signs, this->Kinds.Active, options, parallelFor);
-      }
+      this->ForTopology =
+        RefinedForTopology(grid, *this->Signs, this->Kinds.Active, options, parallelFor);
+    }
+    this->Header.MinimumPieceSize = options.MinimumPieceSize;
+    this->Header.RemovedPieces = this->Signs->RemovedPieces();
+    if (this->Header.RemovedPieces == 0)
+    {
+      this->Signs.reset(); // the samples say the same
     }
     this->Kinds.Members.Insert(grid.Depth(), 0, CornerBrick());
     this->Members = DiamondSet(grid, this->Kinds.Members);
@@ -274,21 +321,21 @@ public:
   {
     this->Report("Placing isovertices", begin, end);
     return Encode(this->Header, this->Origin.SampleGrid, this->Origin.Samples, this->Members,
-      ErrorCode::Always, this->For);
+      ErrorCode::Always, this->For, this->RemainingSigns());
   }
 
   DiamondCodes MeasureField() const
   {
     this->Report("Measuring errors", 0.25, 0.8);
-    return OwnFieldCodes(
-      this->Origin, this->Header.Region, this->Members, this->Interior, this->For);
+    return OwnFieldCodes(this->Origin, this->Header.Region, this->SignsToGoBy(), this->Members,
+      this->Interior, this->For);
   }
 
   DiamondCodes MeasureDistances(const Encoding& relevant) const
   {
     this->Report("Measuring errors", 0.25, 0.8);
-    return OwnDistanceCodes(this->Origin, IsodiamondHierarchy(relevant, this->For), this->Options,
-      this->Interior, this->For);
+    return OwnDistanceCodes(this->Origin, IsodiamondHierarchy(relevant, this->For),
+      this->SignsToGoBy(), this->Options, this->Interior, this->For);
   }
 
   /** Own errors become thresholds. */
@@ -325,10 +372,18 @@ private:
     }
   }
 
+  const SignLattice* RemainingSigns() const { return this->Signs ? &*this->Signs : nullptr; }
+
+  BuildSigns SignsToGoBy() const
+  {
+    return { this->Header.Region, this->Origin, this->RemainingSigns() };
+  }
+
   const Source& Origin;
   const BuildOptions& Options;
   const ParallelFor& For;
-  bool Interior; ///< whether it is refined
+  bool Interior;                    ///< whether it is refined
+  std::optional<SignLattice> Signs; ///< kept where they are others than the samples'
   Classification Kinds;
   DiamondMask ForTopology; ///< empty if topology need not be preserved
   DiamondSet Members;
@@ -358,6 +413,14 @@ Encoding BuildByDistance(Model model, const Source& source, const Isoregion& reg
   return steps.Complete(model, std::move(relevant), std::move(codes));
 }
 
+void CheckMinimumPieceSize(const BuildOptions& options)
+{
+  if (options.MinimumPieceSize < 0)
+  {
+    throw std::invalid_argument("The minimum size of pieces must not be negative.");
+  }
+}
+
 Encoding Build(Model model, const Source& source, const Isoregion& region,
   const BuildOptions& options, const ParallelFor& parallelFor)
 {
@@ -371,6 +434,7 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
 Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options)
 {
+  CheckMinimumPieceSize(options);
   const ErrorCode code(FieldErrorScale(samples));
   const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
   std::optional<FieldErrors> errors; // takes a pass over the samples, and is not always asked
@@ -389,6 +453,12 @@ Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregio
 Encoding BuildIsodiamonds(Model model, const ScalarHierarchy& hierarchy, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options)
 {
+  CheckMinimumPieceSize(options);
+  if (options.MinimumPieceSize > 1)
+  {
+    throw std::invalid_argument("Small pieces cannot be removed from a hierarchy of diamonds: its "
+                                "errors are those of all samples.");
+  }
   const auto summary = [&](const Place& place)
   { return std::make_pair(hierarchy.Error(place), hierarchy.Range(place)); };
   return Build(model,

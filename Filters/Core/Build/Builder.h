@@ -42,6 +42,7 @@ struct BuildOptions
  * samples -> signs -> isodiamonds -> own errors -> activation thresholds -> encoding.
  *
  * @param model Model::Relevant or Model::Minimal
+ * @throws std::invalid_argument if the minimum size of pieces is negative
  */
 Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options = {});

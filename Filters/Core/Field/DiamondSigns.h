@@ -95,10 +95,11 @@ private:
   std::array<std::uint32_t, 2> Above{}; ///< by surface
 };
 
-/** The same as DiamondSigns::HasAllVerticesInside(), of samples: knows at the first vertex that is
- * not. */
-inline bool HasAllVerticesInside(
-  const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
+/** The same as DiamondSigns::HasAllVerticesInside(): knows at the first vertex that is not.
+ *  @param signOf a lattice point that has a sample */
+template <typename SignOf>
+bool HasAllVerticesInside(
+  const Isoregion& region, const Grid& grid, const Place& place, const SignOf& signOf)
 {
   const ParityTable& shape = tables::Parities[Parity(place.Position)];
   bool any = false;
@@ -109,10 +110,18 @@ inline bool HasAllVerticesInside(
     if (grid.IsSampled(vertex))
     {
       any = true;
-      all = region.SignOf(SampleAt(samples, vertex)) == InsideSign;
+      all = signOf(vertex) == InsideSign;
     }
   }
   return any && all;
+}
+
+/** By samples. */
+inline bool HasAllVerticesInside(
+  const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
+{
+  return HasAllVerticesInside(region, grid, place,
+    [&](const Point& vertex) { return region.SignOf(SampleAt(samples, vertex)); });
 }
 
 }

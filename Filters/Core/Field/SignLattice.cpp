@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Field/SignLattice.h"
 
+#include "Field/SmallPieces.h"
+
 #include <algorithm>
 
 namespace isodiamond
@@ -38,7 +40,7 @@ std::uint64_t EvenBits(std::uint64_t word)
 }
 
 SignLattice::SignLattice(const Grid& grid, const AnySamples& samples, const Isoregion& region,
-  const ParallelFor& parallelFor)
+  const ParallelFor& parallelFor, std::int64_t minimumPieceSize)
   : Surfaces(region.SurfaceCount())
   , Levels(grid.Depth() + 1)
 {
@@ -55,6 +57,12 @@ SignLattice::SignLattice(const Grid& grid, const AnySamples& samples, const Isor
   for (int surface = 0; surface < this->Surfaces; ++surface)
   {
     this->PackSamples(samples, region, surface, parallelFor);
+    if (minimumPieceSize > 1)
+    {
+      Level& finest = this->Levels[0];
+      this->Removed += RemoveSmallPieces(
+        { finest.Bits[surface].data(), finest.Count, finest.Words }, minimumPieceSize, parallelFor);
+    }
     for (int scale = 1; scale <= grid.Depth(); ++scale)
     {
       Coarsen(this->Levels[scale - 1], surface, this->Levels[scale]);

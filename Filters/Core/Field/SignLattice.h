@@ -16,14 +16,21 @@ namespace isodiamond
  * (x, y, z) of scale s says whether the sample at (x, y, z) << s lies above the surface. It is the
  * one pass over the volume that building from samples needs for classification; all scales
  * together take 1/7 of a byte a sample and surface.
+ *
+ * Where small pieces are removed, these are the signs of what is left, and they can be others than
+ * the samples'; SmallPieces.h.
  */
 class SignLattice
 {
 public:
+  /** @param minimumPieceSize pieces of fewer samples are removed, of each surface by itself */
   SignLattice(const Grid& grid, const AnySamples& samples, const Isoregion& region,
-    const ParallelFor& parallelFor);
+    const ParallelFor& parallelFor, std::int64_t minimumPieceSize = 0);
 
   int SurfaceCount() const { return this->Surfaces; }
+
+  /** How many pieces were removed; if none, the signs are the samples'. */
+  std::int64_t RemovedPieces() const { return this->Removed; }
 
   /** Sign of a sampled position. */
   int Sign(int scale, const Point& position) const
@@ -71,6 +78,7 @@ private:
   static void Coarsen(const Level& fine, int surface, Level& level);
 
   int Surfaces = 1;
+  std::int64_t Removed = 0;
   std::vector<Level> Levels;
 };
 

@@ -13,16 +13,71 @@ namespace isodiamond
 namespace
 {
 
-/** Reads signs, isovertices and inside values of diamonds off the samples. */
+/** The signs of the samples. */
 template <typename T>
+class SampleSigns
+{
+public:
+  SampleSigns(const Isoregion& region, const SampleView<T>& samples)
+    : Region(region)
+    , Samples(samples)
+  {
+  }
+
+  /** The sign of a lattice point that has a sample. @param index of the sample */
+  int operator()(const Point& /*point*/, std::int64_t index) const
+  {
+    return this->Region.SignOf(static_cast<double>(this->Samples.Pointer()[index]));
+  }
+
+  /** An edge with these signs along it. @param step between the points at the ends of a step */
+  EdgeSamples<T> Along(EdgeSamples<T> edge, const Point& /*centre*/, const Point& /*step*/) const
+  {
+    return edge;
+  }
+
+private:
+  const Isoregion& Region;
+  const SampleView<T>& Samples;
+};
+
+/** The same where small pieces were removed: the signs of what is left. */
+template <typename T>
+class RemainingSigns
+{
+public:
+  explicit RemainingSigns(const SignLattice& signs)
+    : Signs(signs)
+  {
+  }
+
+  int operator()(const Point& point, std::int64_t /*index*/) const
+  {
+    return this->Signs.Sign(0, point);
+  }
+
+  SignedEdgeSamples<T> Along(
+    const EdgeSamples<T>& edge, const Point& centre, const Point& step) const
+  {
+    return { edge, this->Signs, centre, step };
+  }
+
+private:
+  const SignLattice& Signs;
+};
+
+/** Reads signs, isovertices and inside values of diamonds off the samples. */
+template <typename T, typename Signs>
 class DiamondReader
 {
 public:
-  DiamondReader(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples)
+  DiamondReader(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples,
+    const Signs& signs)
     : Region(header.Region)
     , Exact(header.ExactIsovertices)
     , TheGrid(grid)
     , Samples(samples)
+    , SignOf(signs)
   {
     const std::int64_t row = samples.Dimensions()[0];
     const std::int64_t slice = row * samples.Dimensions()[1];
@@ -40,7 +95,7 @@ public:
   int Sign(const Place& place) const
   {
     const Point centre = Centre(place);
-    return this->TheGrid.IsSampled(centre) ? this->Region.SignOf(this->Samples(centre)) : 0;
+    return this->TheGrid.IsSampled(centre) ? this->SignOf(centre, this->Samples.Index(centre)) : 0;
   }
 
   bool IsInside(const Place& place) const
@@ -57,9 +112,8 @@ public:
   int CountIsovertices(const Place& place) const
   {
     int count = 0;
-    this->ForEachCrossedEdge(place,
-      [&](std::int64_t /*stride*/, int sign, int otherSign)
-      { count += std::abs(sign - otherSign); });
+    this->ForEachCrossedEdge(
+      place, [&](int /*vertex*/, int sign, int otherSign) { count += std::abs(sign - otherSign); });
     return count;
   }
 
@@ -69,9 +123,9 @@ public:
     std::array<std::uint8_t, MaximumVertices> upper{};
     int upperCount = 0;
     this->ForEachCrossedEdge(place,
-      [&](std::int64_t stride, int sign, int otherSign)
+      [&](int vertex, int sign, int otherSign)
       {
-        const EdgeSamples<T> edge = this->Edge(place, stride);
+        const auto edge = this->Edge(place, vertex);
         if (std::abs(sign - otherSign) == 2)
         {
           const std::array<std::uint8_t, 2> both = IsovertexCoefficients(edge, this->Region);
@@ -91,8 +145,7 @@ public:
   }
 
 private:
-  /** Calls body(stride in samples, sign of the centre, sign of the vertex) for edges with an
-   *  isovertex. */
+  /** Calls body(vertex, sign of the centre, sign of the vertex) for edges with an isovertex. */
   template <typename Body>
   void ForEachCrossedEdge(const Place& place, Body&& body) const
   {
@@ -104,37 +157,41 @@ private:
     const int half = 1 << place.Scale;
     const bool isWhole = this->TheGrid.IsSampled(centre + Point{ half, half, half }) &&
       this->TheGrid.IsSampled(centre + Point{ -half, -half, -half });
-    const T* middle = this->Samples.Pointer() + this->Samples.Index(centre);
-    const int sign = this->Region.SignOf(static_cast<double>(*middle));
+    const std::int64_t middle = this->Samples.Index(centre);
+    const int sign = this->SignOf(centre, middle);
     const int parity = Parity(place.Position);
     const ParityTable& shape = tables::Parities[parity];
     for (int i = 0; i < shape.VertexCount; ++i)
     {
       if (isWhole || this->TheGrid.IsSampled(centre + half * shape.Offsets[i]))
       {
-        const std::int64_t stride = this->Strides[parity][i];
-        const int otherSign = this->Region.SignOf(static_cast<double>(middle[half * stride]));
+        const int otherSign =
+          this->SignOf(centre + half * shape.Offsets[i], middle + half * this->Strides[parity][i]);
         if (sign != otherSign)
         {
-          body(stride, sign, otherSign);
+          body(i, sign, otherSign);
         }
       }
     }
   }
 
   /** An edge in unit steps, or for linear isovertices in one. */
-  EdgeSamples<T> Edge(const Place& place, std::int64_t stride) const
+  auto Edge(const Place& place, int vertex) const
   {
-    const T* centre = this->Samples.Pointer() + this->Samples.Index(Centre(place));
+    const Point centre = Centre(place);
+    const int parity = Parity(place.Position);
     const int length = 1 << place.Scale;
-    return this->Exact ? EdgeSamples<T>(centre, stride, length)
-                       : EdgeSamples<T>(centre, length * stride, 1);
+    const int step = this->Exact ? 1 : length;
+    const EdgeSamples<T> values(this->Samples.Pointer() + this->Samples.Index(centre),
+      step * this->Strides[parity][vertex], this->Exact ? length : 1);
+    return this->SignOf.Along(values, centre, step * tables::Parities[parity].Offsets[vertex]);
   }
 
   const Isoregion& Region;
   bool Exact;
   const Grid& TheGrid;
   const SampleView<T>& Samples;
+  const Signs& SignOf;
   /** By parity and vertex, in samples. */
   std::array<std::array<std::int64_t, MaximumVertices>, 8> Strides{};
 };
@@ -146,11 +203,12 @@ struct BrickOffset
   std::int64_t InsideValues = 0;
 };
 
-template <typename T>
+template <typename T, typename Signs>
 void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples,
-  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor, Encoding& encoding)
+  const Signs& signs, const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor,
+  Encoding& encoding)
 {
-  const DiamondReader<T> reader(header, grid, samples);
+  const DiamondReader<T, Signs> reader(header, grid, samples, signs);
   const std::vector<BrickPlace> bricks = AllBricks(set);
   const std::int64_t brickCount = static_cast<std::int64_t>(bricks.size());
   const auto forEachDiamond = [&](const auto& body)
@@ -205,7 +263,8 @@ void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const Sample
 }
 
 Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
-  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor)
+  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor,
+  const SignLattice* signs)
 {
   Encoding encoding;
   encoding.Header = header;
@@ -227,8 +286,21 @@ Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples
         encoding.Arrays.BrickMasks.end(), brick.Occupancy.begin(), brick.Occupancy.end());
     }
   }
-  std::visit([&](const auto& view)
-    { EncodeDiamonds(header, grid, view, set, code, parallelFor, encoding); },
+  std::visit(
+    [&](const auto& view)
+    {
+      using Value = typename std::decay_t<decltype(view)>::Value;
+      const auto encode = [&](const auto& signOf)
+      { EncodeDiamonds(header, grid, view, signOf, set, code, parallelFor, encoding); };
+      if (signs != nullptr)
+      {
+        encode(RemainingSigns<Value>(*signs));
+      }
+      else
+      {
+        encode(SampleSigns<Value>(header.Region, view));
+      }
+    },
     samples);
   return encoding;
 }

@@ -2,7 +2,7 @@
 #ifndef isodiamond_Encoder_h
 #define isodiamond_Encoder_h
 
-#include "Field/Samples.h"
+#include "Field/SignLattice.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 
 namespace isodiamond
@@ -13,9 +13,12 @@ namespace isodiamond
  * values inside come from the samples.
  *
  * @param set the isodiamonds and the corners of the base cube
+ * @param signs those to go by where small pieces were removed; null for the samples'. Values inside
+ *        are samples all the same
  */
 Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
-  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor);
+  const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor,
+  const SignLattice* signs = nullptr);
 
 }
 

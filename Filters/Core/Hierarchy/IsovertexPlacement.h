@@ -2,10 +2,11 @@
 #ifndef isodiamond_IsovertexPlacement_h
 #define isodiamond_IsovertexPlacement_h
 
-#include "Field/Isoregion.h"
+#include "Field/SignLattice.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -24,6 +25,11 @@
  *
  * Coefficients are kept in 1..255, so that isovertices never coincide with lattice vertices; they
  * are 128 where an end of the edge is not finite.
+ *
+ * The signs along an edge are the values' unless small pieces were removed (SmallPieces.h). Then an
+ * end can be on the other side than its value: it says nothing about the way to the surface, and
+ * the guess is the middle of the edge. Steps of an exact edge are edges of full resolution, so
+ * where their signs differ their values do as well, and each crossing is where it was.
  */
 namespace isodiamond
 {
@@ -43,6 +49,10 @@ public:
 
   int Steps() const { return this->Count; }
   double operator()(int i) const { return static_cast<double>(this->Centre[i * this->Stride]); }
+  bool IsAbove(const Isoregion& region, int surface, int i) const
+  {
+    return region.IsAbove(surface, (*this)(i));
+  }
 
 private:
   const T* Centre;
@@ -50,8 +60,51 @@ private:
   int Count;
 };
 
+/** The same with the signs of a lattice from which small pieces were removed. */
+template <typename T>
+class SignedEdgeSamples : public EdgeSamples<T>
+{
+public:
+  /** @param step between the lattice points at the ends of a step */
+  SignedEdgeSamples(
+    const EdgeSamples<T>& values, const SignLattice& signs, const Point& centre, const Point& step)
+    : EdgeSamples<T>(values)
+    , Signs(signs)
+    , CentrePoint(centre)
+    , Step(step)
+  {
+  }
+
+  bool IsAbove(const Isoregion& /*region*/, int surface, int i) const
+  {
+    return this->Signs.Sign(0, this->CentrePoint + i * this->Step) > surface;
+  }
+
+private:
+  const SignLattice& Signs;
+  Point CentrePoint;
+  Point Step;
+};
+
 namespace placement
 {
+
+/** Whether the values at the ends of a step, or a row of steps, are on the sides that they are to
+ *  be on. */
+template <typename Edge>
+bool IsBracketed(const Edge& edge, const Isoregion& region, int surface, int begin, int end)
+{
+  return region.IsAbove(surface, edge(begin)) == edge.IsAbove(region, surface, begin) &&
+    region.IsAbove(surface, edge(end)) == edge.IsAbove(region, surface, end);
+}
+
+/** Signs that are the values' need no look at them. */
+template <typename T>
+constexpr bool IsBracketed(const EdgeSamples<T>& /*edge*/, const Isoregion& /*region*/,
+  int /*surface*/, int /*begin*/, int /*end*/)
+{
+  return true;
+}
 
 /** The crossing on the step that begins at sample i, in steps from the centre; in the middle of
  *  the step if an end is not finite. */
@@ -85,23 +138,25 @@ std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int
 {
   const int steps = edge.Steps();
   const double isovalue = region.Isovalue(surface);
+  const bool isBracketed = placement::IsBracketed(edge, region, surface, 0, steps);
   if (steps == 1 || !placement::HasFiniteEnds(edge))
   {
-    return placement::HasFiniteEnds(edge)
+    return isBracketed && placement::HasFiniteEnds(edge)
       ? placement::Code(placement::Crossing(edge, 0, isovalue), 1)
       : std::uint8_t{ 128 };
   }
   const double along = (isovalue - edge(0)) / (edge(steps) - edge(0));
-  const double guess = steps * (along == along ? along : 0.5); // huge values overflow
+  const double guess = steps * (isBracketed && along == along ? along : 0.5); // or NaN by overflow
   constexpr double tie = 1e-9; // equal distances may differ by rounding: the first crossing wins
   double nearest = guess;
   double distance = HUGE_VAL;
-  bool above = region.IsAbove(surface, edge(0));
+  bool above = edge.IsAbove(region, surface, 0);
   for (int i = 0; i < steps; ++i)
   {
-    const bool nextAbove = region.IsAbove(surface, edge(i + 1));
+    const bool nextAbove = edge.IsAbove(region, surface, i + 1);
     if (above != nextAbove)
     {
+      assert(placement::IsBracketed(edge, region, surface, i, i + 1));
       const double crossing = placement::Crossing(edge, i, isovalue);
       if (std::fabs(crossing - guess) < distance - tie)
       {
@@ -123,12 +178,12 @@ template <typename Edge>
 std::array<std::uint8_t, 2> IsovertexCoefficients(const Edge& edge, const Isoregion& region)
 {
   const int steps = edge.Steps();
-  const bool rising = region.SignOf(edge(0)) == 0;
+  const bool rising = !edge.IsAbove(region, 0, 0);
   std::array<std::uint8_t, 2> both = { 128, 128 };
   if (placement::HasFiniteEnds(edge))
   {
     const auto isAbove = [&](int surface, int i)
-    { return region.IsAbove(surface, edge(rising ? i : steps - i)); };
+    { return edge.IsAbove(region, surface, rising ? i : steps - i); };
     int upper = 0; // the steps that cross, counted from the lower end
     while (!isAbove(1, upper + 1))
     {
@@ -139,10 +194,12 @@ std::array<std::uint8_t, 2> IsovertexCoefficients(const Edge& edge, const Isoreg
     {
       --lower;
     }
-    const auto code = [&](int surface, int step)
+    const auto code = [&](int surface, int stepFromBelow)
     {
+      const int step = rising ? stepFromBelow : steps - 1 - stepFromBelow;
+      const bool isBracketed = placement::IsBracketed(edge, region, surface, step, step + 1);
       return placement::Code(
-        placement::Crossing(edge, rising ? step : steps - 1 - step, region.Isovalue(surface)),
+        isBracketed ? placement::Crossing(edge, step, region.Isovalue(surface)) : step + 0.5,
         steps);
     };
     both = { code(0, lower), code(1, upper) };
