@@ -297,6 +297,18 @@ TEST(Topology, OfAnIntervalVolumeIsThatOfFullResolution)
   ExpectTopologyOfFullResolution(volume);
 }
 
+TEST(Topology, IsOfWhatIsLeftWithoutSmallPieces)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(NoisyImage());
+  contour->SetValue(0, Isovalue);
+  contour->SetMinimumPieceSize(3);
+  const Topology full = TopologyOf(Updated(contour));
+  EXPECT_EQ(contour->GetNumberOfRemovedPieces(), RemovedAt(Isovalue, 3));
+  contour->SetErrorTolerance(std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(TopologyOf(Updated(contour)) == full);
+}
+
 TEST(Topology, IsAMatterOfTheQueryOfAnHDAndOfTheBuildOfOthers)
 {
   vtkNew<vtkIsodiamondBuilder> scalars;
@@ -360,10 +372,6 @@ TEST(SmallPieces, AreThoseOfAFloodFill)
     previous = removed;
   }
   EXPECT_GT(previous, 50);
-  // Without small pieces each tolerance has as many.
-  const Topology full = TopologyOf(Updated(contour));
-  contour->SetErrorTolerance(2.0);
-  EXPECT_TRUE(TopologyOf(Updated(contour)) == full);
 }
 
 TEST(SmallPieces, OfAnIntervalVolumeAreThoseOfItsSurfaces)
