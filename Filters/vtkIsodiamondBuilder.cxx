@@ -40,6 +40,8 @@ void vtkIsodiamondBuilder::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
   os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
   os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
+  os << indent << "PreserveTopology: " << (this->PreserveTopology ? "On" : "Off") << "\n";
+  os << indent << "MinimumPieceSize: " << this->MinimumPieceSize << "\n";
   os << indent << "RefineInterior: " << (this->RefineInterior ? "On" : "Off") << "\n";
   os << indent << "CloseBoundary: " << (this->CloseBoundary ? "On" : "Off") << "\n";
   os << indent << "PointArrays:";
@@ -209,6 +211,8 @@ isodiamond::BuildOptions vtkIsodiamondBuilder::GetOptions(const isodiamond::Affi
   options.Metric = static_cast<isodiamond::ErrorMetric>(this->ErrorMetric);
   options.ExactIsovertices = this->ExactIsovertices;
   options.PreserveFeatures = this->PreserveFeatures;
+  options.PreserveTopology = this->PreserveTopology;
+  options.MinimumPieceSize = this->MinimumPieceSize;
   options.RefineInterior = this->RefineInterior;
   options.World = world;
   return options;
@@ -217,8 +221,16 @@ isodiamond::BuildOptions vtkIsodiamondBuilder::GetOptions(const isodiamond::Affi
 //------------------------------------------------------------------------------
 void vtkIsodiamondBuilder::CheckModel() const
 {
-  if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS &&
-    this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE)
+  if (this->Model != vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
+  {
+    return;
+  }
+  if (this->MinimumPieceSize > 1)
+  {
+    throw std::invalid_argument("A hierarchy of diamonds (HD) holds all samples: it cannot be "
+                                "without small pieces, so MinimumPieceSize must be 0.");
+  }
+  if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE)
   {
     throw std::invalid_argument("A hierarchy of diamonds (HD) supports the field metric only: the "
                                 "distance metric needs an isovalue or isorange.");

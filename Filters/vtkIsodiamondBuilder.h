@@ -128,13 +128,40 @@ public:
 
   ///@{
   /**
-   * With the distance metric, keep every piece of the surface at any tolerance. Off, pieces that
-   * are thinner than the tolerance may vanish, and the promise of the tolerance with them. Default:
-   * on.
+   * With the distance metric, keep the promise of the tolerance for thin things too: every vertex
+   * of the full-resolution surface has a part of the mesh to count with, so what is thinner than
+   * the tolerance stays. Matters from tolerances on that exceed a feature's size, where it leaves a
+   * floor of triangles. Off, what is thinner may vanish, and the promise with it; whole pieces do
+   * not with PreserveTopology. Default: on.
    */
   vtkSetMacro(PreserveFeatures, bool);
   vtkGetMacro(PreserveFeatures, bool);
   vtkBooleanMacro(PreserveFeatures, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Keep the topology of the full-resolution surface: the mesh of every tolerance, infinity
+   * included, with any region and viewpoint, has the same pieces, holes and boundary loops, by
+   * either metric. The diamonds whose subdivision changes the topology are always subdivided, which
+   * takes more triangles the larger the tolerance is. Of an
+   * HD it is a matter of the query: vtkIsodiamondExtractor's PreserveTopology. Default: off.
+   */
+  vtkSetMacro(PreserveTopology, bool);
+  vtkGetMacro(PreserveTopology, bool);
+  vtkBooleanMacro(PreserveTopology, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Remove pieces of fewer samples, noise for instance, before all else: connected sets of samples
+   * above the isovalue count as below it, then holes in what is left as above; those at the
+   * volume's boundary too. Of an interval volume the same for each of its surfaces. Samples are
+   * connected as the full-resolution mesh connects them. Not for an HD, nor from one, which holds
+   * samples: with them sizes above 1 are an error. 0 and 1 keep all. Default: 0.
+   */
+  vtkSetClampMacro(MinimumPieceSize, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MinimumPieceSize, int);
   ///@}
 
   ///@{
@@ -217,6 +244,8 @@ protected:
   int ErrorMetric = vtkIsodiamondHierarchy::FIELD;
   bool ExactIsovertices = true;
   bool PreserveFeatures = true;
+  bool PreserveTopology = false;
+  int MinimumPieceSize = 0;
   bool RefineInterior = false;
   bool CloseBoundary = false;
   std::vector<std::string> PointArrays;

@@ -61,6 +61,7 @@ void vtkIsodiamondExtractor::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "UseIsorange: " << (this->UseIsorange ? "On" : "Off") << "\n";
   os << indent << "Isovalue: " << this->Isovalue << "\n";
   os << indent << "UseIsovalue: " << (this->UseIsovalue ? "On" : "Off") << "\n";
+  os << indent << "PreserveTopology: " << (this->PreserveTopology ? "On" : "Off") << "\n";
 }
 
 //------------------------------------------------------------------------------
@@ -131,6 +132,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetQuery() const
   {
     query.Isorange = { this->Isorange[0], this->Isorange[1] };
   }
+  query.PreserveTopology = this->PreserveTopology;
   return query;
 }
 

@@ -122,6 +122,17 @@ public:
   vtkBooleanMacro(UseIsovalue, bool);
   ///@}
 
+  ///@{
+  /**
+   * Keep the topology of the full-resolution surface at every tolerance, of an HD: the same pieces,
+   * holes and boundary loops. RI and MI are built so or not (vtkIsodiamondBuilder's
+   * PreserveTopology): with one that is not it warns and has no effect. Default: off.
+   */
+  vtkSetMacro(PreserveTopology, bool);
+  vtkGetMacro(PreserveTopology, bool);
+  vtkBooleanMacro(PreserveTopology, bool);
+  ///@}
+
   /** The mesh. */
   vtkUnstructuredGrid* GetOutput();
 
@@ -147,6 +158,7 @@ protected:
   bool UseIsorange = false;
   double Isovalue = 0.0;
   bool UseIsovalue = false;
+  bool PreserveTopology = false;
   double InteriorToleranceRange[2] = { 0.0, VTK_DOUBLE_MAX };
 
 private:

@@ -28,6 +28,10 @@ void vtkIsodiamondHierarchy::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << indent << "Model: " << this->GetModel() << "\n";
   os << indent << "Shape: " << this->GetShape() << "\n";
+  os << indent << "TwoSidedDistances: " << this->GetTwoSidedDistances() << "\n";
+  os << indent << "PreservesTopology: " << this->GetPreservesTopology() << "\n";
+  os << indent << "MinimumPieceSize: " << this->GetMinimumPieceSize() << "\n";
+  os << indent << "NumberOfRemovedPieces: " << this->GetNumberOfRemovedPieces() << "\n";
   os << indent << "ArrayName: " << this->GetArrayName() << "\n";
   os << indent << "Isovalue: " << this->GetIsovalue() << "\n";
   os << indent << "NumberOfActiveIsodiamonds: " << this->GetNumberOfActiveIsodiamonds() << "\n";
@@ -85,6 +89,34 @@ int vtkIsodiamondHierarchy::GetErrorMetric()
 {
   const vtkIsodiamond::State* state = this->GetState();
   return state ? static_cast<int>(state->Metric) : -1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsodiamondHierarchy::GetTwoSidedDistances()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state && state->Isodiamonds && state->Isodiamonds->Header().TwoSided;
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsodiamondHierarchy::GetPreservesTopology()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state && state->Isodiamonds && state->Isodiamonds->Header().PreservesTopology;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondHierarchy::GetMinimumPieceSize()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state && state->Isodiamonds ? state->Isodiamonds->Header().MinimumPieceSize : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkIsodiamondHierarchy::GetNumberOfRemovedPieces()
+{
+  const vtkIsodiamond::State* state = this->GetState();
+  return state && state->Isodiamonds ? state->Isodiamonds->Header().RemovedPieces : 0;
 }
 
 //------------------------------------------------------------------------------

@@ -67,6 +67,22 @@ public:
   /** The metric of its errors and so of tolerances; -1 as above. */
   int GetErrorMetric();
 
+  /** Whether its distances hold both ways, from the full-resolution surface to a mesh and back. */
+  bool GetTwoSidedDistances();
+
+  /** Whether its meshes all have the topology of the full-resolution surface. Not for an HD, where
+   *  queries choose. */
+  bool GetPreservesTopology();
+
+  ///@{
+  /**
+   * The size in samples below which pieces were removed from what it was built of, and how many
+   * those were. 0 for an HD.
+   */
+  vtkIdType GetMinimumPieceSize();
+  vtkIdType GetNumberOfRemovedPieces();
+  ///@}
+
   /** Name of the array that the hierarchy was built from. */
   std::string GetArrayName();
 

@@ -12,6 +12,8 @@
 
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 
@@ -35,10 +37,13 @@ void vtkIsodiamondVolumeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
   os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
   os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
+  os << indent << "PreserveTopology: " << (this->PreserveTopology ? "On" : "Off") << "\n";
+  os << indent << "MinimumPieceSize: " << this->MinimumPieceSize << "\n";
   os << indent << "InterpolateAttributes: " << (this->InterpolateAttributes ? "On" : "Off") << "\n";
   os << indent << "CacheSize: " << this->CacheSize << "\n";
   os << indent << "NumberOfBuilds: " << this->GetNumberOfBuilds() << "\n";
   os << indent << "NumberOfCachedHierarchies: " << this->GetNumberOfCachedHierarchies() << "\n";
+  os << indent << "NumberOfRemovedPieces: " << this->NumberOfRemovedPieces << "\n";
 }
 
 //------------------------------------------------------------------------------
@@ -77,6 +82,16 @@ int vtkIsodiamondVolumeAlgorithm::FillInputPortInformation(int, vtkInformation* 
 }
 
 //------------------------------------------------------------------------------
+int vtkIsodiamondVolumeAlgorithm::ModifyRequest(vtkInformation* request, int when)
+{
+  if (when == vtkExecutive::BeforeForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    this->NumberOfRemovedPieces = 0;
+  }
+  return this->Superclass::ModifyRequest(request, when);
+}
+
+//------------------------------------------------------------------------------
 vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataSet* input)
 {
   vtkIsodiamond::InputArray found;
@@ -102,21 +117,8 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       const vtkIsodiamond::InputArray array = this->FindInputArray(grid);
       const vtkIsodiamond::Volume volume =
         vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
-      isodiamond::BuildOptions options;
-      options.ExactIsovertices = this->ExactIsovertices;
-      options.PreserveFeatures = this->PreserveFeatures;
-      if (query.View && this->ErrorMetric != vtkIsodiamondHierarchy::DISTANCE)
-      {
-        throw std::invalid_argument("A view-dependent mesh needs the distance metric.");
-      }
-      // Full resolution is the same by either metric: grids without distances have it, too.
-      const isodiamond::GridGeometry& world = volume.Placement.World;
-      if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
-        (world.Affine() || !query.IsFull() || isodiamond::FaultOfLengths(world).empty()))
-      {
-        options.Metric = isodiamond::ErrorMetric::Distance;
-        options.World = world;
-      }
+      const isodiamond::BuildOptions options = this->GetOptions(volume.Placement.World, query);
+      this->RemovedFromBlock = 0;
       vtkIsodiamond::RunThreaded(this->NumberOfThreads,
         [&]
         {
@@ -127,7 +129,31 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
           this->Extract(volume, query, task, output);
         });
       vtkIsodiamond::KeepPiece(output, this->Piece);
+      this->NumberOfRemovedPieces += this->RemovedFromBlock;
     });
+}
+
+//------------------------------------------------------------------------------
+isodiamond::BuildOptions vtkIsodiamondVolumeAlgorithm::GetOptions(
+  const isodiamond::GridGeometry& world, const vtkIsodiamond::WorldQuery& query) const
+{
+  isodiamond::BuildOptions options;
+  options.ExactIsovertices = this->ExactIsovertices;
+  options.PreserveFeatures = this->PreserveFeatures;
+  options.PreserveTopology = this->PreserveTopology;
+  options.MinimumPieceSize = this->MinimumPieceSize;
+  if (query.View && this->ErrorMetric != vtkIsodiamondHierarchy::DISTANCE)
+  {
+    throw std::invalid_argument("A view-dependent mesh needs the distance metric.");
+  }
+  // Full resolution is the same by either metric: grids without distances have it, too.
+  if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
+    (world.Affine() || !query.IsFull() || isodiamond::FaultOfLengths(world).empty()))
+  {
+    options.Metric = isodiamond::ErrorMetric::Distance;
+    options.World = world;
+  }
+  return options;
 }
 
 //------------------------------------------------------------------------------
@@ -139,6 +165,7 @@ vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamon
   vtkIsodiamond::Task building = task.Part(0.0, buildPart);
   const isodiamond::IsodiamondHierarchy& hierarchy =
     this->Hierarchies->Get(volume, region, refineInterior, building);
+  this->RemovedFromBlock += hierarchy.Header().RemovedPieces;
   vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
   extracting.Begin("Refining", 0.0, 0.3);
   const isodiamond::RefinedSet refined(hierarchy,

@@ -32,6 +32,8 @@
 class vtkDataSet;
 namespace isodiamond
 {
+struct BuildOptions;
+class GridGeometry;
 class Isoregion;
 }
 namespace vtkIsodiamond
@@ -78,13 +80,38 @@ public:
 
   ///@{
   /**
-   * With the distance metric, keep every piece of the surface at any tolerance. Off, pieces that
-   * are thinner than the tolerance may vanish, and the promise of the tolerance with them. Default:
-   * on.
+   * With the distance metric, keep the promise of the tolerance for thin things too: every vertex
+   * of the full-resolution surface has a part of the mesh to count with, so what is thinner than
+   * the tolerance stays. Matters from tolerances on that exceed a feature's size, where it leaves a
+   * floor of triangles. Off, what is thinner may vanish, and the promise with it; whole pieces do
+   * not with PreserveTopology. Default: on.
    */
   vtkSetMacro(PreserveFeatures, bool);
   vtkGetMacro(PreserveFeatures, bool);
   vtkBooleanMacro(PreserveFeatures, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Keep the topology of the full-resolution surface: the mesh of every tolerance, infinity
+   * included, with any region and viewpoint, has the same pieces, holes and boundary loops, by
+   * either metric. The diamonds whose subdivision changes the topology are always subdivided, which
+   * takes more triangles the larger the tolerance is. Default: on.
+   */
+  vtkSetMacro(PreserveTopology, bool);
+  vtkGetMacro(PreserveTopology, bool);
+  vtkBooleanMacro(PreserveTopology, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Remove pieces of fewer samples, noise for instance, before all else: connected sets of samples
+   * above the isovalue count as below it, then holes in what is left as above; those at the
+   * volume's boundary too. Of an interval volume the same for each of its surfaces. Samples are
+   * connected as the full-resolution mesh connects them. 0 and 1 keep all. Default: 0.
+   */
+  vtkSetClampMacro(MinimumPieceSize, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MinimumPieceSize, int);
   ///@}
 
   ///@{
@@ -112,6 +139,10 @@ public:
   vtkIdType GetNumberOfCachedHierarchies();
   ///@}
 
+  /** How many pieces MinimumPieceSize removed in the last execution, from all isovalues and blocks
+   *  together. 0 before the first one and after an error. */
+  vtkGetMacro(NumberOfRemovedPieces, vtkIdType);
+
   double* GetErrorToleranceRange() VTK_SIZEHINT(2) override;
 
 protected:
@@ -119,6 +150,8 @@ protected:
   ~vtkIsodiamondVolumeAlgorithm() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  /** Blocks of one execution come after it. */
+  int ModifyRequest(vtkInformation* request, int when) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -141,6 +174,8 @@ protected:
   int ErrorMetric = vtkIsodiamondHierarchy::DISTANCE;
   bool ExactIsovertices = true;
   bool PreserveFeatures = true;
+  bool PreserveTopology = true;
+  int MinimumPieceSize = 0;
   vtkTypeBool InterpolateAttributes = 1;
   int CacheSize = 512;
 
@@ -148,7 +183,12 @@ private:
   vtkIsodiamondVolumeAlgorithm(const vtkIsodiamondVolumeAlgorithm&) = delete;
   void operator=(const vtkIsodiamondVolumeAlgorithm&) = delete;
 
+  isodiamond::BuildOptions GetOptions(
+    const isodiamond::GridGeometry& world, const vtkIsodiamond::WorldQuery& query) const;
+
   std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
+  vtkIdType NumberOfRemovedPieces = 0;
+  vtkIdType RemovedFromBlock = 0; ///< counts as soon as all of the block is well
 };
 
 #endif

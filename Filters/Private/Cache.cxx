@@ -28,6 +28,7 @@ bool HaveSameLengths(const isodiamond::GridGeometry& a, const isodiamond::GridGe
 bool AreAlike(const isodiamond::BuildOptions& a, const isodiamond::BuildOptions& b)
 {
   return a.Metric == b.Metric && a.ExactIsovertices == b.ExactIsovertices &&
+    a.PreserveTopology == b.PreserveTopology && a.MinimumPieceSize == b.MinimumPieceSize &&
     (a.Metric == isodiamond::ErrorMetric::Field ||
       (a.PreserveFeatures == b.PreserveFeatures && HaveSameLengths(a.World, b.World)));
 }

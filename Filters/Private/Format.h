@@ -11,7 +11,8 @@
 namespace vtkIsodiamond::format
 {
 
-inline constexpr int Version = 2;
+/** What is written. Version 2 is read too: its header ends before TwoSided. */
+inline constexpr int Version = 3;
 
 inline constexpr const char* Header = "IsodiamondHeader";
 inline constexpr const char* Parameters = "IsodiamondParameters";
@@ -40,6 +41,7 @@ inline constexpr const char* NumberOfActiveIsodiamonds = "NumberOfActiveIsodiamo
 inline constexpr const char* NumberOfRelevantIsodiamonds = "NumberOfRelevantIsodiamonds";
 inline constexpr const char* NumberOfCreationIsodiamonds = "NumberOfCreationIsodiamonds";
 inline constexpr const char* NumberOfIsovertices = "NumberOfIsovertices";
+inline constexpr const char* NumberOfRemovedPieces = "NumberOfRemovedPieces";
 inline constexpr const char* StorageSize = "StorageSize";
 
 }
@@ -57,7 +59,12 @@ enum : int
   RelevantCount = Dimensions + 3,
   Metric,
   ExactIsovertices,
-  Size ///< how many there are
+  TwoSided,
+  PreservesTopology,
+  MinimumPieceSize,
+  RemovedPieces,
+  Size,                     ///< how many there are
+  SizeOfVersion2 = TwoSided ///< how many there were
 };
 
 }

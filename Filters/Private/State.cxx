@@ -162,23 +162,53 @@ int Dimension(std::int64_t value)
   return static_cast<int>(value);
 }
 
+using Header = std::array<std::int64_t, HeaderAt::Size>;
+
+/** The header of any version that is read. What an older one lacks is 0: so it was then. */
+Header ReadHeader(Reader& reader)
+{
+  const isodiamond::ArrayView<std::int64_t> stored = reader.Values<std::int64_t>(format::Header);
+  const auto isOf = [&](int version, int size)
+  { return stored.Size == size && stored[HeaderAt::Version] == version; };
+  if (!isOf(format::Version, HeaderAt::Size) && !isOf(2, HeaderAt::SizeOfVersion2))
+  {
+    throw std::invalid_argument("the hierarchy has an unknown format version");
+  }
+  Header header{};
+  std::copy(stored.Data, stored.Data + stored.Size, header.begin());
+  return header;
+}
+
+/** @throws std::invalid_argument */
+void CheckHeader(const Header& header)
+{
+  const auto isFlag = [&](int at) { return header[at] == 0 || header[at] == 1; };
+  const std::int64_t model = header[HeaderAt::Model];
+  const bool isScalars = model == 0;
+  const bool isDistance = header[HeaderAt::Metric] == 1;
+  if (model < 0 || model > 2 || !isFlag(HeaderAt::Shape) || !isFlag(HeaderAt::Metric) ||
+    !isFlag(HeaderAt::ExactIsovertices) || !isFlag(HeaderAt::TwoSided) ||
+    !isFlag(HeaderAt::PreservesTopology) || (isScalars && isDistance) ||
+    (header[HeaderAt::TwoSided] == 1 && !isDistance))
+  {
+    throw std::invalid_argument("the hierarchy is of an unknown model, shape or metric");
+  }
+  // Of an HD queries choose, and it holds all samples.
+  const bool isWhole = header[HeaderAt::PreservesTopology] == 0 &&
+    header[HeaderAt::MinimumPieceSize] == 0 && header[HeaderAt::RemovedPieces] == 0;
+  if (header[HeaderAt::MinimumPieceSize] < 0 || header[HeaderAt::RemovedPieces] < 0 ||
+    (isScalars && !isWhole))
+  {
+    throw std::invalid_argument("the hierarchy's topology or removed pieces make no sense");
+  }
+}
+
 /** Header, parameters, then the arrays of the model. @throws std::invalid_argument */
 void ReadArrays(vtkFieldData* fieldData, State& state)
 {
   Reader reader(fieldData, state);
-  const isodiamond::ArrayView<std::int64_t> header = reader.Values<std::int64_t>(format::Header);
-  if (header.Size != HeaderAt::Size || header[HeaderAt::Version] != format::Version)
-  {
-    throw std::invalid_argument("the hierarchy has an unknown format version");
-  }
-  const auto isFlag = [&](int at) { return header[at] == 0 || header[at] == 1; };
-  const std::int64_t model = header[HeaderAt::Model];
-  if (model < 0 || model > 2 || !isFlag(HeaderAt::Shape) || !isFlag(HeaderAt::Metric) ||
-    !isFlag(HeaderAt::ExactIsovertices) ||
-    (model == 0 && header[HeaderAt::Metric] != 0)) // an HD has no distances
-  {
-    throw std::invalid_argument("the hierarchy is of an unknown model, shape or metric");
-  }
+  const Header header = ReadHeader(reader);
+  CheckHeader(header);
   const isodiamond::ArrayView<double> parameters = reader.Values<double>(format::Parameters);
   if (parameters.Size != ParameterAt::Size ||
     !std::all_of(parameters.Data + ParameterAt::ErrorScale, parameters.Data + parameters.Size,
@@ -192,7 +222,7 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   {
     state.ArrayName = name->GetValue(0);
   }
-  state.Model = static_cast<int>(model);
+  state.Model = static_cast<int>(header[HeaderAt::Model]);
   state.Chosen = { static_cast<isodiamond::Shape>(header[HeaderAt::Shape]),
     parameters[ParameterAt::Isovalue],
     { parameters[ParameterAt::Isorange], parameters[ParameterAt::Isorange + 1] } };
@@ -203,7 +233,7 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   state.Metric = static_cast<isodiamond::ErrorMetric>(header[HeaderAt::Metric]);
   state.ExactIsovertices = header[HeaderAt::ExactIsovertices] != 0;
   isodiamond::EncodingHeader core;
-  core.TheModel = static_cast<isodiamond::Model>(model);
+  core.TheModel = static_cast<isodiamond::Model>(state.Model);
   for (int axis = 0; axis < 3; ++axis)
   {
     core.Dimensions[axis] = Dimension(header[HeaderAt::Dimensions + axis]);
@@ -213,6 +243,10 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   core.ErrorScale = parameters[ParameterAt::ErrorScale];
   core.FieldScale = parameters[ParameterAt::FieldScale];
   core.ExactIsovertices = state.ExactIsovertices;
+  core.TwoSided = header[HeaderAt::TwoSided] != 0;
+  core.PreservesTopology = header[HeaderAt::PreservesTopology] != 0;
+  core.MinimumPieceSize = header[HeaderAt::MinimumPieceSize];
+  core.RemovedPieces = header[HeaderAt::RemovedPieces];
   core.RelevantCount = header[HeaderAt::RelevantCount];
   if (core.TheModel == isodiamond::Model::HierarchyOfDiamonds)
   {
@@ -245,7 +279,7 @@ double LargestTolerance(vtkFieldData* fieldData)
 {
   vtkDataArray* header = fieldData ? fieldData->GetArray(format::Header) : nullptr;
   const bool isDistance = header && header->GetNumberOfComponents() == 1 &&
-    header->GetNumberOfTuples() == HeaderAt::Size &&
+    header->GetNumberOfTuples() > HeaderAt::Metric && // of any version
     header->GetTuple1(HeaderAt::Metric) == static_cast<int>(isodiamond::ErrorMetric::Distance);
   return (isDistance ? DistanceOfInterest : 1.0) * Parameter(fieldData, ParameterAt::ErrorScale);
 }

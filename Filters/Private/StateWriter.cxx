@@ -97,6 +97,10 @@ void WriteHeader(const isodiamond::EncodingHeader& header, const Choice& choice,
   values[HeaderAt::RelevantCount] = header.RelevantCount;
   values[HeaderAt::Metric] = static_cast<int>(header.Metric);
   values[HeaderAt::ExactIsovertices] = header.ExactIsovertices ? 1 : 0;
+  values[HeaderAt::TwoSided] = header.TwoSided ? 1 : 0;
+  values[HeaderAt::PreservesTopology] = header.PreservesTopology ? 1 : 0;
+  values[HeaderAt::MinimumPieceSize] = header.MinimumPieceSize;
+  values[HeaderAt::RemovedPieces] = header.RemovedPieces;
   AddArray<vtkTypeInt64Array>(fieldData, format::Header, values);
   std::vector<double> parameters(ParameterAt::Size);
   parameters[ParameterAt::Isovalue] = choice.Isovalue;
@@ -119,11 +123,12 @@ void WriteHeader(const isodiamond::EncodingHeader& header, const Choice& choice,
 void WriteNumbers(const isodiamond::Encoding& encoding, vtkFieldData* fieldData)
 {
   const isodiamond::EncodingHeader& header = encoding.Header;
-  const std::array<std::pair<const char*, std::int64_t>, 5> numbers = { {
+  const std::array<std::pair<const char*, std::int64_t>, 6> numbers = { {
     { format::NumberOfActiveIsodiamonds, header.ActiveCount },
     { format::NumberOfRelevantIsodiamonds, header.RelevantCount },
     { format::NumberOfCreationIsodiamonds, header.CreationCount },
     { format::NumberOfIsovertices, static_cast<std::int64_t>(encoding.Arrays.Isovertices.size()) },
+    { format::NumberOfRemovedPieces, header.RemovedPieces },
     { format::StorageSize, isodiamond::EncodingView(encoding).StorageSize() },
   } };
   for (const auto& [name, number] : numbers)

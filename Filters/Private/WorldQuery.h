@@ -41,6 +41,7 @@ struct WorldQuery
   std::optional<isodiamond::Shape> Shape;
   std::optional<double> Isovalue;
   std::optional<std::array<double, 2>> Isorange;
+  bool PreserveTopology = false; ///< of an HD
 
   /** Whether it is for full resolution, whatever errors are. */
   bool IsFull() const { return this->ErrorTolerance == 0.0 && !this->Region && !this->View; }
@@ -85,6 +86,7 @@ inline isodiamond::Query CoreQuery(
   result.Tolerance = query.ErrorTolerance;
   result.InteriorTolerance = query.InteriorTolerance;
   result.OutsideTolerance = query.OutsideErrorTolerance;
+  result.PreserveTopology = query.PreserveTopology;
   const isodiamond::AffineMap* map = world.Affine();
   if (query.Region && map)
   {
@@ -115,6 +117,11 @@ inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, cons
     vtkWarningWithObjectMacro(filter,
       "A relevant or minimal hierarchy is of one isovalue or isorange; another shape, isovalue or "
       "isorange has no effect.");
+  }
+  if (query.PreserveTopology && !hierarchy.Header().PreservesTopology)
+  {
+    vtkWarningWithObjectMacro(filter,
+      "The hierarchy was built without PreserveTopology: for the extractor it has no effect.");
   }
   if (isVolume && !hierarchy.RefinesInterior() &&
     query.InteriorTolerance < hierarchy.InteriorCodes().Scale())

@@ -281,9 +281,15 @@ TEST(BadInput, HeadersThatMakeNoSense)
     builder->SetInputData(test::BallImage({ 9, 9, 9 }));
     builder->SetModel(scalars ? 0 : 2);
     builder->Update();
-    // Version, model, shape, metric, exactness; an HD with distances.
-    const std::vector<std::pair<vtkIdType, double>> faults = { { 0, 1 }, { 1, 3 }, { 2, 2 },
-      { 7, 2 }, { 8, 77 }, { 7, scalars ? 1 : -1 } };
+    // Version, model, shape, metric, exactness, both ways (not of the field), topology, sizes; an
+    // HD with distances, topology, and removed pieces.
+    std::vector<std::pair<vtkIdType, double>> faults = { { 0, 1 }, { 0, 2 }, { 0, 4 }, { 1, 3 },
+      { 2, 2 }, { 7, 2 }, { 8, 77 }, { 7, scalars ? 1 : -1 }, { 9, 1 }, { 9, 2 }, { 10, 2 },
+      { 10, -1 }, { 11, -1 }, { 12, -1 } };
+    if (scalars)
+    {
+      faults.insert(faults.end(), { { 10, 1 }, { 11, 5 }, { 12, 5 } });
+    }
     for (const auto& [index, value] : faults)
     {
       vtkNew<vtkPolyData> bad;
@@ -296,5 +302,33 @@ TEST(BadInput, HeadersThatMakeNoSense)
       EXPECT_EQ(messages->ErrorCount, 1) << "header " << index << " " << value;
       EXPECT_EQ(extractor->GetOutput()->GetNumberOfCells(), 0);
     }
+  }
+}
+
+TEST(BadInput, PieceSizes)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetMinimumPieceSize(-5);
+  EXPECT_EQ(contour->GetMinimumPieceSize(), 0);
+  vtkNew<vtkIsodiamondBuilder> scalars;
+  scalars->SetMinimumPieceSize(-5);
+  EXPECT_EQ(scalars->GetMinimumPieceSize(), 0);
+  // An HD holds all samples, and hierarchies from it are of these.
+  scalars->SetInputData(test::BallImage({ 9, 9, 9 }));
+  scalars->SetModelToHierarchyOfDiamonds();
+  vtkNew<vtkIsodiamondBuilder> minimal;
+  minimal->SetInputConnection(scalars->GetOutputPort());
+  for (vtkIsodiamondBuilder* builder : { scalars.Get(), minimal.Get() })
+  {
+    const auto messages = test::Watch(builder);
+    builder->SetMinimumPieceSize(2);
+    builder->Update();
+    EXPECT_EQ(messages->ErrorCount, 1);
+    EXPECT_EQ(builder->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_EQ(builder->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
+    builder->SetMinimumPieceSize(1); // which no piece is below
+    builder->Update();
+    EXPECT_EQ(messages->ErrorCount, 1) << messages->Errors;
+    EXPECT_EQ(builder->GetOutput()->GetNumberOfCells(), 12);
   }
 }

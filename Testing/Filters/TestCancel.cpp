@@ -141,6 +141,7 @@ TEST(Cancel, Contour)
       contour->SetValue(0, 50.0);
       contour->SetValue(1, 30.0);
       contour->SetErrorTolerance(0.2);
+      contour->SetMinimumPieceSize(20);
       return contour;
     },
     25, 1);

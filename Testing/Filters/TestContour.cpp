@@ -205,6 +205,28 @@ TEST(Contour, BuildsOnlyWhatChanged)
   contour->SetInputData(test::BallImage({ 16, 16, 16 }));
   contour->Update();
   EXPECT_EQ(contour->GetNumberOfBuilds(), 8);
+  // Other ways to build, by either metric; what was built is kept.
+  contour->SetNumberOfContours(1);
+  vtkIdType builds = 8;
+  const auto expectBuild = [&](vtkIdType expected)
+  {
+    contour->Update();
+    builds += expected;
+    EXPECT_EQ(contour->GetNumberOfBuilds(), builds);
+  };
+  for (const int metric : { vtkIsodiamondHierarchy::FIELD, vtkIsodiamondHierarchy::DISTANCE })
+  {
+    contour->SetErrorMetric(metric);
+    expectBuild(metric == vtkIsodiamondHierarchy::FIELD ? 1 : 0);
+    contour->PreserveTopologyOff();
+    expectBuild(1);
+    contour->SetMinimumPieceSize(5);
+    expectBuild(1);
+    contour->PreserveTopologyOn();
+    expectBuild(1);
+    contour->SetMinimumPieceSize(0);
+    expectBuild(0);
+  }
 }
 
 TEST(Contour, StaysInsideOfTheImageUnlessClosed)
@@ -258,6 +280,7 @@ TEST(Contour, OneAndTwoStepsGiveTheSameBytesOnAnyNumberOfThreads)
   vtkNew<vtkIsodiamondBuilder> builder;
   builder->SetInputData(image);
   builder->SetErrorMetricToDistance();
+  builder->PreserveTopologyOn();
   vtkNew<vtkIsodiamondExtractor> extractor;
   extractor->SetInputConnection(builder->GetOutputPort());
   extractor->SetErrorTolerance(0.01);

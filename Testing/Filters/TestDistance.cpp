@@ -324,6 +324,7 @@ TEST(Distance, KeepsThinFeaturesUnlessToldOtherwise)
   vtkNew<vtkIsodiamondContour> contour;
   contour->SetInputData(image);
   contour->SetValue(0, 0.0);
+  contour->PreserveTopologyOff();  // or the speck would stay anyway
   contour->SetErrorTolerance(5.0); // the speck is thinner, but farther from the ball
   contour->Update();
   EXPECT_GT(contour->GetOutput()->GetBounds()[1], 26.0);

@@ -67,6 +67,7 @@ TEST(Hierarchy, KnowsWhatItHolds)
   EXPECT_EQ(number("NumberOfRelevantIsodiamonds"), mi->GetNumberOfRelevantIsodiamonds());
   EXPECT_EQ(number("NumberOfCreationIsodiamonds"), mi->GetNumberOfCreationIsodiamonds());
   EXPECT_EQ(number("NumberOfIsovertices"), mi->GetNumberOfIsovertices());
+  EXPECT_EQ(number("NumberOfRemovedPieces"), mi->GetNumberOfRemovedPieces());
   EXPECT_EQ(number("StorageSize"), mi->GetStorageSize());
   const auto scalars = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
   scalars->Update();
@@ -185,6 +186,70 @@ TEST(Hierarchy, SurvivesFilesAndCopies)
   vtkNew<vtkPolyData> other;
   EXPECT_EQ(vtkIsodiamondHierarchy::FromPolyData(other), nullptr);
   EXPECT_EQ(vtkIsodiamondHierarchy::FromPolyData(nullptr), nullptr);
+}
+
+TEST(Hierarchy, OfVersion2IsReadAsWhatItIs)
+{
+  for (const std::string name : { "00", "01", "10", "11", "20", "21" })
+  {
+    vtkNew<vtkXMLPolyDataReader> old;
+    old->SetFileName((std::string(DATA_FOLDER) + "/Files/version-2-" + name + ".vtp").c_str());
+    old->Update();
+    const auto hierarchy = vtkSmartPointer<vtkIsodiamondHierarchy>::Take(
+      vtkIsodiamondHierarchy::FromPolyData(old->GetOutput()));
+    ASSERT_NE(hierarchy, nullptr);
+    EXPECT_EQ(hierarchy->GetFieldData()->GetArray("IsodiamondHeader")->GetTuple1(0), 2);
+    EXPECT_EQ(hierarchy->GetModel(), name[0] - '0');
+    EXPECT_EQ(hierarchy->GetShape(), name[1] - '0');
+    vtkNew<vtkXMLPolyDataReader> current; // MakeFiles' of the same
+    current->SetFileName((std::string(DATA_FOLDER) + "/Files/" + name + "-ascii.vtp").c_str());
+    for (const double tolerance : { 0.0, 0.3 })
+    {
+      const auto expected = Extract(current->GetOutputPort(), tolerance);
+      const auto mesh = Extract(old->GetOutputPort(), tolerance);
+      EXPECT_GT(expected->GetNumberOfCells(), 0);
+      mesh->SetFieldData(expected->GetFieldData()); // a filter's output has its input's
+      EXPECT_EQ(test::Difference(mesh, expected), "");
+    }
+  }
+}
+
+TEST(Hierarchy, OfVersion2HasOneSidedDistancesAndAllPieces)
+{
+  const auto builder = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  builder->SetErrorMetricToDistance();
+  builder->PreserveTopologyOn();
+  builder->SetMinimumPieceSize(3);
+  builder->Update();
+  vtkNew<vtkPolyData> old;
+  old->DeepCopy(builder->GetOutput());
+  vtkDataArray* header = old->GetFieldData()->GetArray("IsodiamondHeader");
+  EXPECT_EQ(header->GetNumberOfTuples(), 13);
+  header->SetTuple1(0, 2);
+  header->SetNumberOfTuples(9);
+  const auto hierarchy =
+    vtkSmartPointer<vtkIsodiamondHierarchy>::Take(vtkIsodiamondHierarchy::FromPolyData(old));
+  EXPECT_EQ(hierarchy->GetErrorMetric(), vtkIsodiamondHierarchy::DISTANCE);
+  EXPECT_FALSE(hierarchy->GetTwoSidedDistances());
+  EXPECT_FALSE(hierarchy->GetPreservesTopology());
+  EXPECT_EQ(hierarchy->GetMinimumPieceSize(), 0);
+  EXPECT_EQ(hierarchy->GetNumberOfRemovedPieces(), 0);
+  EXPECT_EQ(builder->GetHierarchy()->GetMinimumPieceSize(), 3);
+  EXPECT_TRUE(builder->GetHierarchy()->GetPreservesTopology());
+  EXPECT_TRUE(builder->GetHierarchy()->GetTwoSidedDistances());
+  vtkNew<vtkIsodiamondExtractor> extractors[2];
+  extractors[0]->SetInputData(builder->GetOutput());
+  extractors[1]->SetInputData(old);
+  EXPECT_LT(extractors[0]->GetErrorToleranceRange()[1], 2.0); // the distance of interest
+  EXPECT_EQ(extractors[0]->GetErrorToleranceRange()[1], extractors[1]->GetErrorToleranceRange()[1]);
+  // Headers and versions of each other are neither.
+  header->SetTuple1(0, 3);
+  header->Modified();
+  old->Modified();
+  const auto messages = test::Watch(extractors[1]);
+  extractors[1]->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_NE(messages->Errors.find("version"), std::string::npos);
 }
 
 TEST(Points, HaveOneForEachStoredIsodiamond)

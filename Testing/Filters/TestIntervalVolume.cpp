@@ -228,6 +228,7 @@ TEST(IntervalVolume, ComesFromAllModelsAndFiles)
     builder->SetShapeToIntervalVolume();
     builder->SetIsorange(-0.1, 0.2);
     builder->RefineInteriorOn();
+    builder->PreserveTopologyOn();
     builder->Update();
     EXPECT_EQ(builder->GetHierarchy()->GetShape(), vtkIsodiamondHierarchy::INTERVAL_VOLUME);
     double isorange[2];
@@ -248,6 +249,7 @@ TEST(IntervalVolume, ComesFromAllModelsAndFiles)
       vtkNew<vtkIsodiamondExtractor> extractor;
       extractor->SetInputConnection(source->GetOutputPort());
       extractor->SetErrorTolerance(0.03);
+      extractor->SetPreserveTopology(model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
       for (const double interior : { VTK_DOUBLE_MAX, 0.02 })
       {
         extractor->SetInteriorTolerance(interior);

@@ -197,6 +197,7 @@ TEST(Memory, Contour)
         contour->SetInputData(image);
         contour->SetValue(0, 0.0);
         contour->SetErrorTolerance(0.01);
+        contour->SetMinimumPieceSize(5);
         contour->ComputeGradientsOn();
         contour->SetCloseBoundary(isClosed);
         return contour;
@@ -299,6 +300,8 @@ TEST(Memory, BuilderAndWhatReadsHierarchies)
       builder->SetModel(model);
       if (model != vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
       {
+        builder->PreserveTopologyOn();
+        builder->SetMinimumPieceSize(5);
         builder->ComputeNormalsOn();
         builder->AddPointArray("other");
       }

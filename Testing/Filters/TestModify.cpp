@@ -3,6 +3,7 @@
 #include "FilterTestTools.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
@@ -51,6 +52,8 @@ struct Settings
   int Metric = vtkIsodiamondHierarchy::DISTANCE;
   bool ExactIsovertices = true;
   bool PreserveFeatures = true;
+  bool PreserveTopology = true;
+  int MinimumPieceSize = 0;
   bool Attributes = true;
   int CacheSize = 512;
   bool Normals = true;
@@ -265,7 +268,7 @@ private:
 
   void ChangeBuild(Settings& settings)
   {
-    switch (this->Random() % 7)
+    switch (this->Random() % 9)
     {
       case 0:
         settings.Metric = 1 - settings.Metric;
@@ -284,6 +287,12 @@ private:
         break;
       case 5:
         settings.OtherArrays = !settings.OtherArrays;
+        break;
+      case 6:
+        settings.PreserveTopology = !settings.PreserveTopology;
+        break;
+      case 7:
+        settings.MinimumPieceSize = this->OneOf(2) ? 0 : static_cast<int>(this->Random() % 30);
         break;
       default:
         settings.Model = static_cast<int>(this->Random() % 3);
@@ -370,6 +379,7 @@ class Subject
 {
 public:
   virtual ~Subject() = default;
+  virtual vtkIdType RemovedPieces() = 0;
   virtual void Apply(const Settings& settings) = 0;
   virtual std::vector<vtkAlgorithm*> Filters() = 0;
 
@@ -436,6 +446,8 @@ void ApplyVolume(const Settings& settings, vtkIsodiamondVolumeAlgorithm* filter)
   filter->SetErrorMetric(settings.Metric);
   filter->SetExactIsovertices(settings.ExactIsovertices);
   filter->SetPreserveFeatures(settings.PreserveFeatures);
+  filter->SetPreserveTopology(settings.PreserveTopology);
+  filter->SetMinimumPieceSize(settings.MinimumPieceSize);
   filter->SetInterpolateAttributes(settings.Attributes);
   filter->SetCacheSize(settings.CacheSize);
 }
@@ -459,6 +471,7 @@ public:
     }
   }
   std::vector<vtkAlgorithm*> Filters() override { return { this->Contour }; }
+  vtkIdType RemovedPieces() override { return this->Contour->GetNumberOfRemovedPieces(); }
 
 private:
   vtkNew<vtkIsodiamondContour> Contour;
@@ -475,6 +488,7 @@ public:
     this->Volume->SetInteriorTolerance(settings.InteriorTolerance);
   }
   std::vector<vtkAlgorithm*> Filters() override { return { this->Volume }; }
+  vtkIdType RemovedPieces() override { return this->Volume->GetNumberOfRemovedPieces(); }
 
 private:
   vtkNew<vtkIsodiamondIntervalVolume> Volume;
@@ -499,6 +513,8 @@ public:
     this->Builder->SetErrorMetric(settings.Metric);
     this->Builder->SetExactIsovertices(settings.ExactIsovertices);
     this->Builder->SetPreserveFeatures(settings.PreserveFeatures);
+    this->Builder->SetPreserveTopology(settings.PreserveTopology);
+    this->Builder->SetMinimumPieceSize(settings.MinimumPieceSize);
     this->Builder->SetRefineInterior(settings.RefineInterior);
     this->Builder->SetCloseBoundary(settings.CloseBoundary);
     this->Builder->SetComputeNormals(settings.OtherArrays);
@@ -509,8 +525,15 @@ public:
     this->Extractor->SetShape(settings.Gradients ? settings.Shape : -1);
     this->Extractor->StoreIsovalue(isovalue + 0.05);
     this->Extractor->SetUseIsovalue(settings.Scalars);
+    this->Extractor->SetPreserveTopology(settings.PreserveTopology);
   }
   std::vector<vtkAlgorithm*> Filters() override { return { this->Builder, this->Extractor }; }
+  vtkIdType RemovedPieces() override
+  {
+    vtkIsodiamondHierarchy* hierarchy = this->Builder->GetHierarchy();
+    const bool isEmpty = hierarchy->GetFieldData()->GetNumberOfArrays() == 0; // after an error
+    return isEmpty ? 0 : hierarchy->GetNumberOfRemovedPieces();
+  }
 
 private:
   vtkNew<vtkIsodiamondBuilder> Builder;
@@ -539,6 +562,7 @@ void ExpectSameAsNew(int steps, unsigned int seed, bool onlyImages)
     fresh.Apply(copied);
     const bool isFreshRefused = fresh.Update();
     ASSERT_EQ(test::Difference(subject.Output(), fresh.Output()), "");
+    ASSERT_EQ(subject.RemovedPieces(), fresh.RemovedPieces());
     if (isFreshRefused)
     {
       ++errors;

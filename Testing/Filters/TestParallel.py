@@ -123,7 +123,7 @@ def serial(filter, **properties):
     return filter
 
 
-builder = serial(isodiamonds.vtkIsodiamondBuilder(), Isovalue=150, ErrorMetric=1)
+builder = serial(isodiamonds.vtkIsodiamondBuilder(), Isovalue=150, ErrorMetric=1, PreserveTopology=True)
 
 
 def of_hierarchy(filter, tolerance=None):

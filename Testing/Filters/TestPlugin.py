@@ -24,6 +24,7 @@ assert list(contour.ContourBy) == ["POINTS", "RTData"], contour.ContourBy
 assert abs(contour.Isosurfaces[0] - middle) < 1e-3, contour.Isosurfaces
 assert contour.ErrorTolerance == 0
 assert contour.ErrorMetric == "Distance" and contour.ExactIsovertices and contour.PreserveFeatures
+assert contour.PreserveTopology == 1 and contour.MinimumPieceSize == 0
 domain = contour.GetProperty("ErrorTolerance").GetDomain("range")
 assert domain.GetMinimum(0) == 0 and abs(domain.GetMaximum(0) - 0.02 * 20 * 3**0.5) < 1e-3
 assert list(contour.RegionOfInterestPosition) == [-10, -10, -10], contour.RegionOfInterestPosition
@@ -57,12 +58,30 @@ contour.ErrorMetric = "Distance"
 assert abs(domain.GetMaximum(0) - 0.02 * 40 * 3**0.5) < 1e-3, "and to the data"
 contour.Input = wavelet
 
+
+# Removed pieces are counted.
+def removed():
+    contour.UpdatePipeline()
+    contour.UpdatePropertyInformation()
+    return contour.GetProperty("NumberOfRemovedPieces")[0]
+
+
+assert removed() == 0
+contour.MinimumPieceSize = 10**6  # more than there are samples
+assert removed() > 0
+assert contour.GetDataInformation().GetNumberOfCells() == 0
+contour.MinimumPieceSize = 0
+assert removed() == 0
+
 # Two steps.
 hierarchy = IsodiamondHierarchy(wavelet)
 assert abs(hierarchy.Isovalue - middle) < 1e-3
 assert hierarchy.Model == "Minimal Isodiamonds"
+assert hierarchy.PreserveTopology == 1 and hierarchy.MinimumPieceSize == 0
 hierarchy.UpdatePipeline()
+assert hierarchy.FieldData["NumberOfRemovedPieces"].GetRange() == (0, 0)
 extract = IsodiamondExtract(hierarchy)
+assert extract.PreserveTopology == 0
 domain = extract.GetProperty("ErrorTolerance").GetDomain("range")
 assert abs(domain.GetMaximum(0) - extent) < 1e-3, domain.GetMaximum(0)
 extract.UpdatePipeline()
@@ -76,6 +95,7 @@ assert mesh.GetDataInformation().GetNumberOfCells() > 0
 
 # Interval volumes: defaults of the array's range, tolerances that can be set.
 volume = IsodiamondIntervalVolume(wavelet)
+assert volume.PreserveTopology == 1 and volume.MinimumPieceSize == 0
 data_range = wavelet.PointData["RTData"].GetRange()
 assert all(abs(a - b) < 1e-3 for a, b in zip(volume.Isorange, data_range)), volume.Isorange
 assert volume.InteriorTolerance > 1e298, volume.InteriorTolerance  # off, whatever the array
@@ -111,6 +131,7 @@ extract.ErrorTolerance = 1
 extract.UpdatePipeline()
 assert 0 < extract.GetDataInformation().GetNumberOfCells() < full / 2
 mesh = DiamondMesh(distances, ErrorTolerance=1, UseRegionOfInterest=1)
+assert mesh.PreserveTopology == 0
 mesh.RegionOfInterestSize = [3, 3, 3]
 mesh.UpdatePipeline()
 assert mesh.GetDataInformation().GetNumberOfCells() > 0

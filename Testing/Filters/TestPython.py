@@ -24,13 +24,19 @@ hierarchy = builder.GetHierarchy()
 assert isinstance(hierarchy, isodiamonds.vtkIsodiamondHierarchy)
 assert hierarchy.GetModel() == hierarchy.MINIMAL
 assert hierarchy.GetNumberOfActiveIsodiamonds() > 0
+assert not builder.GetPreserveTopology() and not hierarchy.GetPreservesTopology()
+assert not hierarchy.GetTwoSidedDistances()  # of the field metric
+assert builder.GetMinimumPieceSize() == hierarchy.GetMinimumPieceSize() == 0
+assert hierarchy.GetNumberOfRemovedPieces() == 0
 output = extractor.GetOutput()
 assert output.GetPointData().GetArray("RTData").GetRange() == (150.0, 150.0)
 
 contour = isodiamonds.vtkIsodiamondContour()
 contour.SetInputConnection(source.GetOutputPort())
 contour.SetValue(0, 150.0)
+assert contour.GetPreserveTopology() and contour.GetMinimumPieceSize() == 0
 contour.Update()
+assert contour.GetNumberOfRemovedPieces() == 0
 assert contour.GetOutput().GetNumberOfCells() == triangles[0]
 
 points = isodiamonds.vtkIsodiamondPoints()

@@ -38,6 +38,8 @@ def session():
         ErrorMetric="Field",
         ErrorTolerance=20,
         InteriorTolerance=15,
+        PreserveTopology=0,
+        MinimumPieceSize=20,
     )
     hierarchy = IsodiamondHierarchy(
         wavelet,
@@ -96,6 +98,7 @@ LoadState(state)
 assert counts() == expected, (counts(), expected)
 assert list(FindSource("contour").Isosurfaces) == [140, 170]
 assert FindSource("extract").PixelTolerance == 3
+assert FindSource("region").PreserveTopology == 0 and FindSource("region").MinimumPieceSize == 20
 
 forget()
 exec(script, dict(globals()))
