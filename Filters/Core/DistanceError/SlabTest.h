@@ -240,7 +240,7 @@ private:
       {
         this->LookOver(corners);
       }
-      this->Crossings += isNearLine && this->CrossesLine(corners) ? 1 : 0;
+      this->Crossings += isNearLine && this->CrossesLine(corners, heights) ? 1 : 0;
     }
   }
 
@@ -307,13 +307,22 @@ private:
     }
   }
 
-  /** Whether the line up and down meets a triangle. */
-  bool CrossesLine(const std::array<Vector, 3>& corners) const
+  /** Whether the line up and down meets a triangle between the copies. */
+  bool CrossesLine(const std::array<Vector, 3>& corners, const std::array<double, 3>& heights) const
   {
     const auto side = [&](int i, int j)
-    { return Dot(Cross(corners[i] - this->Line, corners[j] - this->Line), this->Upward) > 0.0; };
-    const bool first = side(0, 1);
-    return first == side(1, 2) && first == side(2, 0);
+    { return Dot(Cross(corners[i] - this->Line, corners[j] - this->Line), this->Upward); };
+    // What each corner counts for where the line is.
+    const std::array<double, 3> weights = { side(1, 2), side(2, 0), side(0, 1) };
+    const bool isFirst = weights[0] > 0.0;
+    if (isFirst != (weights[1] > 0.0) || isFirst != (weights[2] > 0.0))
+    {
+      return false;
+    }
+    const double height =
+      (weights[0] * heights[0] + weights[1] * heights[1] + weights[2] * heights[2]) /
+      (weights[0] + weights[1] + weights[2]);
+    return std::abs(height) < this->Limit;
   }
 
   const ConvexPolygon& Piece;

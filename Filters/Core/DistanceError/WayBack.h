@@ -98,52 +98,67 @@ private:
         }
       }
     }
-    if (patch.TriangleCount == 2 && this->IsBetweenAsOne(patch, corners))
+    if (patch.TriangleCount == 2)
     {
-      return;
+      const FlatPiece both = this->Flatten(patch, corners);
+      if (both.Bend <= 0.25 * this->Known && this->IsBetween(both))
+      {
+        return;
+      }
     }
     for (int i = 0; i < patch.TriangleCount; ++i)
     {
       const std::array<std::uint8_t, 3>& edges = patch.Triangles[i];
-      this->MeasureFrom({ 3, { corners[edges[0]], corners[edges[1]], corners[edges[2]] } });
+      const ConvexPolygon triangle = { 3,
+        { corners[edges[0]], corners[edges[1]], corners[edges[2]] } };
+      const Vector across =
+        Cross(triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]);
+      this->MeasureFrom({ triangle, Unit(across), 0.0 });
     }
   }
 
-  /** Two triangles that are nearly flat: whether the surface passes them both. */
-  bool IsBetweenAsOne(const SurfacePatch& patch, const std::array<Vector, 6>& corners)
+  /** What is flat, or nearly so. */
+  struct FlatPiece
   {
-    const auto [quadrilateral, isOne] = Join(patch, corners);
+    ConvexPolygon Polygon;
+    Vector Normal{};   ///< of unit length; not a number without area
+    double Bend = 0.0; ///< how far from the polygon what it stands for can be
+  };
+
+  static Vector Unit(const Vector& vector)
+  {
+    return (1.0 / std::sqrt(Dot(vector, vector))) * vector;
+  }
+
+  /** Two triangles as one piece; with an infinite bend if that is not convex. */
+  static FlatPiece Flatten(const SurfacePatch& patch, const std::array<Vector, 6>& corners)
+  {
+    auto [polygon, isOne] = Join(patch, corners);
+    FlatPiece flat{ polygon, {}, HUGE_VAL };
     if (!isOne)
     {
-      return false;
+      return flat;
     }
-    const Vector across = Cross(quadrilateral.Corners[2] - quadrilateral.Corners[0],
-      quadrilateral.Corners[3] - quadrilateral.Corners[1]);
-    const Vector normal = (1.0 / std::sqrt(Dot(across, across))) * across;
-    ConvexPolygon flat = quadrilateral;
-    const Vector middle = quadrilateral.Middle();
+    flat.Normal =
+      Unit(Cross(polygon.Corners[2] - polygon.Corners[0], polygon.Corners[3] - polygon.Corners[1]));
+    const Vector middle = polygon.Middle();
     double bend = 0.0;
     for (int i = 0; i < 4; ++i)
     {
-      const double height = Dot(flat.Corners[i] - middle, normal);
-      flat.Corners[i] = flat.Corners[i] - height * normal;
+      const double height = Dot(polygon.Corners[i] - middle, flat.Normal);
+      flat.Polygon.Corners[i] = polygon.Corners[i] - height * flat.Normal;
       bend = std::max(bend, std::abs(height));
     }
+    bool isConvex = true;
     for (int i = 0; i < 4; ++i)
     {
-      const Vector& corner = flat.Corners[(i + 1) % 4];
-      if (!(Dot(Cross(corner - flat.Corners[i], flat.Corners[(i + 2) % 4] - corner), normal) > 0.0))
-      {
-        return false; // not convex
-      }
+      const Vector& corner = flat.Polygon.Corners[(i + 1) % 4];
+      const Vector turn =
+        Cross(corner - flat.Polygon.Corners[i], flat.Polygon.Corners[(i + 2) % 4] - corner);
+      isConvex = isConvex && Dot(turn, flat.Normal) > 0.0;
     }
-    if (!(bend < 0.25 * this->Known))
-    {
-      return false;
-    }
-    const SlabTest<Lengths> test(flat, normal, normal, this->Known - bend,
-      (1.0 + Precision) * this->Known - bend, this->Fine, this->InWorld, this->Balls);
-    return test.IsBetween() && this->IsAccepted(test.Greatest() + bend);
+    flat.Bend = isConvex ? bend : HUGE_VAL;
+    return flat;
   }
 
   /** The corners of two triangles in order, and whether these share an edge. */
@@ -170,44 +185,42 @@ private:
     return { joined, shared == 1 };
   }
 
-  /** All of a triangle, in pieces. */
-  void MeasureFrom(const ConvexPolygon& triangle)
+  /** All of a piece, in smaller ones. */
+  void MeasureFrom(const FlatPiece& whole)
   {
-    const Vector across =
-      Cross(triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]);
-    const Vector normal = (1.0 / std::sqrt(Dot(across, across))) * across;
-    this->Pieces.assign(1, triangle);
+    this->Pieces.assign(1, whole.Polygon);
+    FlatPiece piece = whole;
     while (!this->Pieces.empty())
     {
-      const ConvexPolygon piece = this->Pieces.back();
+      piece.Polygon = this->Pieces.back();
       this->Pieces.pop_back();
-      if (!this->IsBetween(piece, normal) && !this->IsNear(piece))
+      if (!this->IsBetween(piece) && !this->IsNear(piece))
       {
-        this->Halve(piece);
+        this->Halve(piece.Polygon);
       }
     }
   }
 
   /** Whether the surface passes a piece within what is known, all over it: up and down, or across
    *  the surface where it is in the way. */
-  bool IsBetween(const ConvexPolygon& piece, const Vector& normal)
+  bool IsBetween(const FlatPiece& piece)
   {
-    Vector direction = normal;
-    bool isTurned = !std::isfinite(normal[0]);
+    Vector direction = piece.Normal;
+    bool isTurned = false;
     while (std::isfinite(direction[0]))
     {
-      const SlabTest<Lengths> test(piece, normal, direction, this->Known,
-        (1.0 + Precision) * this->Known, this->Fine, this->InWorld, this->Balls);
+      const SlabTest<Lengths> test(piece.Polygon, piece.Normal, direction, this->Known - piece.Bend,
+        (1.0 + Precision) * this->Known - piece.Bend, this->Fine, this->InWorld, this->Balls);
       if (test.IsBetween())
       {
-        return this->IsAccepted(test.Greatest());
+        return this->IsAccepted(test.Greatest() + piece.Bend);
       }
       const double before = this->Known;
       const Nearest nearest = this->FindNearest(test.InTheWay(), before);
       if (this->Known <= before)
       {
         const Vector across = nearest.Triangle.UnitNormal();
-        const double cosine = Dot(across, normal);
+        const double cosine = Dot(across, piece.Normal);
         if (isTurned || !(std::abs(cosine) > 0.25))
         {
           return false;
@@ -220,23 +233,24 @@ private:
   }
 
   /** Whether all of a piece is near enough to a triangle, or small. */
-  bool IsNear(const ConvexPolygon& piece)
+  bool IsNear(const FlatPiece& piece)
   {
-    const Vector middle = piece.Middle();
-    const double radius = std::sqrt(piece.SquaredRadius(middle));
-    const Nearest nearest = this->FindNearest(middle, std::max(this->Known - radius, 0.0));
-    const double bound = std::sqrt(nearest.Squared) + radius;
+    const Vector middle = piece.Polygon.Middle();
+    const double radius = std::sqrt(piece.Polygon.SquaredRadius(middle));
+    const Nearest nearest =
+      this->FindNearest(middle, std::max(this->Known - radius - piece.Bend, 0.0));
+    const double bound = std::sqrt(nearest.Squared) + radius + piece.Bend;
     if (bound <= this->Known ||
       (radius <= Precision / 2.0 * this->Known && this->IsAccepted(bound)))
     {
       return true;
     }
     double farthest = 0.0; // the distance to a triangle is convex
-    for (int i = 0; i < piece.Count; ++i)
+    for (int i = 0; i < piece.Polygon.Count; ++i)
     {
-      farthest = std::max(farthest, nearest.Triangle.Squared(piece.Corners[i]));
+      farthest = std::max(farthest, nearest.Triangle.Squared(piece.Polygon.Corners[i]));
     }
-    return this->IsAccepted(std::sqrt(farthest));
+    return this->IsAccepted(std::sqrt(farthest) + piece.Bend);
   }
 
   struct Nearest
