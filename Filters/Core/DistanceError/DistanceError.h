@@ -55,7 +55,8 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
  * Raises distance errors to the way back: how far a point of a diamond's patches can be from the
  * surface of full resolution, of an interval volume from the same of both. So if every leaf of a
  * mesh lies in a diamond with an error of at most t, no point of the mesh is farther than t from
- * full resolution. Rounded up by 1/32 at most. See WayBack.h.
+ * full resolution. Rounded up by 1/8 at most; and what is more than nothing is never less than
+ * 1/128 of a step of the lattice. See WayBack.h.
  *
  * @param relevant, world as above
  * @param hidden cells without any surface; null for none

@@ -113,6 +113,7 @@ private:
 FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
   const HiddenCells* hidden, const ParallelFor& parallelFor)
   : TheGrid(hierarchy.SampleGrid())
+  , Hidden(hidden)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -190,6 +191,22 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
           }
         });
     });
+}
+
+bool FineSurface::AnyHidden(const CellBox& box) const
+{
+  bool any = false;
+  for (int z = box.Low[2]; this->Hidden != nullptr && z < box.High[2] && !any; ++z)
+  {
+    for (int y = box.Low[1]; y < box.High[1] && !any; ++y)
+    {
+      for (int x = box.Low[0]; x < box.High[0] && !any; ++x)
+      {
+        any = (*this->Hidden)({ x, y, z });
+      }
+    }
+  }
+  return any;
 }
 
 }

@@ -42,7 +42,7 @@ class FineSurface
 public:
   using Triangle = std::array<FinePosition, 3>;
 
-  /** @param hidden cells that count as empty; null for none */
+  /** @param hidden cells that count as empty; null for none; must outlive it */
   FineSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
     const ParallelFor& parallelFor);
 
@@ -73,6 +73,9 @@ public:
   {
     return { {}, { this->TheGrid.Last(0), this->TheGrid.Last(1), this->TheGrid.Last(2) } };
   }
+
+  /** Whether a cell of a box counts as empty because it is hidden. */
+  bool AnyHidden(const CellBox& box) const;
 
 private:
   /** Corners from the brick's first sample on. */
@@ -148,6 +151,7 @@ private:
   class Reader;
 
   Grid TheGrid;
+  const HiddenCells* Hidden;
   std::array<int, 3> Count{};
   std::vector<std::int32_t> Lookup; ///< of all bricks of cells: index in Bricks, or -1
   std::vector<CellBrick> Bricks;

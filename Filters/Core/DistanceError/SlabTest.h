@@ -76,7 +76,8 @@ private:
  * other.
  *
  * Of the surface counts what lies over the piece, in that direction. It is closed but for the
- * grid's boundary and for hidden cells: where the copies leave the grid, the answer is no.
+ * grid's boundary and for hidden cells: where the copies leave the grid, or come near to a hidden
+ * cell, the answer is no.
  */
 template <typename Lengths>
 class SlabTest
@@ -97,7 +98,7 @@ public:
   {
     const CellBox whole = fine.Whole();
     const std::array<Vector, 2> box = this->IndexBox(whole);
-    if (this->LeavesGrid)
+    if (this->LeavesGrid || fine.AnyHidden(CellsIn(box, whole)))
     {
       return;
     }

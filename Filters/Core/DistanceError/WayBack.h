@@ -29,7 +29,7 @@ namespace isodiamond
  * triangles need a look for that. What it does not hold for is measured at the place that is in the
  * way, and if that does not help cut, until the nearest triangles tell.
  *
- * The result is the greatest distance but for a part of 1/16 at most, never less.
+ * The result is the greatest distance but for a part of 1/8 at most, never less.
  */
 template <typename Lengths>
 class WayBack
@@ -240,8 +240,8 @@ private:
     const Nearest nearest =
       this->FindNearest(middle, std::max(this->Known - radius - piece.Bend, 0.0));
     const double bound = std::sqrt(nearest.Squared) + radius + piece.Bend;
-    if (bound <= this->Known ||
-      (radius <= Precision / 2.0 * this->Known && this->IsAccepted(bound)))
+    if ((bound <= this->Known || radius <= Precision / 2.0 * this->Known) &&
+      this->IsAccepted(bound))
     {
       return true;
     }
