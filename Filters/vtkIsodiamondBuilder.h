@@ -102,9 +102,9 @@ public:
 
   ///@{
   /**
-   * How the error of a tolerance is measured. *Distance*: in world units, from the full-resolution
-   * surface to the mesh; no vertex of the one is farther from the other than the tolerance. *Field*
-   * (the paper's): in field units, between the field and its linear interpolant. An HD has the
+   * How the error of a tolerance is measured. *Distance*: in world units, both ways; no vertex of the
+   * full-resolution surface is farther from the mesh than the tolerance, and no point of the mesh is
+   * farther from that surface. *Field* (the paper's): in field units, between the field and its linear interpolant. An HD has the
    * field's only: distances need an isovalue. Default: field.
    */
   vtkSetClampMacro(

@@ -11,7 +11,7 @@ render_packages="xvfb xauth"
 # The MRI head of the demo.
 demo_packages="mricron-data"
 # GoogleTest, VTK's rendering tests, programs under MPI, and the benchmarks' files.
-test_packages="libgtest-dev libglew-dev libfreetype-dev mpi-default-bin
+test_packages="libgtest-dev libglew-dev libfreetype-dev mpi-default-bin python3-scipy
   nlohmann-json3-dev"
 
 fail() {

@@ -11,10 +11,10 @@
 
 /**
  * @file DistanceError.h
- * The distance metric: how far the surface of full resolution lies from a diamond's patches, in
- * world units.
+ * The distance metric: how far the surface of full resolution lies from a diamond's patches, and
+ * these from it, in world units. The error of a diamond is the greater of both ways.
  *
- * The error of a diamond is the largest distance from a full-resolution isovertex in its closed
+ * The way forth of a diamond is the largest distance from a full-resolution isovertex in its closed
  * domain to the nearest patch of the diamond, as extraction would make it, that is sure to be in a
  * mesh together with the tetrahedron that holds the isovertex. So if every leaf of a mesh lies in a
  * diamond with an error of at most t, no full-resolution isovertex is farther than t from the mesh:
