@@ -56,7 +56,7 @@ READERS = {
     ".vtk": vtkStructuredPointsReader,
 }
 
-TOLERANCES = (0, 0.25, 0.5, 1, 2)  # distances, in voxels
+TOLERANCES = (0, 0.1, 0.25, 0.5, 1)  # distances, in voxels
 SHOWN_VOLUMES = (2, 4)  # of the tolerances, in the picture of the interval volume
 
 PICTURE_SIZE = (2000, 940)
@@ -162,6 +162,7 @@ def build(image, prepare):
     use_scalars(builder)
     builder.SetModelToMinimal()
     builder.SetErrorMetricToDistance()
+    builder.PreserveTopologyOn()
     prepare(builder)
     milliseconds = timed(builder)
     return builder.GetHierarchy(), milliseconds / 1000

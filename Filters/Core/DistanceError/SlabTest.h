@@ -98,7 +98,7 @@ public:
   {
     const CellBox whole = fine.Whole();
     const std::array<Vector, 2> box = this->IndexBox(whole);
-    if (this->LeavesGrid || fine.AnyHidden(CellsIn(box, whole)))
+    if (this->LeavesGrid != 0 || fine.AnyHidden(CellsIn(box, whole)))
     {
       return;
     }
@@ -131,6 +131,9 @@ public:
   /** How far from the piece the surface is, where it passes between. */
   double Greatest() const { return this->Found; }
 
+  /** The axes along which the copies leave the grid, a mask. */
+  std::uint32_t Leaves() const { return this->LeavesGrid; }
+
   /** If not, a place of the piece where it is not. */
   const Vector& InTheWay() const { return this->Way; }
 
@@ -150,8 +153,9 @@ private:
         {
           all[0][axis] = std::min(all[0][axis], index[axis]);
           all[1][axis] = std::max(all[1][axis], index[axis]);
-          this->LeavesGrid =
-            this->LeavesGrid || index[axis] < 0.0 || index[axis] > whole.High[axis];
+          constexpr double rounding = 1e-9;
+          const bool leaves = index[axis] < -rounding || index[axis] > whole.High[axis] + rounding;
+          this->LeavesGrid |= (leaves ? 1U : 0U) << axis;
         }
       }
     }
@@ -334,8 +338,8 @@ private:
   const Lengths& InWorld;
   std::array<Plane, ConvexPolygon::MostCorners> Inward; ///< of the sides
   Vector Line{};                                        ///< the foot of a line across the piece
-  bool LeavesGrid = false;
-  bool IsClear = false; ///< whether no copy is crossed
+  std::uint32_t LeavesGrid = 0;                         ///< a mask of axes
+  bool IsClear = false;                                 ///< whether no copy is crossed
   bool IsCrossed = false;
   int Crossings = 0; ///< of the line
   double Found;

@@ -194,20 +194,21 @@ private:
     {
       piece.Polygon = this->Pieces.back();
       this->Pieces.pop_back();
-      if (!this->IsBetween(piece) && !this->IsNear(piece))
+      if (!this->IsBetween(piece))
       {
-        this->Halve(piece.Polygon);
+        this->CompareWithNearest(piece.Polygon);
       }
     }
   }
 
   /** Whether the surface passes a piece within what is known, all over it: up and down, or across
-   *  the surface where it is in the way. */
+   *  the surface where it is in the way; along the grid's boundary where that is near. */
   bool IsBetween(const FlatPiece& piece)
   {
     Vector direction = piece.Normal;
+    std::uint32_t boundaries = 0;
     bool isTurned = false;
-    while (std::isfinite(direction[0]))
+    while (std::abs(Dot(direction, piece.Normal)) > 0.25) // else it is too oblique, or no number
     {
       const SlabTest<Lengths> test(piece.Polygon, piece.Normal, direction, this->Known - piece.Bend,
         (1.0 + Precision) * this->Known - piece.Bend, this->Fine, this->InWorld, this->Balls);
@@ -215,42 +216,120 @@ private:
       {
         return this->IsAccepted(test.Greatest() + piece.Bend);
       }
+      if ((test.Leaves() & ~boundaries) != 0)
+      {
+        boundaries |= test.Leaves();
+        direction = this->AlongBoundaries(direction, boundaries);
+        continue;
+      }
       const double before = this->Known;
       const Nearest nearest = this->FindNearest(test.InTheWay(), before);
       if (this->Known <= before)
       {
-        const Vector across = nearest.Triangle.UnitNormal();
-        const double cosine = Dot(across, piece.Normal);
-        if (isTurned || !(std::abs(cosine) > 0.25))
+        if (isTurned)
         {
           return false;
         }
         isTurned = true;
-        direction = (cosine > 0.0 ? 1.0 : -1.0) * across;
+        const Vector across = nearest.Triangle.UnitNormal();
+        const double side = Dot(across, piece.Normal) > 0.0 ? 1.0 : -1.0;
+        direction = this->AlongBoundaries(side * across, boundaries);
       }
     }
     return false;
   }
 
-  /** Whether all of a piece is near enough to a triangle, or small. */
-  bool IsNear(const FlatPiece& piece)
+  /** A direction without what leads out of the grid. @param boundaries a mask of axes */
+  Vector AlongBoundaries(const Vector& direction, std::uint32_t boundaries) const
   {
-    const Vector middle = piece.Polygon.Middle();
-    const double radius = std::sqrt(piece.Polygon.SquaredRadius(middle));
-    const Nearest nearest =
-      this->FindNearest(middle, std::max(this->Known - radius - piece.Bend, 0.0));
-    const double bound = std::sqrt(nearest.Squared) + radius + piece.Bend;
+    Vector along = direction;
+    std::array<Vector, 3> taken;
+    int count = 0;
+    ForEachBit(boundaries,
+      [&](int axis)
+      {
+        Vector across = this->InWorld.AcrossAxis(axis);
+        for (int i = 0; i < count; ++i)
+        {
+          across = across - Dot(across, taken[i]) * taken[i];
+        }
+        taken[count] = Unit(across);
+        along = along - Dot(along, taken[count]) * taken[count];
+        ++count;
+      });
+    return Unit(along);
+  }
+
+  /** A piece against the triangle that is nearest to its middle; what is not near enough is cut. */
+  void CompareWithNearest(const ConvexPolygon& piece)
+  {
+    const Vector middle = piece.Middle();
+    const double radius = std::sqrt(piece.SquaredRadius(middle));
+    const Nearest nearest = this->FindNearest(middle, std::max(this->Known - radius, 0.0));
+    const double bound = std::sqrt(nearest.Squared) + radius;
     if ((bound <= this->Known || radius <= Precision / 2.0 * this->Known) &&
       this->IsAccepted(bound))
     {
-      return true;
+      return;
     }
-    double farthest = 0.0; // the distance to a triangle is convex
-    for (int i = 0; i < piece.Polygon.Count; ++i)
+    const Vector& farthest = FarthestCorner(piece, nearest.Triangle);
+    const double distance = std::sqrt(nearest.Triangle.Squared(farthest));
+    if (this->IsAccepted(distance)) // as distances to a triangle are convex
     {
-      farthest = std::max(farthest, nearest.Triangle.Squared(piece.Polygon.Corners[i]));
+      return;
     }
-    return this->IsAccepted(std::sqrt(farthest) + piece.Bend);
+    this->FindNearest(farthest, this->Known);
+    if (!this->IsAccepted(distance))
+    {
+      this->CutUp(piece, nearest.Triangle);
+    }
+  }
+
+  static const Vector& FarthestCorner(const ConvexPolygon& piece, const TriangleDistance& triangle)
+  {
+    return *std::max_element(piece.Corners.begin(), piece.Corners.begin() + piece.Count,
+      [&](const Vector& a, const Vector& b) { return triangle.Squared(a) < triangle.Squared(b); });
+  }
+
+  /** Cuts a piece into what lies over a triangle and what lies beyond its sides; in halves, if all
+   *  lies on one side but for slivers. */
+  void CutUp(const ConvexPolygon& piece, const TriangleDistance& triangle)
+  {
+    constexpr int many = 6;
+    if (piece.Count > many)
+    {
+      for (int i = 2; i < piece.Count; ++i)
+      {
+        this->Pieces.push_back({ 3, { piece.Corners[0], piece.Corners[i - 1], piece.Corners[i] } });
+      }
+      return;
+    }
+    const double sliver = Precision / 2.0 * this->Known;
+    for (int side = 0; side < 3; ++side)
+    {
+      const TriangleDistance::Wall wall = triangle.WallOf(side);
+      const Vector outward = Unit(wall.Outward);
+      const auto [least, greatest] = piece.Sides(wall.Point, outward);
+      if (least < -sliver && greatest > sliver)
+      {
+        this->CutAt(piece, wall.Point, outward);
+        return;
+      }
+    }
+    this->Halve(piece);
+  }
+
+  void CutAt(const ConvexPolygon& piece, const Vector& point, const Vector& normal)
+  {
+    for (const double side : { -1.0, 1.0 })
+    {
+      ConvexPolygon part;
+      KeepAbove(piece, point, side * normal, part);
+      if (!part.IsEmpty())
+      {
+        this->Pieces.push_back(part);
+      }
+    }
   }
 
   struct Nearest
@@ -324,16 +403,7 @@ private:
         }
       }
     }
-    std::array<ConvexPolygon, 2> halves;
-    KeepAbove(piece, middle, longest, halves[0]);
-    KeepAbove(piece, middle, -1.0 * longest, halves[1]);
-    for (const ConvexPolygon& half : halves)
-    {
-      if (!half.IsEmpty())
-      {
-        this->Pieces.push_back(half);
-      }
-    }
+    this->CutAt(piece, middle, longest);
   }
 
   const IsodiamondHierarchy& Hierarchy;

@@ -71,6 +71,20 @@ public:
   /** Not a number if there is none. */
   Vector UnitNormal() const { return std::sqrt(this->Inverse[3]) * this->Normal; }
 
+  /** The plane through one of the three sides that stands on the triangle, by a point and its
+   *  normal, which leads away from the triangle. What is between all three is over the triangle. */
+  struct Wall
+  {
+    Vector Point;
+    Vector Outward;
+  };
+  Wall WallOf(int side) const
+  {
+    return side == 0 ? Wall{ this->Corner, Cross(this->First, this->Normal) }
+      : side == 1    ? Wall{ this->Corner, Cross(this->Normal, this->Second) }
+                     : Wall{ this->Corner + this->First, Cross(this->Third, this->Normal) };
+  }
+
 private:
   /** @param inverse of the squared length; infinite if there is none */
   static double SquaredToSide(const Vector& p, const Vector& side, double inverse)
