@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
-#include <optional>
 
 using namespace isodiamond;
 
@@ -176,6 +176,41 @@ private:
 
 }
 
+// What the counts say of known shapes.
+TEST(Topology, IsCountedRight)
+{
+  test::Field torus;
+  torus.Dims = { 17, 17, 9 };
+  for (int i = 0; i < 17 * 17 * 9; ++i)
+  {
+    const double ring = std::hypot(i % 17 - 8.2, i / 17 % 17 - 8.1) - 5.0;
+    torus.Samples.push_back(static_cast<float>(std::hypot(ring, i / (17 * 17) - 4.1)));
+  }
+  const auto topologyOf = [&torus](const Isoregion& region)
+  {
+    const test::Built built(
+      BuildIsodiamonds(Model::Minimal, torus.View(), region, SerialFor), SerialFor);
+    return test::Topology(test::AnyMesh(*built.Hierarchy, Query{}));
+  };
+  using Pieces = test::PiecesTopology;
+  const test::Topology surface = topologyOf(2.0);
+  EXPECT_EQ(surface.Surfaces[0], (Pieces{ { 0, 0 } }));
+  const test::Topology solid = topologyOf({ -Infinity, 2.0 });
+  EXPECT_EQ(solid.Interval, (Pieces{ { 0, 1 } }));
+  EXPECT_EQ(solid.Surfaces[1], (Pieces{ { 0, 0 } }));
+  const test::Topology shell = topologyOf({ 1.0, 2.0 });
+  EXPECT_EQ(shell.Interval, (Pieces{ { 0, 2 } }));
+  std::vector<std::array<std::int32_t, 3>> disc;
+  for (const std::int32_t i : { 1, 2, 3, 4 })
+  {
+    disc.push_back({ 0, i, i % 4 + 1 });
+  }
+  EXPECT_EQ(test::TopologyOf(disc), (Pieces{ { 1, 1 } }));
+  disc.push_back({ 5, 6, 7 });
+  disc.erase(disc.begin());
+  EXPECT_EQ(test::TopologyOf(disc), (Pieces{ { 1, 1 }, { 1, 1 } }));
+}
+
 TEST(Topology, IsThatOfFullResolutionForRandomFieldsAndQueries)
 {
   int lost = 0;
@@ -188,4 +223,65 @@ TEST(Topology, IsThatOfFullResolutionForRandomFieldsAndQueries)
     });
   // Else the test could not fail.
   EXPECT_GE(lost, cases < 100 ? 0 : cases / 5);
+}
+
+namespace
+{
+
+/** A random landscape, a single sheet with hills and valleys beyond its coarse mesh. */
+test::Field RandomLandscape(test::Random& random)
+{
+  const double level = test::Uniform(random, 2.0, 6.0);
+  const double height = test::Uniform(random, 1.0, 4.0);
+  const double phase = test::Uniform(random, 0.0, 6.0);
+  const std::array<double, 2> frequency = { test::Uniform(random, 0.3, 1.5),
+    test::Uniform(random, 0.3, 1.5) };
+  test::Field field;
+  field.Dims = { 9, 9, 9 };
+  for (int z = 0; z < 9; ++z)
+  {
+    for (int y = 0; y < 9; ++y)
+    {
+      for (int x = 0; x < 9; ++x)
+      {
+        const double hill = std::sin(frequency[0] * x + phase) * std::sin(frequency[1] * y);
+        field.Samples.push_back(static_cast<float>(z - level - height * hill));
+      }
+    }
+  }
+  return field;
+}
+
+/** Whether a landscape less one hidden cell has one topology. @param hits is raised if the cell
+ *  holds some of it */
+void CheckHiddenCell(unsigned seed, int& hits)
+{
+  test::Random random(seed);
+  const test::Field field = RandomLandscape(random);
+  std::vector<std::uint8_t> hidden(8 * 8 * 8, 0);
+  hidden[random() % hidden.size()] = 1;
+  const HiddenCells cell(std::move(hidden), { 8, 8, 8 });
+  BuildOptions options;
+  options.PreserveTopology = true;
+  options.Hidden = &cell;
+  const test::Built built = test::Build(Model::Minimal, field, options);
+  const test::AnyMesh full(*built.Hierarchy, Query{});
+  const test::AnyMesh left = test::WithoutHidden(full, cell);
+  const test::AnyMesh coarse(*built.Hierarchy, Query{ Infinity });
+  EXPECT_EQ(test::Topology(test::WithoutHidden(coarse, cell)), test::Topology(left))
+    << "seed " << seed;
+  hits += left.CellCount() < full.CellCount() ? 1 : 0;
+}
+
+}
+
+// A hill that a coarse mesh leaves out may have its top cut off by a hidden cell.
+TEST(Topology, IsKeptAroundHiddenCells)
+{
+  int hits = 0;
+  for (unsigned seed = 0; seed < 400 && !HasFailure(); ++seed)
+  {
+    CheckHiddenCell(seed, hits);
+  }
+  EXPECT_GT(hits, 30);
 }

@@ -73,6 +73,7 @@ public:
   explicit Counter(const Simplices<CellCorners>& cells)
     : Cells(cells)
     , Vertices(SimplicesOf<1>(cells))
+    , Sides(SimplicesOf<CellCorners - 1>(cells))
     , PieceOf(this->Vertices.empty() ? 0 : this->Vertices.back()[0] + 1)
     , PartOf(this->Vertices.empty() ? 0 : this->Vertices.back()[0] + 1)
     , Pieces(this->Vertices.empty() ? 0 : this->Vertices.back()[0] + 1)
@@ -84,22 +85,22 @@ public:
         this->PieceOf.Join(corner, cell[0]);
       }
     }
+    this->Vertices.erase(
+      std::unique(this->Vertices.begin(), this->Vertices.end()), this->Vertices.end());
   }
 
   PiecesTopology Count()
   {
     this->Add(this->Vertices);
-    this->Add(SimplicesOf<2>(this->Cells));
-    this->Add(SimplicesOf<3>(this->Cells));
     if constexpr (CellCorners == 4)
     {
-      this->Add(SimplicesOf<4>(this->Cells));
+      this->Add(SimplicesOf<2>(this->Cells));
     }
+    this->Add(this->Sides);
+    this->Add(this->Cells);
     this->CountBoundaryParts();
     PiecesTopology pieces;
-    Simplices<1> vertices = this->Vertices;
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    for (const auto& [vertex] : vertices)
+    for (const auto& [vertex] : this->Vertices)
     {
       if (this->PieceOf.Of(vertex) == vertex)
       {
@@ -124,7 +125,7 @@ private:
 
   void CountBoundaryParts()
   {
-    const Simplices<CellCorners - 1> sides = SimplicesOf<CellCorners - 1>(this->Cells);
+    const Simplices<CellCorners - 1>& sides = this->Sides;
     std::vector<std::int32_t> onBoundary;
     for (std::size_t i = 0; i < sides.size(); ++i)
     {
@@ -150,6 +151,7 @@ private:
 
   const Simplices<CellCorners>& Cells;
   Simplices<1> Vertices;
+  Simplices<CellCorners - 1> Sides; ///< as often as there are cells with them
   Groups PieceOf;
   Groups PartOf;
   PiecesTopology Pieces; ///< by vertex; of a piece at the one that stands for it
