@@ -95,7 +95,7 @@ bool IsBoundary(const Volume& volume, const Face& face, const std::array<int, 3>
 
 std::vector<Face> SurfaceFaces(const Volume& volume, int surface)
 {
-  std::map<Face, int> faces;
+  std::vector<Face> faces;
   for (const std::array<std::int32_t, 4>& t : volume.Tetrahedra)
   {
     for (Face face : { Face{ t[1], t[2], t[3] }, Face{ t[0], t[3], t[2] }, Face{ t[0], t[1], t[3] },
@@ -105,16 +105,19 @@ std::vector<Face> SurfaceFaces(const Volume& volume, int surface)
             [&](std::int32_t point) { return volume.Surfaces[point] == surface; }))
       {
         std::sort(face.begin(), face.end());
-        ++faces[face];
+        faces.push_back(face);
       }
     }
   }
+  std::sort(faces.begin(), faces.end());
   std::vector<Face> alone;
-  for (const auto& [face, count] : faces)
+  for (std::size_t i = 0; i < faces.size(); ++i)
   {
-    if (count == 1)
+    const bool isShared =
+      (i > 0 && faces[i - 1] == faces[i]) || (i + 1 < faces.size() && faces[i + 1] == faces[i]);
+    if (!isShared)
     {
-      alone.push_back(face);
+      alone.push_back(faces[i]);
     }
   }
   return alone;
