@@ -20,7 +20,7 @@ struct BuildOptions
   /** With the distance metric, whether every feature is kept at any tolerance. */
   bool PreserveFeatures = true;
   /** Whether the mesh of every tolerance is homeomorphic to that of full resolution: critical
-   *  diamonds are always subdivided; DiamondSigns.h. */
+   *  diamonds are always subdivided; CriticalDiamonds.h. */
   bool PreserveTopology = false;
   /** Solids and cavities of fewer connected samples are removed before all else; SmallPieces.h.
    *  Not from an HD: it holds samples, and its errors are theirs. 0 keeps all. */
