@@ -29,7 +29,8 @@ namespace isodiamond
  * triangles need a look for that. What it does not hold for is measured at the place that is in the
  * way, and if that does not help cut, until the nearest triangles tell.
  *
- * The result is the greatest distance but for a part of 1/8 at most, never less.
+ * The result is the greatest distance, but for a part of 1/8 at most unless cells are extremely
+ * uneven; never less.
  */
 template <typename Lengths>
 class WayBack
@@ -53,6 +54,7 @@ public:
   {
     this->Known = std::max(error, this->Least);
     this->Bound = 0.0;
+    this->Left = MostLooks;
     this->Neighbourhood.ForEachTetrahedron(diamond, true,
       [&](int /*number*/, const HalfPlace& tetrahedron) { this->MeasureFrom(tetrahedron); });
     return std::max(error, this->Bound);
@@ -60,6 +62,9 @@ public:
 
 private:
   static constexpr double Precision = 1.0 / 8.0;
+  /** How often pieces of one diamond are compared with what is nearest before bounds are taken as
+   *  they are. Few diamonds need so many: where cells are a million times longer than wide. */
+  static constexpr int MostLooks = 500;
 
   Vector Corner(const HalfPlace& tetrahedron, int edge) const
   {
@@ -274,6 +279,11 @@ private:
     }
     const Vector& farthest = FarthestCorner(piece, nearest.Triangle);
     const double distance = std::sqrt(nearest.Triangle.Squared(farthest));
+    if (--this->Left < 0)
+    {
+      this->Bound = std::max(this->Bound, std::min(bound, distance));
+      return;
+    }
     if (this->IsAccepted(distance)) // as distances to a triangle are convex
     {
       return;
@@ -338,12 +348,27 @@ private:
     TriangleDistance Triangle;
   };
 
+  /** How far other cells are, about. */
+  double StepAt(const Vector& point) const
+  {
+    if constexpr (Lengths::IsLinear)
+    {
+      return this->InWorld.TypicalStep();
+    }
+    else
+    {
+      const Point cell = CellsIn(this->InWorld.IndexBox(point, 0.0), this->Fine.Whole()).Low;
+      const Vector size = this->InWorld.Between(cell, cell + Point{ 1, 1, 1 });
+      return std::min({ std::abs(size[0]), std::abs(size[1]), std::abs(size[2]) });
+    }
+  }
+
   /** The nearest triangle of the surface, or some that is near enough: what is known rises to its
    *  distance. */
   Nearest FindNearest(const Vector& point, double enough)
   {
     Nearest nearest;
-    double radius = 0.5 * this->InWorld.TypicalStep();
+    double radius = 0.5 * this->StepAt(point);
     CellBox done;
     bool isWhole = false;
     while (nearest.Squared > std::max(enough * enough, radius * radius / 4.0) && !isWhole)
@@ -415,6 +440,7 @@ private:
   double Least;       ///< what is less is no error
   double Known = 0.0; ///< the error is not less: that so far, or a distance that was found
   double Bound = 0.0; ///< nothing that was looked at is farther
+  int Left = 0;       ///< how many more looks are worth it
   std::vector<ConvexPolygon> Pieces;
 };
 
