@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What must hold for any samples, regions and queries, on random ones. The seed is printed; with
 // ISODIAMONDS_SEED the same cases come again, ISODIAMONDS_CASES is how many.
-#include "IntervalTestTools.h"
+#include "DistanceTestTools.h"
 #include "Refinement/ScalarQuery.h"
 
 #include <gtest/gtest.h>
@@ -225,13 +225,20 @@ double RandomTolerance(Random& random, double scale)
   }
 }
 
-Query RandomQuery(Random& random, const IsodiamondHierarchy& hierarchy)
+/** A query, and the box that its region is, if it has one. */
+struct BoxedQuery : Query
 {
-  Query query{ RandomTolerance(random, hierarchy.Codes().Scale()),
-    RandomTolerance(random, hierarchy.InteriorCodes().Scale()) };
+  Box Inside;
+};
+
+BoxedQuery RandomQuery(Random& random, const IsodiamondHierarchy& hierarchy)
+{
+  BoxedQuery query;
+  query.Tolerance = RandomTolerance(random, hierarchy.Codes().Scale());
+  query.InteriorTolerance = RandomTolerance(random, hierarchy.InteriorCodes().Scale());
   if (Pick(random, 2) == 0)
   {
-    Box box;
+    Box& box = query.Inside;
     for (int axis = 0; axis < 3; ++axis)
     {
       const double a = Uniform(random, -2.0, hierarchy.SampleGrid().Last(axis) + 2.0);
@@ -302,7 +309,7 @@ public:
     EXPECT_EQ(threaded.Encoding.Arrays.Records, this->Minimal.Encoding.Arrays.Records);
     EXPECT_EQ(threaded.Encoding.Arrays.Isovertices, this->Minimal.Encoding.Arrays.Isovertices);
     EXPECT_EQ(threaded.Encoding.Arrays.InteriorCodes, this->Minimal.Encoding.Arrays.InteriorCodes);
-    this->CheckQuery(Query{});
+    this->CheckQuery({});
     for (int i = 0; i < 3; ++i)
     {
       this->CheckQuery(RandomQuery(this->Numbers, *this->Minimal.Hierarchy));
@@ -326,12 +333,50 @@ public:
 
 private:
   /** Conforming, and the same by two models and with threads. */
-  void CheckQuery(const Query& query)
+  void CheckQuery(const BoxedQuery& query)
   {
     const AnyMesh mesh(*this->Minimal.Hierarchy, query);
     EXPECT_EQ(mesh.Fault(this->Field.Dimensions), "") << "tolerance " << query.Tolerance;
     EXPECT_TRUE(mesh == AnyMesh(*this->Minimal.Hierarchy, query, this->Threads));
     EXPECT_TRUE(mesh.IsSameInAnyOrder(AnyMesh(*this->Relevant.Hierarchy, query)));
+    if (this->Options.Metric == ErrorMetric::Distance)
+    {
+      this->CheckDistances(query, mesh);
+    }
+  }
+
+  /** No point of the mesh is farther from full resolution than the tolerance, and no vertex of that
+   *  from the mesh; the former also where features vanish. Looks at some, or all if few. */
+  void CheckDistances(const BoxedQuery& query, const AnyMesh& mesh) const
+  {
+    const AnyMesh full(*this->Minimal.Hierarchy, Query{});
+    for (const int surface : { -1, 1 })
+    {
+      const test::SurfaceTriangles expected = this->TrianglesOf(full, surface);
+      const test::SurfaceTriangles found = this->TrianglesOf(mesh, surface);
+      test::Promise promise;
+      promise.Forth = this->Options.PreserveFeatures;
+      promise.MostSamples = 5000;
+      promise.Tolerance = query.Tolerance;
+      if (query.Region)
+      {
+        promise.Within = test::Placed(query.Inside, this->Options.World);
+      }
+      EXPECT_EQ(FaultOf(promise, expected, found), "") << "surface " << surface;
+      if (query.Region)
+      {
+        promise.Within = test::Promise().Within;
+        promise.Tolerance = std::max(query.Tolerance, query.OutsideTolerance);
+        EXPECT_EQ(FaultOf(promise, expected, found), "") << "outside, surface " << surface;
+      }
+    }
+  }
+
+  /** In the world. */
+  test::SurfaceTriangles TrianglesOf(const AnyMesh& mesh, int surface) const
+  {
+    return this->Region.IsVolume() ? test::Placed(mesh.Volume, surface, this->Options.World)
+                                   : test::Placed(mesh.Surface, this->Options.World);
   }
 
   /** The HD gives the same, of errors in the field. */
@@ -345,7 +390,7 @@ private:
     this->Options.RefineInterior = true;
     const test::Built minimal(
       BuildIsodiamonds(Model::Minimal, scalars, this->Region, SerialFor, this->Options), SerialFor);
-    const Query query = RandomQuery(this->Numbers, *minimal.Hierarchy);
+    const BoxedQuery query = RandomQuery(this->Numbers, *minimal.Hierarchy);
     const test::Built answer(
       EncodeQuery(scalars, this->Region, query, this->Options.ExactIsovertices, SerialFor),
       SerialFor);
