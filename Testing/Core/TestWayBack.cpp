@@ -243,8 +243,7 @@ std::vector<test::Field> Fields()
   return { test::NoiseField({ 9, 9, 9 }, 61), test::SphereField({ 17, 17, 17 }),
     test::SparseField({ 17, 17, 17 }, 62), test::WaveField({ 10, 6, 13 }),
     test::BrokenField({ 9, 10, 8 }, 63), test::SphereField({ 12, 17, 9 }),
-    test::NoiseField({ 11, 2, 6 }, 64), test::SphereField({ 2, 17, 3 }),
-    test::WaveField({ 17, 14, 11 }) };
+    test::NoiseField({ 11, 2, 6 }, 64), test::SphereField({ 2, 17, 3 }) };
 }
 
 }
@@ -343,7 +342,7 @@ TEST(WayBack, LooksForNothingInHiddenCells)
 {
   Seen seen;
   std::vector<test::Field> fields = Fields();
-  fields.push_back(test::WaveField({ 33, 20, 17 }));
+  fields.push_back(test::WaveField({ 17, 14, 11 }));
   for (const test::Field& field : fields)
   {
     SCOPED_TRACE(field.Name);
