@@ -2,14 +2,12 @@
 // The distance metric: errors against the reference's definition, the promise on whole meshes. More
 // meshes, in worlds and of real data, are checked with VTK in Testing/Filters/TestDistance.cpp.
 #include "DistanceError/DistanceError.h"
-#include "IntervalTestTools.h"
+#include "DistanceTestTools.h"
 #include "Mesh/CurrentMesh.h"
 #include "Patches/PatchBound.h"
 #include "Patches/PatchDistance.h"
 #include "Patches/SurfacePatch.h"
 #include "Patches/WorldLengths.h"
-
-#include "ReferenceDistance.h"
 
 #include <gtest/gtest.h>
 
@@ -23,13 +21,6 @@ namespace
 {
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
-
-AffineMap Spacing(double x, double y, double z)
-{
-  AffineMap world;
-  world.Rows = { { { x, 0, 0, 5 }, { 0, y, 0, -3 }, { 0, 0, z, 1 } } };
-  return world;
-}
 
 /** A rotation about (1, 1, 1) after a spacing: lengths are the spacing's. */
 AffineMap Rotated(const AffineMap& world)
@@ -58,27 +49,6 @@ std::vector<test::Field> Fields()
     test::BrokenField({ 9, 10, 8 }, 63), test::SphereField({ 12, 17, 9 }) };
 }
 
-/** Cells that grow on one axis, fall on another, and have all sizes on the third: of the largest
- *  ratio of their lengths that is given. Multiples of a power of 2, so that little is rounded. */
-AxisCoordinates UnevenCoordinates(const std::array<int, 3>& dims, double ratio)
-{
-  AxisCoordinates coordinates;
-  std::mt19937 random(dims[0] + 100 * dims[1]);
-  std::uniform_real_distribution<double> part(0.0, 1.0);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    double at = axis == 0 ? 5.0 : -40.0;
-    for (int i = 0; i < dims[axis]; ++i)
-    {
-      coordinates[axis].push_back(at);
-      const double power = axis == 2 ? part(random) : i / (dims[axis] - 1.0);
-      const double step = std::round(1024.0 * 0.25 * std::pow(ratio, power)) / 1024.0;
-      at += axis == 1 ? -step : step;
-    }
-  }
-  return coordinates;
-}
-
 AxisCoordinates EvenCoordinates(const std::array<int, 3>& dims, const AffineMap& world)
 {
   AxisCoordinates coordinates;
@@ -92,37 +62,10 @@ AxisCoordinates EvenCoordinates(const std::array<int, 3>& dims, const AffineMap&
   return coordinates;
 }
 
-using Positions = std::vector<std::array<double, 3>>;
-
-/** Largest distance of points of a surface to triangles of another, all placed in the world. */
-template <typename Triangle>
-double LargestDistance(
-  const Positions& points, const Positions& corners, const std::vector<Triangle>& mesh)
+/** A spacing, and uneven axes. */
+std::vector<GridGeometry> WorldsFor(const std::array<int, 3>& dims)
 {
-  std::vector<reference::SurfaceTriangle> triangles;
-  triangles.reserve(mesh.size());
-  for (const Triangle& t : mesh)
-  {
-    triangles.push_back({ { corners[t[0]], corners[t[1]], corners[t[2]] } });
-  }
-  double largest = 0.0;
-  for (const std::array<double, 3>& p : points)
-  {
-    largest = std::max(largest, reference::Distance(p, triangles, { 1.0, 1.0, 1.0 }));
-  }
-  return largest;
-}
-
-/** Points of index space in the world. */
-template <typename Points>
-Positions Placed(const Points& points, const AxisCoordinates& world)
-{
-  Positions placed;
-  for (const auto& p : points)
-  {
-    placed.push_back(reference::PlaceByCoordinates({ p[0], p[1], p[2] }, world));
-  }
-  return placed;
+  return { test::Spacing(0.5, 2.0, 1.25), GridGeometry(test::UnevenCoordinates(dims, 20.0)) };
 }
 
 /** Counts the finite and the infinite errors of all diamonds, which are to be the reference's.
@@ -173,7 +116,8 @@ TEST(DistanceError, IsTheReferencesForEveryDiamond)
   {
     for (const std::array<double, 3>& spacing : spacings)
     {
-      ExpectReferencesErrors(field, Spacing(spacing[0], spacing[1], spacing[2]), spacing, seen);
+      ExpectReferencesErrors(
+        field, test::Spacing(spacing[0], spacing[1], spacing[2]), spacing, seen);
     }
   }
   EXPECT_GT(seen[true], 1000);
@@ -187,7 +131,7 @@ TEST(DistanceError, IsTheReferencesAlongUnevenAxes)
   {
     for (const double ratio : { 4.0, 100.0 })
     {
-      const AxisCoordinates axes = UnevenCoordinates(field.Dims, ratio);
+      const AxisCoordinates axes = test::UnevenCoordinates(field.Dims, ratio);
       ExpectReferencesErrors(field, GridGeometry(axes), axes, seen);
     }
   }
@@ -197,7 +141,7 @@ TEST(DistanceError, IsTheReferencesAlongUnevenAxes)
 
 TEST(DistanceError, IsThatOfTheMapAlongEvenAxes)
 {
-  const AffineMap world = Spacing(0.5, -2.0, 1.25); // sums of these are exact
+  const AffineMap world = test::Spacing(0.5, -2.0, 1.25); // sums of these are exact
   for (const test::Field& field : Fields())
   {
     SCOPED_TRACE(field.Name);
@@ -221,7 +165,7 @@ TEST(DistanceError, IsThatOfTheMapAlongEvenAxes)
 TEST(DistanceError, GoesOnInPaddingAsInTheOutermostCells)
 {
   const test::Field field = test::WaveField({ 12, 10, 13 });
-  const AxisCoordinates inner = UnevenCoordinates({ 10, 8, 11 }, 10.0);
+  const AxisCoordinates inner = test::UnevenCoordinates({ 10, 8, 11 }, 10.0);
   AxisCoordinates padded = inner;
   for (std::vector<double>& axis : padded)
   {
@@ -245,67 +189,112 @@ TEST(DistanceError, IsAPromise)
   for (const test::Field& field : Fields())
   {
     SCOPED_TRACE(field.Name);
-    const AxisCoordinates even = EvenCoordinates(field.Dims, Spacing(0.5, 2.0, 1.25));
-    const AxisCoordinates uneven = UnevenCoordinates(field.Dims, 20.0);
-    const std::array<std::pair<GridGeometry, AxisCoordinates>, 2> worlds = {
-      { { Spacing(0.5, 2.0, 1.25), even }, { GridGeometry(uneven), uneven } }
-    };
-    for (const auto& [world, axes] : worlds)
+    for (const GridGeometry& world : WorldsFor(field.Dims))
     {
       const test::Built built = test::Build(Model::Minimal, field, test::Distance(world));
-      const Positions full = Placed(test::Extract(*built.Hierarchy, 0.0).Points, axes);
+      const test::SurfaceTriangles full = test::Placed(test::Extract(*built.Hierarchy, 0.0), world);
       ASSERT_FALSE(full.empty());
-      for (const double tolerance : { 0.1, 0.25, 0.5, 1.0, 2.0, 1000.0 })
+      for (const double tolerance : { 0.004, 0.1, 0.25, 0.5, 1.0, 2.0, 1000.0 })
       {
-        const test::Mesh mesh = test::Extract(*built.Hierarchy, tolerance);
-        EXPECT_LE(
-          LargestDistance(full, Placed(mesh.Points, axes), mesh.Triangles), tolerance * (1 + 1e-9));
+        test::Promise promise;
+        promise.Tolerance = tolerance;
+        EXPECT_EQ(
+          FaultOf(promise, full, test::Placed(test::Extract(*built.Hierarchy, tolerance), world)),
+          "");
       }
     }
   }
 }
 
-TEST(DistanceError, IsAPromiseOfBothSurfacesAlongUnevenAxes)
+TEST(DistanceError, IsAPromiseWithinRegionsOfInterest)
+{
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    Box box{ { 1.5, 2.0, 2.25 }, { 5.0, 4.5, 6.5 } };
+    for (const GridGeometry& world : WorldsFor(field.Dims))
+    {
+      const test::Built built = test::Build(Model::Minimal, field, test::Distance(world));
+      const test::SurfaceTriangles full = test::Placed(test::Extract(*built.Hierarchy, 0.0), world);
+      for (const double tolerance : { 0.1, 0.4, 1.0 })
+      {
+        Query query{ tolerance };
+        query.Region.emplace(box, built.Hierarchy->SampleGrid(), AffineMap());
+        query.OutsideTolerance = 8.0 * tolerance;
+        const test::SurfaceTriangles mesh =
+          test::Placed(test::Extract(*built.Hierarchy, query), world);
+        test::Promise promise;
+        promise.Tolerance = query.OutsideTolerance;
+        EXPECT_EQ(FaultOf(promise, full, mesh), "");
+        promise.Tolerance = tolerance;
+        promise.Within = test::Placed(box, world);
+        EXPECT_EQ(FaultOf(promise, full, mesh), "");
+      }
+    }
+  }
+}
+
+// The way back holds for features that vanish, too: what is left of the mesh is near to something.
+TEST(DistanceError, IsAPromiseOfTheWayBackWithoutFeatures)
+{
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    for (const GridGeometry& world : WorldsFor(field.Dims))
+    {
+      BuildOptions options = test::Distance(world);
+      options.PreserveFeatures = false;
+      const test::Built built = test::Build(Model::Minimal, field, options);
+      const test::SurfaceTriangles full = test::Placed(test::Extract(*built.Hierarchy, 0.0), world);
+      for (const double tolerance : { 0.25, 1.0, 4.0 })
+      {
+        test::Promise promise;
+        promise.Tolerance = tolerance;
+        promise.Forth = false;
+        EXPECT_EQ(
+          FaultOf(promise, full, test::Placed(test::Extract(*built.Hierarchy, tolerance), world)),
+          "");
+      }
+    }
+  }
+}
+
+TEST(DistanceError, IsAPromiseOfBothSurfaces)
 {
   for (const test::Field& field : { test::SphereField({ 17, 17, 17 }),
          test::WaveField({ 14, 11, 13 }), test::NoiseField({ 9, 9, 9 }, 61) })
   {
     SCOPED_TRACE(field.Name);
-    const AxisCoordinates axes = UnevenCoordinates(field.Dims, 20.0);
-    const test::Built built(
-      BuildIsodiamonds(Model::Minimal, field.View(), test::RegionOf(test::RangesOf(field)[0]),
-        SerialFor, test::Distance(GridGeometry(axes))),
-      SerialFor);
-    const test::Volume full = test::ExtractVolume(*built.Hierarchy, 0.0);
-    std::size_t fewest = full.Tetrahedra.size();
-    for (const double tolerance : { 0.25, 1.0, 4.0 })
+    for (const GridGeometry& world : WorldsFor(field.Dims))
     {
-      const test::Volume volume = test::ExtractVolume(*built.Hierarchy, tolerance);
-      fewest = std::min(fewest, volume.Tetrahedra.size());
-      for (const int surface : { -1, 1 })
+      const test::Built built(
+        BuildIsodiamonds(Model::Minimal, field.View(), test::RegionOf(test::RangesOf(field)[0]),
+          SerialFor, test::Distance(world)),
+        SerialFor);
+      const test::Volume full = test::ExtractVolume(*built.Hierarchy, 0.0);
+      std::size_t fewest = full.Tetrahedra.size();
+      for (const double tolerance : { 0.1, 0.25, 1.0, 4.0, 1000.0 })
       {
-        std::vector<std::array<double, 3>> points;
-        for (std::size_t i = 0; i < full.Points.size(); ++i)
+        const test::Volume volume = test::ExtractVolume(*built.Hierarchy, tolerance);
+        fewest = std::min(fewest, volume.Tetrahedra.size());
+        for (const int surface : { -1, 1 })
         {
-          if (full.Surfaces[i] == surface)
-          {
-            points.push_back(full.Points[i]);
-          }
+          const test::SurfaceTriangles all = test::Placed(full, surface, world);
+          ASSERT_GT(all.size(), 20U);
+          test::Promise promise;
+          promise.Tolerance = tolerance;
+          EXPECT_EQ(FaultOf(promise, all, test::Placed(volume, surface, world)), "");
         }
-        ASSERT_GT(points.size(), 20U);
-        EXPECT_LE(LargestDistance(Placed(points, axes), Placed(volume.Points, axes),
-                    test::SurfaceFaces(volume, surface)),
-          tolerance * (1 + 1e-9));
       }
+      EXPECT_LT(fewest, full.Tetrahedra.size());
     }
-    EXPECT_LT(fewest, full.Tetrahedra.size());
   }
 }
 
 TEST(DistanceError, MeasuresLengthsWhateverTheOrientation)
 {
   const test::Field field = test::WaveField({ 17, 14, 11 });
-  const AffineMap world = Spacing(0.5, 2.0, 1.25);
+  const AffineMap world = test::Spacing(0.5, 2.0, 1.25);
   const test::Built relevant = test::Build(Model::Relevant, field);
   const auto errors = [&](const AffineMap& map)
   { return DistanceErrors(*relevant.Hierarchy, field.View(), map, true, SerialFor); };
@@ -324,8 +313,8 @@ TEST(DistanceError, MeasuresLengthsWhateverTheOrientation)
 TEST(DistanceError, DoesNotDependOnThreadsOrOnTheSource)
 {
   const test::Field field = test::NoiseField({ 33, 20, 27 }, 8);
-  for (const GridGeometry& world :
-    { GridGeometry(Spacing(1.0, 0.7, 1.5)), GridGeometry(UnevenCoordinates(field.Dims, 1e6)) })
+  for (const GridGeometry& world : { GridGeometry(test::Spacing(1.0, 0.7, 1.5)),
+         GridGeometry(test::UnevenCoordinates(field.Dims, 1e6)) })
   {
     const BuildOptions options = test::Distance(world);
     const Encoding expected =
@@ -393,9 +382,9 @@ TEST(DistanceError, SubdividesAroundValuesThatAreNotFinite)
 TEST(DistanceError, RefusesWorldsWithoutLengths)
 {
   const Grid grid({ 5, 5, 5 });
-  EXPECT_THROW(DistanceErrorScale(grid, Spacing(1.0, 0.0, 1.0)), std::invalid_argument);
-  EXPECT_THROW(DistanceErrorScale(grid, Spacing(1.0, Infinity, 1.0)), std::invalid_argument);
-  EXPECT_GT(DistanceErrorScale(grid, Spacing(1e-110, 1e-110, 1e-110)), 0.0);
+  EXPECT_THROW(DistanceErrorScale(grid, test::Spacing(1.0, 0.0, 1.0)), std::invalid_argument);
+  EXPECT_THROW(DistanceErrorScale(grid, test::Spacing(1.0, Infinity, 1.0)), std::invalid_argument);
+  EXPECT_GT(DistanceErrorScale(grid, test::Spacing(1e-110, 1e-110, 1e-110)), 0.0);
   AffineMap flat; // y and z lie in one direction
   flat.Rows = { { { 1, 0, 0, 0 }, { 0, 1, 2, 0 }, { 0, 0, 0, 0 } } };
   EXPECT_THROW(DistanceErrorScale(grid, flat), std::invalid_argument);
@@ -488,7 +477,7 @@ TEST(DistanceError, KeepsIntervalVolumesFitForASolver)
     {
       for (const bool refineInterior : { false, true })
       {
-        BuildOptions options = test::Distance(Spacing(1.0, 0.5, 2.0));
+        BuildOptions options = test::Distance(test::Spacing(1.0, 0.5, 2.0));
         options.RefineInterior = refineInterior;
         const Isoregion region = test::RegionOf(range);
         const test::Built relevant(

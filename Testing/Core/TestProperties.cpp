@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What must hold for any samples, regions and queries, on random ones. The seed is printed; with
 // ISODIAMONDS_SEED the same cases come again, ISODIAMONDS_CASES is how many.
+#include "DistanceTestTools.h"
 #include "Refinement/ScalarQuery.h"
 #include "TopologyTestTools.h"
 
@@ -66,6 +67,35 @@ private:
       EXPECT_EQ(topology, this->First.value_or(topology)) << "tolerance " << query.Tolerance;
       this->First = topology;
     }
+    if (this->Options.Metric == ErrorMetric::Distance && !query.View)
+    {
+      this->CheckDistances(query, mesh);
+    }
+  }
+
+  /** No point of the mesh is farther from full resolution than the tolerance, and no vertex of that
+   *  from the mesh; the former also where features vanish. Looks at some, or all if few. */
+  void CheckDistances(const Query& query, const test::AnyMesh& mesh) const
+  {
+    const test::AnyMesh full(*this->Minimal.Hierarchy, Query{});
+    test::Promise promise;
+    promise.Forth = this->Options.PreserveFeatures;
+    promise.MostSamples = 5000;
+    promise.Tolerance =
+      query.Region ? std::max(query.Tolerance, query.OutsideTolerance) : query.Tolerance;
+    for (const int surface : { -1, 1 })
+    {
+      EXPECT_EQ(
+        FaultOf(promise, this->TrianglesOf(full, surface), this->TrianglesOf(mesh, surface)), "")
+        << "surface " << surface;
+    }
+  }
+
+  /** In the world. */
+  test::SurfaceTriangles TrianglesOf(const test::AnyMesh& mesh, int surface) const
+  {
+    return this->Region.IsVolume() ? test::Placed(mesh.Volume, surface, this->Options.World)
+                                   : test::Placed(mesh.Surface, this->Options.World);
   }
 
   /** The HD gives the same, of errors in the field. */

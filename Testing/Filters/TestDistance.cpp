@@ -12,6 +12,7 @@
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondExtractor.h"
 #include "vtkIsodiamondIntervalVolume.h"
+#include "vtkMath.h"
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -74,6 +75,56 @@ double Rounding(vtkDataSet* data)
   return 4e-7 * largest;
 }
 
+/** Points of triangles, no more than a step apart; farther, and of some triangles only, where
+ *  there were too many. */
+vtkSmartPointer<vtkPolyData> SamplesOf(vtkPolyData* mesh, double step)
+{
+  constexpr double most = 6000.0;
+  const double area = test::Area(mesh);
+  const double apart = std::max(step, std::sqrt(2.0 * area / most));
+  const vtkIdType stride = 1 + static_cast<vtkIdType>(3 * mesh->GetNumberOfCells() / most);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); cell += stride)
+  {
+    const vtkIdType* corners = nullptr;
+    vtkIdType count = 0;
+    mesh->GetCellPoints(cell, count, corners);
+    double p[3][3];
+    double longest = 0.0;
+    for (int i = 0; i < 3; ++i)
+    {
+      mesh->GetPoint(corners[i], p[i]);
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      longest = std::max(longest, std::sqrt(vtkMath::Distance2BetweenPoints(p[i], p[(i + 1) % 3])));
+    }
+    const int parts = std::max(1, static_cast<int>(std::ceil(longest / apart)));
+    for (int i = 0; i <= parts; ++i)
+    {
+      for (int j = 0; j <= parts - i; ++j)
+      {
+        double at[3];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          at[axis] = ((parts - i - j) * p[0][axis] + i * p[1][axis] + j * p[2][axis]) / parts;
+        }
+        points->InsertNextPoint(at);
+      }
+    }
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  return result;
+}
+
+/** That of the way back: no point of a mesh is farther from full resolution. */
+double DeviationBack(vtkPolyData* mesh, vtkPolyData* full, double voxel)
+{
+  return DeviationOf(SamplesOf(mesh, voxel / 8.0), full).Largest;
+}
+
 /** @param grid an image or a rectilinear grid @param voxel a length that is its cells' */
 void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, bool close = false)
 {
@@ -96,6 +147,8 @@ void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, boo
     previous = contour->GetOutput()->GetNumberOfCells();
     EXPECT_LE(DeviationOf(full, contour->GetOutput()).Largest, tolerance + Rounding(full))
       << "tolerance " << inVoxels << " voxels";
+    EXPECT_LE(DeviationBack(contour->GetOutput(), full, voxel), tolerance + Rounding(full))
+      << "back, tolerance " << inVoxels << " voxels";
   }
   EXPECT_LT(previous, full->GetNumberOfCells());
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
@@ -238,6 +291,37 @@ TEST(Distance, IsAPromiseOnUnevenGrids)
     test::Rectilinear(test::PhantomImage({ 42, 42, 42 }, 5.0), test::UnevenPlace), 50.0, 1.0);
 }
 
+TEST(Distance, IsAPromiseOfClosedBoundaries)
+{
+  const auto image = test::MakeImage({ 40, 33, 45 },
+    [](double x, double y, double z)
+    { return std::sin(0.3 * x) * std::cos(0.2 * y) + std::sin(0.25 * z + 0.1 * y); });
+  ExpectPromiseOfContour(image, 0.1, 1.0, true);
+  image->SetSpacing(0.4, 0.9, 2.5);
+  ExpectPromiseOfContour(image, 0.1, 0.9, true);
+}
+
+// Where ISODIAMONDS_LONG is set, of 129 samples on each axis too.
+TEST(Distance, IsAPromiseOnNoisyWaves)
+{
+  std::vector<int> sizes = { 33, 65 };
+  if (std::getenv("ISODIAMONDS_LONG") != nullptr)
+  {
+    sizes.push_back(129);
+  }
+  for (const int size : sizes)
+  {
+    std::mt19937 random(size);
+    std::uniform_real_distribution<double> noise(-0.35, 0.35);
+    ExpectPromiseOfContour(test::MakeImage({ size, size, size },
+                             [&](double x, double y, double z) {
+                               return std::sin(0.3 * x) + std::sin(0.21 * y + 0.1 * x) +
+                                 std::cos(0.17 * z) + noise(random);
+                             }),
+      0.2, 1.0);
+  }
+}
+
 TEST(Distance, IsAPromiseOnSampleVolumes)
 {
   const auto tooth = SampleVolume("tooth_103x94x161_uint8.raw", { 103, 94, 161 });
@@ -279,8 +363,9 @@ TEST(Distance, IsAPromiseOnBothSurfacesOfIntervalVolumes)
       {
         const auto points = PointsOn(full, surface);
         ASSERT_GT(points->GetNumberOfPoints(), 100);
-        EXPECT_LE(DeviationOf(points, SurfaceOf(volume->GetOutput(), surface)).Largest,
-          tolerance + Rounding(full));
+        const auto mesh = SurfaceOf(volume->GetOutput(), surface);
+        EXPECT_LE(DeviationOf(points, mesh).Largest, tolerance + Rounding(full));
+        EXPECT_LE(DeviationBack(mesh, SurfaceOf(full, surface), 1.0), tolerance + Rounding(full));
       }
     }
   }
