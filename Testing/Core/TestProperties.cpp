@@ -94,7 +94,7 @@ private:
   /** In the world. */
   test::SurfaceTriangles TrianglesOf(const test::AnyMesh& mesh, int surface) const
   {
-    return this->Region.IsVolume() ? test::Placed(mesh.Volume, surface, this->Options.World)
+    return this->Region.IsVolume() ? test::Placed(mesh.Interval, surface, this->Options.World)
                                    : test::Placed(mesh.Surface, this->Options.World);
   }
 
