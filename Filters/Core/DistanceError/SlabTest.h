@@ -98,7 +98,7 @@ public:
   {
     const CellBox whole = fine.Whole();
     const std::array<Vector, 2> box = this->IndexBox(whole);
-    if (this->LeavesGrid != 0 || fine.AnyHidden(CellsIn(box, whole)))
+    if (this->Leaves || fine.AnyHidden(CellsIn(box, whole)))
     {
       return;
     }
@@ -131,8 +131,8 @@ public:
   /** How far from the piece the surface is, where it passes between. */
   double Greatest() const { return this->Found; }
 
-  /** The axes along which the copies leave the grid, a mask. */
-  std::uint32_t Leaves() const { return this->LeavesGrid; }
+  /** Whether the copies leave the grid. */
+  bool LeavesGrid() const { return this->Leaves; }
 
   /** If not, a place of the piece where it is not. */
   const Vector& InTheWay() const { return this->Way; }
@@ -153,9 +153,7 @@ private:
         {
           all[0][axis] = std::min(all[0][axis], index[axis]);
           all[1][axis] = std::max(all[1][axis], index[axis]);
-          constexpr double rounding = 1e-9;
-          const bool leaves = index[axis] < -rounding || index[axis] > whole.High[axis] + rounding;
-          this->LeavesGrid |= (leaves ? 1U : 0U) << axis;
+          this->Leaves = this->Leaves || index[axis] < 0.0 || index[axis] > whole.High[axis];
         }
       }
     }
@@ -338,7 +336,7 @@ private:
   const Lengths& InWorld;
   std::array<Plane, ConvexPolygon::MostCorners> Inward; ///< of the sides
   Vector Line{};                                        ///< the foot of a line across the piece
-  std::uint32_t LeavesGrid = 0;                         ///< a mask of axes
+  bool Leaves = false;                                  ///< the grid
   bool IsClear = false;                                 ///< whether no copy is crossed
   bool IsCrossed = false;
   int Crossings = 0; ///< of the line

@@ -207,13 +207,12 @@ private:
   }
 
   /** Whether the surface passes a piece within what is known, all over it: up and down, or across
-   *  the surface where it is in the way; along the grid's boundary where that is near. */
+   *  the surface where it is in the way. */
   bool IsBetween(const FlatPiece& piece)
   {
     Vector direction = piece.Normal;
-    std::uint32_t boundaries = 0;
     bool isTurned = false;
-    while (std::abs(Dot(direction, piece.Normal)) > 0.25) // else it is too oblique, or no number
+    while (Dot(direction, piece.Normal) > 0.25) // else it is too oblique, or no number
     {
       const SlabTest<Lengths> test(piece.Polygon, piece.Normal, direction, this->Known - piece.Bend,
         (1.0 + Precision) * this->Known - piece.Bend, this->Fine, this->InWorld, this->Balls);
@@ -221,11 +220,9 @@ private:
       {
         return this->IsAccepted(test.Greatest() + piece.Bend);
       }
-      if ((test.Leaves() & ~boundaries) != 0)
+      if (test.LeavesGrid())
       {
-        boundaries |= test.Leaves();
-        direction = this->AlongBoundaries(direction, boundaries);
-        continue;
+        return false;
       }
       const double before = this->Known;
       const Nearest nearest = this->FindNearest(test.InTheWay(), before);
@@ -238,31 +235,10 @@ private:
         isTurned = true;
         const Vector across = nearest.Triangle.UnitNormal();
         const double side = Dot(across, piece.Normal) > 0.0 ? 1.0 : -1.0;
-        direction = this->AlongBoundaries(side * across, boundaries);
+        direction = side * across;
       }
     }
     return false;
-  }
-
-  /** A direction without what leads out of the grid. @param boundaries a mask of axes */
-  Vector AlongBoundaries(const Vector& direction, std::uint32_t boundaries) const
-  {
-    Vector along = direction;
-    std::array<Vector, 3> taken;
-    int count = 0;
-    ForEachBit(boundaries,
-      [&](int axis)
-      {
-        Vector across = this->InWorld.AcrossAxis(axis);
-        for (int i = 0; i < count; ++i)
-        {
-          across = across - Dot(across, taken[i]) * taken[i];
-        }
-        taken[count] = Unit(across);
-        along = along - Dot(along, taken[count]) * taken[count];
-        ++count;
-      });
-    return Unit(along);
   }
 
   /** A piece against the triangle that is nearest to its middle; what is not near enough is cut. */

@@ -53,9 +53,6 @@ public:
   /** A box of index space, low and high, that holds all that is within a radius of a point. */
   std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
 
-  /** Across the planes of one index on an axis. */
-  Vector AcrossAxis(int axis) const { return this->Inverse[axis]; }
-
   /** From index space; upper triangular. */
   const std::array<std::array<double, 3>, 3>& Factor() const { return this->Triangular; }
 
@@ -98,12 +95,6 @@ public:
   }
   double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
   std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
-  static Vector AcrossAxis(int axis)
-  {
-    Vector across{};
-    across[axis] = 1.0;
-    return across;
-  }
 
   /** Their mean, on the axis where that is longest. */
   double TypicalStep() const;
