@@ -526,7 +526,7 @@ TEST(SmallPieces, LeaveTheMeshOfFullResolutionOfAFieldWithoutThem)
     const test::Field left = one.LeftField();
     const test::Built expected(
       BuildIsodiamonds(Model::Minimal, left.View(), one.Region, SerialFor), SerialFor);
-    for (const BuildOptions& options : { BuildOptions(), test::Distance(), test::Placement(false) })
+    for (const BuildOptions& options : { BuildOptions(), test::Placement(false) })
     {
       const test::Built found = one.Build(options);
       if (one.Region.IsVolume())
@@ -815,7 +815,7 @@ TEST(SmallPieces, DoNotDependOnThreads)
   {
     const Case one(field, region, 30);
     ASSERT_GT(one.Removed, 100);
-    for (const BuildOptions& options : { BuildOptions(), test::Distance() })
+    for (const BuildOptions& options : { BuildOptions(), test::Interior(true) })
     {
       ExpectSame(one.Build(options).Encoding, one.Build(options, test::ThreadedFor(3)).Encoding);
     }
