@@ -185,6 +185,7 @@ isodiamond::BuildOptions Distance(const isodiamond::GridGeometry& world)
 {
   isodiamond::BuildOptions options;
   options.Metric = isodiamond::ErrorMetric::Distance;
+  options.TwoSided = true;
   options.World = world;
   return options;
 }

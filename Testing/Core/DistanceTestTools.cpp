@@ -268,9 +268,9 @@ std::string FaultOf(
   }
   const double coarser = std::max(1.0, std::sqrt(samples / promise.MostSamples));
   NearnessCheck back(promise, full);
-  for (const reference::SurfaceTriangle& triangle : mesh)
+  for (std::size_t i = 0; i < mesh.size() && promise.Back; ++i)
   {
-    ForEachSample(triangle, promise.Step * coarser, std::ref(back));
+    ForEachSample(mesh[i], promise.Step * coarser, std::ref(back));
   }
   return (forth.Fault().empty() ? "" : "full resolution: " + forth.Fault()) +
     (back.Fault().empty() ? "" : " mesh: " + back.Fault());

@@ -83,6 +83,8 @@ struct Promise
   double Step = 0.125;
   /** Whether full resolution is near to the mesh, too; not if features may vanish. */
   bool Forth = true;
+  /** Whether the mesh is near to full resolution. */
+  bool Back = true;
   /** Only what lies in a box is looked at, low and high. */
   std::array<std::array<double, 3>, 2> Within = { { { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL },
     { HUGE_VAL, HUGE_VAL, HUGE_VAL } } };

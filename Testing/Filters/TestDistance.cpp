@@ -132,6 +132,7 @@ void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, boo
   contour->SetInputData(grid);
   contour->SetValue(0, isovalue);
   contour->SetCloseBoundary(close);
+  contour->TwoSidedDistancesOn();
   contour->ComputeNormalsOff();
   contour->Update();
   vtkNew<vtkPolyData> full;
@@ -348,6 +349,7 @@ TEST(Distance, IsAPromiseOnBothSurfacesOfIntervalVolumes)
     double range[2];
     grid->GetScalarRange(range);
     vtkNew<vtkIsodiamondIntervalVolume> volume;
+    volume->TwoSidedDistancesOn();
     volume->SetInputData(grid);
     volume->SetIsorange(
       range[0] + 0.45 * (range[1] - range[0]), range[0] + 0.8 * (range[1] - range[0]));

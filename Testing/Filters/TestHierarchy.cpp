@@ -218,6 +218,7 @@ TEST(Hierarchy, OfVersion2HasOneSidedDistancesAndAllPieces)
 {
   const auto builder = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
   builder->SetErrorMetricToDistance();
+  builder->TwoSidedDistancesOn();
   builder->PreserveTopologyOn();
   builder->SetMinimumPieceSize(3);
   builder->Update();

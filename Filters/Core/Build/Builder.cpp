@@ -130,7 +130,10 @@ DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& r
   DiamondCodes own(members.Size(), refineInterior);
   own.Surface =
     DistanceErrors(relevant, source.Samples, options.World, options.PreserveFeatures, parallelFor);
-  RaiseByWayBack(relevant, options.World, options.Hidden, own.Surface, parallelFor);
+  if (options.TwoSided)
+  {
+    RaiseByWayBack(relevant, options.World, options.Hidden, own.Surface, parallelFor);
+  }
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
@@ -309,7 +312,7 @@ public:
     this->Header.FieldScale = source.FieldScale;
     this->Header.ErrorScale = errorScale;
     this->Header.ExactIsovertices = options.ExactIsovertices;
-    this->Header.TwoSided = options.Metric == ErrorMetric::Distance;
+    this->Header.TwoSided = options.Metric == ErrorMetric::Distance && options.TwoSided;
     this->Header.PreservesTopology = options.PreserveTopology;
     this->Header.ActiveCount = this->Kinds.Active.Size();
     this->Header.CreationCount = this->Kinds.Creation.Size();
