@@ -550,11 +550,14 @@ TEST(Distance, BuildsAgainOnlyForWhatMatters)
   expectBuilds(1);
   contour->PreserveFeaturesOff();
   expectBuilds(1);
+  contour->TwoSidedDistancesOn();
+  expectBuilds(1);
   contour->ExactIsoverticesOff();
   expectBuilds(1);
   contour->SetErrorMetricToField();
   expectBuilds(1);
   contour->PreserveFeaturesOn(); // says nothing to the field metric
+  contour->TwoSidedDistancesOff();
   image->SetSpacing(1.0, 1.0, 1.0);
   expectBuilds(0);
   contour->SetValue(0, 0.05);
