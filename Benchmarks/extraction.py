@@ -12,9 +12,8 @@ import time
 
 import numpy
 from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
+from volumes import image_of
 
 RUNS = 7
 
@@ -29,13 +28,6 @@ def fields(size):
     w = numpy.float32(8 * numpy.pi)
     sin, cos = numpy.sin, numpy.cos
     yield "gyroid", sin(w * x) * cos(w * y) + sin(w * y) * cos(w * z) + sin(w * z) * cos(w * x)
-
-
-def image_of(field):
-    image = vtkImageData()
-    image.SetDimensions(field.shape[::-1])
-    image.GetPointData().SetScalars(numpy_to_vtk(field.ravel(), deep=True))
-    return image
 
 
 def make_builder(image):

@@ -248,10 +248,7 @@ private:
   /** The isovertex on an edge of any tetrahedron, which is crossed. */
   Vector Corner(const HalfPlace& tetrahedron, int edge) const
   {
-    const OwnedEdge owned = OwnedEdgeOf(tetrahedron, edge);
-    const auto rank = static_cast<std::uint32_t>(this->Hierarchy.Diamonds().Rank(owned.Owner));
-    return this->InWorld(
-      IsovertexAt(this->Hierarchy, owned.Owner, rank, owned.Edge, this->Surface));
+    return this->InWorld(IsovertexOn(this->Hierarchy, tetrahedron, edge, this->Surface));
   }
 
   /** To the farthest of what can be in a tetrahedron's place; or some that is not nearer than

@@ -12,7 +12,8 @@
 /**
  * @file DistanceError.h
  * The distance metric: how far the surface of full resolution lies from a diamond's patches, and
- * these from it, in world units. The error of a diamond is the greater of both ways.
+ * these from it, in world units. The error of a diamond is that of the way forth, or the greater
+ * of both ways.
  *
  * The way forth of a diamond is the largest distance from a full-resolution isovertex in its closed
  * domain to the nearest patch of the diamond, as extraction would make it, that is sure to be in a

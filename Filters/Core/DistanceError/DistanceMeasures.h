@@ -29,7 +29,7 @@ void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& le
 void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& lengths,
   ErrorMaxima& errors, const ParallelFor& parallelFor);
 
-/** Raises errors to the way back (WayBack.h), from the young to the old.
+/** Raises errors to the way back (WayBack.h), of each diamond by itself.
  *  @param codes by rank, of the way forth */
 void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengths,
   const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,

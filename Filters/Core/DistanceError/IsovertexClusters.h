@@ -5,6 +5,7 @@
 #include "Field/Parallel.h"
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
+#include "Lattice/DiamondTetrahedra.h"
 #include "Patches/ExactPlane.h"
 
 #include <algorithm>
@@ -28,6 +29,15 @@ inline FinePosition IsovertexAt(const IsodiamondHierarchy& hierarchy, const Plac
   const std::int32_t along = hierarchy.Isovertices(rank)[index];
   const Point& offset = tables::Parities[Parity(place.Position)].Offsets[edge];
   return (1 << place.Scale) * (FineUnits * place.Position + along * offset);
+}
+
+/** The isovertex on an edge of any tetrahedron, which is crossed. */
+inline FinePosition IsovertexOn(
+  const IsodiamondHierarchy& hierarchy, const HalfPlace& tetrahedron, int edge, int surface)
+{
+  const OwnedEdge owned = OwnedEdgeOf(tetrahedron, edge);
+  const auto rank = static_cast<std::uint32_t>(hierarchy.Diamonds().Rank(owned.Owner));
+  return IsovertexAt(hierarchy, owned.Owner, rank, owned.Edge, surface);
 }
 
 /** Isovertices of full resolution that lie near to each other: those of an eighth of a brick. */

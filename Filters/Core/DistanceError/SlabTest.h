@@ -131,11 +131,11 @@ public:
   /** How far from the piece the surface is, where it passes between. */
   double Greatest() const { return this->Found; }
 
+  /** If it is not between, a place of the piece where it is not. */
+  const Vector& InTheWay() const { return this->Way; }
+
   /** Whether the copies leave the grid. */
   bool LeavesGrid() const { return this->Leaves; }
-
-  /** If not, a place of the piece where it is not. */
-  const Vector& InTheWay() const { return this->Way; }
 
 private:
   /** Where the piece and its copies are. */
@@ -216,7 +216,9 @@ private:
   /** Whether what a ball holds may be between the copies. */
   bool MayReach(const Ball& ball) const
   {
-    bool mayReach = this->Heights.Bottom(ball)<this->Limit&& this->Heights.Top(ball)> - this->Limit;
+    const double bottom = this->Heights.Bottom(ball);
+    const double top = this->Heights.Top(ball);
+    bool mayReach = bottom < this->Limit && top > -this->Limit;
     for (int i = 0; i < this->Piece.Count && mayReach; ++i)
     {
       mayReach = this->Inward[i].Top(ball) >= 0.0;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -68,10 +69,7 @@ private:
 
   Vector Corner(const HalfPlace& tetrahedron, int edge) const
   {
-    const OwnedEdge owned = OwnedEdgeOf(tetrahedron, edge);
-    const auto rank = static_cast<std::uint32_t>(this->Hierarchy.Diamonds().Rank(owned.Owner));
-    return this->InWorld(
-      IsovertexAt(this->Hierarchy, owned.Owner, rank, owned.Edge, this->Surface));
+    return this->InWorld(IsovertexOn(this->Hierarchy, tetrahedron, edge, this->Surface));
   }
 
   /** Whether a bound of a piece is good enough, as it exceeds what is known by little. */

@@ -387,20 +387,6 @@ public:
     }
   }
 
-  /** Calls body(place, rank) for the diamonds of one class of one brick, in order. */
-  template <typename Body>
-  void ForEachOfClassInBrick(int scale, const Brick& brick, int diamondClass, Body&& body) const
-  {
-    const Point origin = this->Levels[scale].Box.Origin(brick.BoxIndex);
-    for (int z = 0; z < 8; ++z)
-    {
-      ForEachBit(brick.Occupancy[z] & tables::ClassBits[diamondClass][z & 1],
-        [&](int bit) {
-          body(Place{ scale, PositionOf(origin, z, bit) }, brick.Rank(z, bit));
-        });
-    }
-  }
-
   /** Calls body(place, rank) for every diamond, in order. */
   template <typename Body>
   void ForEach(Body&& body) const
