@@ -123,17 +123,13 @@ DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const 
 
 /** The distance metric; inside of an interval volume the field's. */
 DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& relevant,
-  const BuildSigns& signs, const BuildOptions& options, bool refineInterior,
+  const BuildSigns& signs, const BuildOptions& options, bool refineInterior, MapBounds& bounds,
   const ParallelFor& parallelFor)
 {
   const DiamondSet& members = relevant.Diamonds();
   DiamondCodes own(members.Size(), refineInterior);
-  own.Surface =
-    DistanceErrors(relevant, source.Samples, options.World, options.PreserveFeatures, parallelFor);
-  if (options.TwoSided)
-  {
-    RaiseByWayBack(relevant, options.World, options.Hidden, own.Surface, parallelFor);
-  }
+  own.Surface = DistanceErrors(
+    relevant, source.Samples, options.World, options.PreserveFeatures, parallelFor, &bounds);
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
@@ -330,27 +326,35 @@ public:
   DiamondCodes MeasureField() const
   {
     this->Report("Measuring errors", 0.25, 0.8);
-    return OwnFieldCodes(this->Origin, this->Header.Region, this->SignsToGoBy(), this->Members,
-      this->Interior, this->For);
+    DiamondCodes own = OwnFieldCodes(this->Origin, this->Header.Region, this->SignsToGoBy(),
+      this->Members, this->Interior, this->For);
+    this->SubdivideAlways(own);
+    return own;
   }
 
   DiamondCodes MeasureDistances(const Encoding& relevant) const
   {
-    this->Report("Measuring errors", 0.25, 0.8);
-    return OwnDistanceCodes(this->Origin, IsodiamondHierarchy(relevant, this->For),
-      this->SignsToGoBy(), this->Options, this->Interior, this->For);
+    this->Report("Measuring errors", 0.25, 0.5);
+    const IsodiamondHierarchy hierarchy(relevant, this->For);
+    MapBounds bounds = this->Header.TwoSided
+      ? MapBounds(this->Members.Size(), this->Header.Region.SurfaceCount())
+      : MapBounds();
+    DiamondCodes own = OwnDistanceCodes(this->Origin, hierarchy, this->SignsToGoBy(), this->Options,
+      this->Interior, bounds, this->For);
+    this->SubdivideAlways(own);
+    if (this->Header.TwoSided)
+    {
+      this->Report("Measuring errors", 0.5, 0.8);
+      const BeforeWayBack known{ this->Options.Hidden, &bounds,
+        ActivationThresholds(this->Origin.SampleGrid, this->Members, own.Surface, this->For) };
+      RaiseByWayBack(hierarchy, this->Options.World, known, own.Surface, this->For);
+    }
+    return own;
   }
 
   /** Own errors become thresholds. */
   void FindThresholds(DiamondCodes& codes) const
   {
-    if (HasHiddenCells(this->Options))
-    {
-      RefineAtHiddenCells(
-        *this->Options.Hidden, this->Kinds.Active, this->Members, this->For, codes);
-    }
-    this->ForTopology.ForEach(
-      [&](const Place& place) { codes.Surface[this->Members.Rank(place)] = ErrorCode::Always; });
     this->Report("Finding thresholds", 0.8, 0.9);
     RaiseToThresholds(this->Origin.SampleGrid, this->Members, this->For, codes);
   }
@@ -373,6 +377,18 @@ private:
     {
       this->Options.Report(phase, begin, end);
     }
+  }
+
+  /** What is always subdivided, whatever its error. */
+  void SubdivideAlways(DiamondCodes& codes) const
+  {
+    if (HasHiddenCells(this->Options))
+    {
+      RefineAtHiddenCells(
+        *this->Options.Hidden, this->Kinds.Active, this->Members, this->For, codes);
+    }
+    this->ForTopology.ForEach(
+      [&](const Place& place) { codes.Surface[this->Members.Rank(place)] = ErrorCode::Always; });
   }
 
   const SignLattice* RemainingSigns() const { return this->Signs ? &*this->Signs : nullptr; }

@@ -6,10 +6,10 @@ namespace isodiamond
 {
 
 void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengths,
-  const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const ParallelFor& parallelFor)
 {
-  MeasureAllBack(relevant, lengths, hidden, code, codes, parallelFor);
+  MeasureAllBack(relevant, lengths, known, code, codes, parallelFor);
 }
 
 }

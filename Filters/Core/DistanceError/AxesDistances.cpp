@@ -20,10 +20,10 @@ void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& leng
 }
 
 void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths,
-  const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const ParallelFor& parallelFor)
 {
-  MeasureAllBack(relevant, lengths, hidden, code, codes, parallelFor);
+  MeasureAllBack(relevant, lengths, known, code, codes, parallelFor);
 }
 
 }

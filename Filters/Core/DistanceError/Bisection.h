@@ -100,6 +100,19 @@ private:
   std::array<ExactPlane, 4> Faces; ///< positive inside
 };
 
+/** The edges of a tetrahedron between corners, two or three of them: as a mask of its edges. */
+inline std::uint32_t EdgesBetween(std::uint32_t corners)
+{
+  // The edges by their ends, in the order of a half-tetrahedron's edges.
+  constexpr std::array<std::uint32_t, 6> ends = { 0b0011, 0b0101, 0b1001, 0b1100, 0b1010, 0b0110 };
+  std::uint32_t edges = 0;
+  for (std::size_t i = 0; i < ends.size() && corners != 0b1111; ++i)
+  {
+    edges |= ((ends[i] & ~corners) == 0 ? 1U : 0U) << i;
+  }
+  return edges;
+}
+
 /**
  * Bisects a tetrahedron: calls body(half, plane) for those of its halves that lie in the grid, with
  * the plane between them, whose positive side is the half's.

@@ -111,6 +111,15 @@ public:
     return Dot(rest, rest);
   }
 
+  /** The same for one tetrahedron, with the edges numbered as its own. */
+  double SquaredToBorder(int tetrahedron, std::uint32_t edges, const Vector& point)
+  {
+    std::uint32_t around = 0;
+    ForEachBit(
+      edges, [&](int edge) { around |= 1U << this->Edges->OfTetrahedron[tetrahedron][edge]; });
+    return this->BoundToBorder(around, point);
+  }
+
   /** Bounds of the distances to the patch of a tetrahedron; null if it has none. */
   const PatchBound<Lengths>* Bound(int tetrahedron)
   {

@@ -22,10 +22,11 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world)
 
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
-  const ParallelFor& parallelFor)
+  const ParallelFor& parallelFor, MapBounds* bounds)
 {
-  ErrorMaxima errors(
-    relevant, samples, world, DistanceErrorScale(relevant.SampleGrid(), world), preserveFeatures);
+  MapBounds none;
+  ErrorMaxima errors(relevant, samples, world, DistanceErrorScale(relevant.SampleGrid(), world),
+    preserveFeatures, bounds != nullptr ? *bounds : none);
   for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
   {
     for (const auto ends : { IsovertexClusters::Ends::Finite, IsovertexClusters::Ends::NotFinite })
@@ -48,12 +49,11 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
 }
 
 void RaiseByWayBack(const IsodiamondHierarchy& relevant, const GridGeometry& world,
-  const HiddenCells* hidden, std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor)
+  const BeforeWayBack& known, std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor)
 {
   const ErrorCode code(DistanceErrorScale(relevant.SampleGrid(), world));
-  const HiddenCells* cells = hidden != nullptr && hidden->Any() ? hidden : nullptr;
   std::visit([&](const auto& lengths)
-    { MeasureBack(relevant, lengths, cells, code, codes, parallelFor); },
+    { MeasureBack(relevant, lengths, known, code, codes, parallelFor); },
     WorldLengthsOf(world));
 }
 

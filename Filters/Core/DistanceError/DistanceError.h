@@ -2,6 +2,7 @@
 #ifndef isodiamond_DistanceError_h
 #define isodiamond_DistanceError_h
 
+#include "DistanceError/MapBounds.h"
 #include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
 #include "Field/Samples.h"
@@ -46,11 +47,22 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world);
  * @param world from index space to the world; lengths count there
  * @param preserveFeatures otherwise isovertices without a patch to count with count with the
  *        diameter of the diamond, so that features that are thinner than the tolerance may vanish
+ * @param bounds of the way back, to be filled if they are wanted; null for none
  * @return codes by rank, scaled by DistanceErrorScale(); 0 without an isovertex in the domain
  */
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
-  const ParallelFor& parallelFor);
+  const ParallelFor& parallelFor, MapBounds* bounds = nullptr);
+
+/** What is known before the way back is measured, which is less work the more it is. */
+struct BeforeWayBack
+{
+  const HiddenCells* Hidden = nullptr; ///< cells without any surface; null for none
+  const MapBounds* Bounds = nullptr;   ///< of DistanceErrors(); null for none
+  /** Codes by rank that need not be exceeded: activation thresholds of the errors so far. What is
+   *  less than a threshold changes none. Empty for none. */
+  std::vector<ErrorCode::Type> Thresholds;
+};
 
 /**
  * Raises distance errors to the way back: how far a point of a diamond's patches can be from the
@@ -60,11 +72,10 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
  * 1/128 of a step of the lattice. See WayBack.h.
  *
  * @param relevant, world as above
- * @param hidden cells without any surface; null for none
  * @param codes of DistanceErrors()
  */
 void RaiseByWayBack(const IsodiamondHierarchy& relevant, const GridGeometry& world,
-  const HiddenCells* hidden, std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor);
+  const BeforeWayBack& known, std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor);
 
 }
 

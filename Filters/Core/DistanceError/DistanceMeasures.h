@@ -2,9 +2,9 @@
 #ifndef isodiamond_DistanceMeasures_h
 #define isodiamond_DistanceMeasures_h
 
+#include "DistanceError/DistanceError.h"
 #include "DistanceError/ErrorMaxima.h"
 #include "DistanceError/IsovertexClusters.h"
-#include "Field/HiddenCells.h"
 #include "Field/Parallel.h"
 
 /**
@@ -32,10 +32,10 @@ void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& leng
 /** Raises errors to the way back (WayBack.h), of each diamond by itself.
  *  @param codes by rank, of the way forth */
 void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengths,
-  const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const ParallelFor& parallelFor);
 void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths,
-  const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const ParallelFor& parallelFor);
 
 }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -352,8 +353,16 @@ private:
   void FindFarthest(Search& search, const Holder& holder,
     const std::vector<FinePosition>& positions, Farthest& farthest) const
   {
-    search.Propose(search.Find(holder.Tetrahedron), positions.data() + holder.Begin,
-      holder.End - holder.Begin, farthest);
+    const int tetrahedron = search.Find(holder.Tetrahedron);
+    const FinePosition* const first = positions.data() + holder.Begin;
+    const std::size_t count = holder.End - holder.Begin;
+    const double squared = search.Propose(tetrahedron, first, count, farthest);
+    if (this->Errors.AreBoundsWanted() && squared < std::numeric_limits<double>::infinity())
+    {
+      const double onBorder = search.SquaredToBorder(tetrahedron, holder.Tetrahedron, first, count);
+      this->Errors.SetBound(
+        this->Clusters.Surface(), holder.Rank, tetrahedron, std::max(squared, onBorder));
+    }
   }
 
   void FindFarthest(Search& search, const Holder& holder, const std::vector<ClusterPart>& parts,

@@ -2,6 +2,7 @@
 #ifndef isodiamond_ErrorMaxima_h
 #define isodiamond_ErrorMaxima_h
 
+#include "DistanceError/MapBounds.h"
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 #include "Patches/WorldLengths.h"
@@ -34,14 +35,17 @@ struct Farthest
 class ErrorMaxima
 {
 public:
-  /** Hierarchy and samples must outlive it. @throws std::invalid_argument without distances */
+  /** Hierarchy, samples and bounds must outlive it.
+   *  @param bounds of the way back, to be filled if they are wanted
+   *  @throws std::invalid_argument without distances */
   ErrorMaxima(const IsodiamondHierarchy& hierarchy, const AnySamples& samples,
-    const GridGeometry& world, double scale, bool preserveFeatures)
+    const GridGeometry& world, double scale, bool preserveFeatures, MapBounds& bounds)
     : Source(hierarchy)
     , Finite(samples)
     , InWorld(WorldLengthsOf(world))
     , Code(scale)
     , PreserveFeatures(preserveFeatures)
+    , Bounds(bounds)
     , Codes(hierarchy.Diamonds().Size())
   {
   }
@@ -57,6 +61,15 @@ public:
   {
     return this->Codes[rank].load(std::memory_order_relaxed) == ErrorCode::Always;
   }
+  bool AreBoundsWanted() const { return this->Bounds.AreWanted(); }
+
+  /** Keeps a bound of the way back. @param squared infinite if there is none */
+  void SetBound(int surface, std::uint32_t rank, int tetrahedron, double squared)
+  {
+    this->Bounds.Set(
+      surface, rank, tetrahedron, this->Code.Encode(std::sqrt(squared) * DistanceMargin));
+  }
+
   void RaiseToAlways(std::uint32_t rank) { this->Raise(rank, ErrorCode::Always); }
 
   /** Whether a diamond that holds an isovertex must not be a leaf, wherever it lies. */
@@ -130,6 +143,7 @@ private:
   WorldLengths InWorld;
   ErrorCode Code;
   bool PreserveFeatures;
+  MapBounds& Bounds;
   std::vector<std::atomic<ErrorCode::Type>> Codes;
 };
 

@@ -2,6 +2,7 @@
 #ifndef isodiamond_FarthestSearch_h
 #define isodiamond_FarthestSearch_h
 
+#include "DistanceError/Bisection.h"
 #include "DistanceError/DiamondPatches.h"
 #include "DistanceError/ErrorMaxima.h"
 
@@ -41,13 +42,14 @@ public:
   /** The number of one of the diamond's tetrahedra. */
   int Find(const HalfPlace& tetrahedron) const { return this->Patches.Find(tetrahedron); }
 
-  /** Looks at how far isovertices can be from the patch of their tetrahedron. */
-  void Propose(
+  /** Looks at how far isovertices can be from the patch of their tetrahedron.
+   *  @return a bound for all of them, squared; infinite without a patch */
+  double Propose(
     int tetrahedron, const FinePosition* positions, std::size_t count, Farthest& farthest)
   {
     if (count == 0)
     {
-      return;
+      return 0.0;
     }
     farthest.IsAny = true;
     const float known = this->Patches.LengthsOfBounds().Squared(farthest.Squared);
@@ -55,6 +57,7 @@ public:
     Candidate* next = this->Room(count);
     std::array<float, Width> bounds;
     bounds.fill(std::numeric_limits<float>::infinity());
+    float highest = 0.0F;
     for (std::size_t first = 0; first < count; first += Width)
     {
       const int some = static_cast<int>(std::min<std::size_t>(count - first, Width));
@@ -66,20 +69,23 @@ public:
       {
         *next = { bounds[i], 1U << tetrahedron, positions[first + i] };
         next += bounds[i] <= known ? 0 : 1;
+        highest = bounds[i] <= highest ? highest : bounds[i];
       }
     }
     this->CandidateCount = next - this->Candidates.data();
+    return this->Patches.LengthsOfBounds().FromSquared(highest);
   }
 
   /** The same for one isovertex, that some tetrahedra hold.
-   *  @param around the edges of a triangle between them that it lies on, or the edge; or none */
-  void Propose(std::uint32_t tetrahedra, std::uint32_t around, const FinePosition& position,
+   *  @param around the edges of a triangle between them that it lies on, or the edge; or none
+   *  @return the squared distance to where the patches of all meet that; else infinite */
+  double Propose(std::uint32_t tetrahedra, std::uint32_t around, const FinePosition& position,
     Farthest& farthest)
   {
     const std::uint32_t holders = tetrahedra & this->Patches.AreThere();
     if (holders == 0)
     {
-      return;
+      return 0.0;
     }
     farthest.IsAny = true;
     const double squared = this->Patches.BoundToBorder(around, this->InWorld(position));
@@ -89,6 +95,35 @@ public:
       *this->Room(1) = { bound, holders, position };
       ++this->CandidateCount;
     }
+    return squared;
+  }
+
+  /** The tetrahedra that are there, a mask. */
+  std::uint32_t AreThere() const { return this->Patches.AreThere(); }
+
+  /** The squared distance to the patch of one; infinite without. */
+  double SquaredToPatch(int tetrahedron, const FinePosition& position)
+  {
+    return this->Patches.SquaredTo(tetrahedron, this->InWorld(position));
+  }
+
+  /** The greatest of squared distances to the border of a patch, of the isovertices that lie on the
+   *  tetrahedron's; infinite if one lies where the patch has none. See MapBounds. */
+  double SquaredToBorder(
+    int tetrahedron, const HalfPlace& place, const FinePosition* positions, std::size_t count)
+  {
+    const ClosedTetrahedron closed(place);
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::uint32_t edges = EdgesBetween(closed.CornersAround(positions[i]));
+      if (edges != 0)
+      {
+        greatest = std::max(
+          greatest, this->Patches.SquaredToBorder(tetrahedron, edges, this->InWorld(positions[i])));
+      }
+    }
+    return greatest;
   }
 
   /** Measures what was proposed. The isovertex that may be farthest from its own patch goes first:

@@ -21,17 +21,49 @@ std::uint16_t HoldersOf(
   return holders;
 }
 
-/** The edges of a tetrahedron between corners, two or three of them: as a mask of its edges. */
-std::uint32_t EdgesBetween(std::uint32_t corners)
+/** Calls body(tetrahedron) for what a tetrahedron is bisected into in the end. */
+template <typename Body>
+void ForEachFinest(const Grid& grid, const HalfPlace& whole, const Body& body)
 {
-  // The edges by their ends, in the order of a half-tetrahedron's edges.
-  constexpr std::array<std::uint32_t, 6> ends = { 0b0011, 0b0101, 0b1001, 0b1100, 0b1010, 0b0110 };
-  std::uint32_t edges = 0;
-  for (std::size_t i = 0; i < ends.size() && corners != 0b1111; ++i)
+  const Place diamond = whole.Child();
+  if (diamond.Scale < 0)
   {
-    edges |= ((ends[i] & ~corners) == 0 ? 1U : 0U) << i;
+    body(whole);
+    return;
   }
-  return edges;
+  ForEachHalf(grid, whole, diamond, 0,
+    [&](const HalfPlace& half, const ExactPlane&) { ForEachFinest(grid, half, body); });
+}
+
+void AddTetrahedra(const Point& position, ScaleZeroDomain& domain)
+{
+  const auto indexOf = [&](const Place& place)
+  {
+    int i = 0;
+    while (position + domain.Owners[i].Offset != place.Position)
+    {
+      ++i;
+    }
+    return static_cast<std::uint8_t>(i);
+  };
+  const Grid grid({ 65, 65, 65 }); // all around any example
+  ForEachParentHalf({ 0, position },
+    [&](int number, const Place& parent, const HalfTetrahedron& half)
+    {
+      domain.AllTetrahedra |= 1U << number;
+      ForEachFinest(grid, HalfPlace{ parent, 0, &half },
+        [&](const HalfPlace& finest)
+        {
+          ScaleZeroDomain::Tetrahedron added{ static_cast<std::uint8_t>(number),
+            indexOf(finest.Parent), finest.Half, {} };
+          for (int edge = 0; edge < 6; ++edge)
+          {
+            const OwnedEdge owned = OwnedEdgeOf(finest, edge);
+            added.Edges[edge] = { indexOf(owned.Owner), owned.Edge };
+          }
+          domain.Tetrahedra.push_back(added);
+        });
+    });
 }
 
 ScaleZeroDomain MakeDomain(const Point& position)
@@ -68,6 +100,7 @@ ScaleZeroDomain MakeDomain(const Point& position)
       domain.Owners.push_back(owner);
     }
   }
+  AddTetrahedra(position, domain);
   return domain;
 }
 

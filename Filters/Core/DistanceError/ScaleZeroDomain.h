@@ -12,8 +12,9 @@ namespace isodiamond
 {
 
 /**
- * The edges of full resolution in the closed domain of a diamond of scale 0: for most diamonds that
- * is where the isovertices are which their error depends on. By the diamonds that own the edges.
+ * The edges and tetrahedra of full resolution in the closed domain of a diamond of scale 0: for
+ * most diamonds that is where the isovertices are which their error depends on. By the diamonds
+ * that own the edges.
  */
 struct ScaleZeroDomain
 {
@@ -36,7 +37,19 @@ struct ScaleZeroDomain
     bool IsOlder = false;
   };
 
+  /** A tetrahedron of full resolution. */
+  struct Tetrahedron
+  {
+    std::uint8_t Whole = 0; ///< the number of the diamond's that it is part of
+    std::uint8_t Owner = 0; ///< index of that at its youngest vertex
+    const HalfTetrahedron* Half = nullptr;
+    /** As a half-tetrahedron's edges are numbered: the owner's index, and the owner's edge. */
+    std::array<std::array<std::uint8_t, 2>, 6> Edges{};
+  };
+
   std::vector<Owner> Owners;
+  std::vector<Tetrahedron> Tetrahedra;
+  std::uint32_t AllTetrahedra = 0; ///< of the diamond, a mask of their numbers
 };
 
 /** The table of the type of a position. */

@@ -2,6 +2,8 @@
 #ifndef isodiamond_WayBack_h
 #define isodiamond_WayBack_h
 
+#include "DistanceError/DistanceError.h"
+#include "DistanceError/DomainMap.h"
 #include "DistanceError/ErrorMaxima.h"
 #include "DistanceError/FineSurface.h"
 #include "DistanceError/SlabTest.h"
@@ -24,44 +26,81 @@ namespace isodiamond
  * The way back of one diamond: how far a point of its patches can be from the surface of full
  * resolution. A leaf of a mesh lies in one diamond only, so no mates and no stand-ins count.
  *
- * Only what exceeds the error so far is of interest. Let two copies of a flat piece be moved away
- * from it by a distance, up and down. If the surface crosses neither of them, but the way from one
- * to the other, it has to pass between, all over the piece: no point of the piece is farther. Few
- * triangles need a look for that. What it does not hold for is measured at the place that is in the
- * way, and if that does not help cut, until the nearest triangles tell.
+ * Only what exceeds the error so far is of interest, and most patches are settled by how far a map
+ * moves the surface to them: of one tetrahedron (MapBounds), or of the domain (DomainMap).
  *
- * The result is the greatest distance, but for a part of 1/8 at most unless cells are extremely
+ * For the others, let two copies of a flat piece be moved away from it by a distance, up and down.
+ * If the surface crosses neither of them, but the way from one to the other, it has to pass
+ * between, all over the piece: no point of the piece is farther. Few triangles need a look for
+ * that. What it does not hold for is measured at the place that is in the way, and if that does not
+ * help cut, until the nearest triangles tell.
+ *
+ * The result is the greatest distance, but for a part of 1/4 at most unless cells are extremely
  * uneven; never less.
  */
 template <typename Lengths>
 class WayBack
 {
 public:
-  /** @param fine the surface of the number. All must outlive it. */
+  /** @param fine the surface of the number
+   *  @param bounds of the way forth; null for none. All must outlive it. */
   WayBack(const IsodiamondHierarchy& hierarchy, const Lengths& lengths, int surface,
-    const FineSurface& fine)
+    const FineSurface& fine, const MapBounds* bounds, const ErrorCode& code)
     : Hierarchy(hierarchy)
     , Neighbourhood(hierarchy)
     , InWorld(lengths)
     , Surface(surface)
     , Fine(fine)
+    , Bounds(bounds)
+    , Code(code)
     , Balls(lengths)
-    , Least(lengths.TypicalStep() / 128.0)
+    , Map(hierarchy, lengths, surface)
+    , Least(lengths.TypicalStep() / 64.0)
   {
   }
 
-  /** The greater of a diamond's error so far and of the way back. */
-  double Measure(const Place& diamond, double error)
+  /** The greater of a diamond's error so far and of the way back.
+   *  @param window of bricks around, if the diamond is of scale 0
+   *  @param isWhole whether no cell in the domain is hidden: maps know of none */
+  double Measure(
+    const BrickWindow* window, const Place& diamond, std::uint32_t rank, double error, bool isWhole)
   {
     this->Known = std::max(error, this->Least);
     this->Bound = 0.0;
     this->Left = MostLooks;
+    this->HasLast = false;
+    this->HardCount = 0;
     this->Neighbourhood.ForEachTetrahedron(diamond, true,
-      [&](int /*number*/, const HalfPlace& tetrahedron) { this->MeasureFrom(tetrahedron); });
+      [&](int number, const HalfPlace& tetrahedron)
+      {
+        const HardPatch patch{ tetrahedron,
+          PatchOf(this->Hierarchy, tetrahedron.Rank, *tetrahedron.Half, this->Surface) };
+        if (patch.Patch.TriangleCount > 0 && !(isWhole && this->IsBounded(patch, rank, number)))
+        {
+          this->Hard[this->HardCount++] = patch;
+        }
+      });
+    const bool isMapped =
+      this->HardCount > 0 && isWhole && window != nullptr && this->IsDomainMapped(*window, diamond);
+    for (int i = 0; i < this->HardCount && !isMapped; ++i)
+    {
+      this->MeasureFrom(this->Hard[i]);
+    }
     return std::max(error, this->Bound);
   }
 
 private:
+  /** A patch that is still to be measured. */
+  struct HardPatch
+  {
+    HalfPlace Tetrahedron;
+    SurfacePatch Patch;
+  };
+
+  /** How much more than what is known bounds can be: of maps; of maps that something in the way
+   *  has been compared with; of pieces. */
+  static constexpr double MapPrecision = 1.0 / 16.0;
+  static constexpr double ComparedPrecision = 1.0 / 4.0;
   static constexpr double Precision = 1.0 / 8.0;
   /** How often pieces of one diamond are compared with what is nearest before bounds are taken as
    *  they are. Few diamonds need so many: where cells are a million times longer than wide. */
@@ -83,24 +122,74 @@ private:
     return true;
   }
 
-  /** The patch of a tetrahedron. */
-  void MeasureFrom(const HalfPlace& tetrahedron)
+  /** Whether the isovertices in a tetrahedron bound the way back from its patch. */
+  bool IsBounded(const HardPatch& hard, std::uint32_t rank, int number)
   {
-    const SurfacePatch patch =
-      PatchOf(this->Hierarchy, tetrahedron.Rank, *tetrahedron.Half, this->Surface);
+    const double limit = (1.0 + MapPrecision) * this->Known;
+    double bound = this->Bounds != nullptr
+      ? this->Code.Decode(this->Bounds->Of(this->Surface, rank, number))
+      : HUGE_VAL;
+    if (bound <= limit && hard.Patch.TriangleCount == 2)
+    {
+      bound += BendOf(hard.Patch, this->CornersOf(hard));
+    }
+    if (!(bound <= limit))
+    {
+      return false;
+    }
+    this->Bound = std::max(this->Bound, bound);
+    return true;
+  }
+
+  /** Whether a map of the domain bounds the way back. What is farther than is known is measured. */
+  bool IsDomainMapped(const BrickWindow& window, const Place& diamond)
+  {
+    return this->BoundByMap(window, diamond, MapPrecision) < HUGE_VAL ||
+      this->BoundByMap(window, diamond, ComparedPrecision) < HUGE_VAL;
+  }
+
+  double BoundByMap(const BrickWindow& window, const Place& diamond, double precision)
+  {
+    const auto isNear = [&](double squared)
+    {
+      const double limit = (1.0 + precision) * this->Known;
+      return squared <= limit * limit;
+    };
+    const double bound = this->Map.Bound(window, diamond, isNear,
+      [&](const Vector& place, double squared)
+      {
+        if (!isNear(squared) && squared < HUGE_VAL)
+        {
+          this->FindNearest(place, this->Known);
+        }
+        return std::sqrt(squared) <= (1.0 + ComparedPrecision) * this->Known;
+      });
+    this->Bound = bound < HUGE_VAL ? std::max(this->Bound, bound) : this->Bound;
+    return bound;
+  }
+
+  std::array<Vector, 6> CornersOf(const HardPatch& hard) const
+  {
     std::array<Vector, 6> corners; // by edge
     std::uint32_t known = 0;
-    for (int i = 0; i < patch.TriangleCount; ++i)
+    for (int i = 0; i < hard.Patch.TriangleCount; ++i)
     {
-      for (const std::uint8_t edge : patch.Triangles[i])
+      for (const std::uint8_t edge : hard.Patch.Triangles[i])
       {
         if (((known >> edge) & 1U) == 0)
         {
           known |= 1U << edge;
-          corners[edge] = this->Corner(tetrahedron, edge);
+          corners[edge] = this->Corner(hard.Tetrahedron, edge);
         }
       }
     }
+    return corners;
+  }
+
+  void MeasureFrom(const HardPatch& hard)
+  {
+    const SurfacePatch& patch = hard.Patch;
+    const std::array<Vector, 6> corners = this->CornersOf(hard);
     if (patch.TriangleCount == 2)
     {
       const FlatPiece both = this->Flatten(patch, corners);
@@ -118,6 +207,19 @@ private:
         Cross(triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]);
       this->MeasureFrom({ triangle, Unit(across), 0.0 });
     }
+  }
+
+  /** How far two triangles and whatever else fills the border of both can be from each other, seen
+   *  across both diagonals; infinite if one triangle covers the other there. */
+  static double BendOf(const SurfacePatch& patch, const std::array<Vector, 6>& corners)
+  {
+    const auto [polygon, isOne] = Join(patch, corners);
+    const std::array<Vector, ConvexPolygon::MostCorners>& q = polygon.Corners;
+    const Vector shared = q[2] - q[0];
+    const Vector across = Unit(Cross(shared, q[3] - q[1]));
+    const Vector beside = Cross(shared, across);
+    const bool isOpen = isOne && Dot(q[1] - q[0], beside) * Dot(q[3] - q[0], beside) < 0.0;
+    return isOpen ? std::abs(Dot(q[1] - q[0], across)) : HUGE_VAL;
   }
 
   /** What is flat, or nearly so. */
@@ -191,16 +293,16 @@ private:
   /** All of a piece, in smaller ones. */
   void MeasureFrom(const FlatPiece& whole)
   {
+    if (this->IsBetween(whole))
+    {
+      return;
+    }
     this->Pieces.assign(1, whole.Polygon);
-    FlatPiece piece = whole;
     while (!this->Pieces.empty())
     {
-      piece.Polygon = this->Pieces.back();
+      const ConvexPolygon piece = this->Pieces.back();
       this->Pieces.pop_back();
-      if (!this->IsBetween(piece))
-      {
-        this->CompareWithNearest(piece.Polygon);
-      }
+      this->CompareWithNearest(piece);
     }
   }
 
@@ -341,8 +443,11 @@ private:
    *  distance. */
   Nearest FindNearest(const Vector& point, double enough)
   {
-    Nearest nearest;
-    double radius = 0.5 * this->StepAt(point);
+    // The last one is a good guess: pieces lie side by side.
+    Nearest nearest = this->Last;
+    nearest.Squared =
+      this->HasLast ? nearest.Triangle.Squared(point) : std::numeric_limits<double>::infinity();
+    double radius = std::min(0.5 * this->StepAt(point), std::sqrt(nearest.Squared));
     CellBox done;
     bool isWhole = false;
     while (nearest.Squared > std::max(enough * enough, radius * radius / 4.0) && !isWhole)
@@ -363,6 +468,8 @@ private:
       radius *= 2.0;
     }
     this->Known = std::max(this->Known, std::sqrt(nearest.Squared));
+    this->Last = nearest;
+    this->HasLast = true;
     return nearest;
   }
 
@@ -376,8 +483,16 @@ private:
 
   void Compare(const Vector& point, const FineSurface::Triangle& corners, Nearest& nearest) const
   {
-    const TriangleDistance triangle(
-      this->InWorld(corners[0]), this->InWorld(corners[1]), this->InWorld(corners[2]));
+    const Vector a = this->InWorld(corners[0]);
+    const Vector b = this->InWorld(corners[1]);
+    const Vector c = this->InWorld(corners[2]);
+    const Vector normal = Cross(b - a, c - a);
+    const double height = Dot(point - a, normal);
+    if (height * height > nearest.Squared * Dot(normal, normal))
+    {
+      return; // so far is its plane
+    }
+    const TriangleDistance triangle(a, b, c);
     const double squared = triangle.Squared(point);
     if (squared < nearest.Squared)
     {
@@ -410,20 +525,29 @@ private:
   const Lengths& InWorld;
   int Surface;
   const FineSurface& Fine;
+  const MapBounds* Bounds;
+  ErrorCode Code;
   CellBalls<Lengths> Balls;
+  DomainMap<Lengths> Map;
   double Least;       ///< what is less is no error
   double Known = 0.0; ///< the error is not less: that so far, or a distance that was found
   double Bound = 0.0; ///< nothing that was looked at is farther
   int Left = 0;       ///< how many more looks are worth it
+  bool HasLast = false;
+  Nearest Last; ///< that was found
+  int HardCount = 0;
+  std::array<HardPatch, 8> Hard;
   std::vector<ConvexPolygon> Pieces;
 };
 
 /** Raises the errors of all diamonds to the way back. */
 template <typename Lengths>
 void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
-  const HiddenCells* hidden, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const ParallelFor& parallelFor)
 {
+  const HiddenCells* hidden =
+    known.Hidden != nullptr && known.Hidden->Any() ? known.Hidden : nullptr;
   const DiamondSet& set = relevant.Diamonds();
   const std::vector<BrickPlace> bricks = AllBricks(set);
   for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
@@ -432,19 +556,26 @@ void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
     parallelFor(static_cast<std::int64_t>(bricks.size()), 4,
       [&](std::int64_t begin, std::int64_t end)
       {
-        WayBack<Lengths> wayBack(relevant, lengths, surface, fine);
+        WayBack<Lengths> wayBack(relevant, lengths, surface, fine, known.Bounds, code);
         for (std::int64_t i = begin; i < end; ++i)
         {
           const int scale = bricks[i].Scale;
-          set.ForEachInBrick(scale, set.Level(scale).Bricks[bricks[i].Index],
+          const BrickLevel& level = set.Level(scale);
+          const Brick& brick = level.Bricks[bricks[i].Index];
+          const BrickWindow window(level, level.Box.Origin(brick.BoxIndex));
+          set.ForEachInBrick(scale, brick,
             [&](const Place& place, std::uint32_t rank)
             {
-              if (codes[rank] == 0 || codes[rank] == ErrorCode::Always)
+              const ErrorCode::Type before = known.Thresholds.empty()
+                ? codes[rank]
+                : std::max(codes[rank], known.Thresholds[rank]);
+              if (codes[rank] == 0 || before == ErrorCode::Always)
               {
                 return;
               }
-              const double error = code.Decode(codes[rank]) / DistanceMargin;
-              const double greater = wayBack.Measure(place, error);
+              const double error = code.Decode(before) / DistanceMargin;
+              const double greater = wayBack.Measure(scale == 0 ? &window : nullptr, place, rank,
+                error, hidden == nullptr || !hidden->Touch(place));
               if (greater > error)
               {
                 codes[rank] = code.Encode(greater * DistanceMargin);

@@ -70,6 +70,7 @@ public:
 
   /** A squared length of the world in squared units. */
   float Squared(double squared) const { return static_cast<float>(squared * this->PerSquaredUnit); }
+  double FromSquared(float squared) const { return squared / this->PerSquaredUnit; }
 
 private:
   static constexpr float LeastRelativeError = 4e-6F;

@@ -68,6 +68,24 @@ public:
     return squared;
   }
 
+  /** The nearest point of the triangle, but for rounding. */
+  Vector Nearest(const Vector& point) const
+  {
+    const Vector p = point - this->Corner;
+    const double first = Dot(p, this->AlongFirst);
+    const double second = Dot(p, this->AlongSecond);
+    if (!this->IsDegenerate && first >= 0.0 && second >= 0.0 && first + second <= 1.0)
+    {
+      return this->Corner + first * this->First + second * this->Second;
+    }
+    const std::array<Vector, 3> onSides = { PlaceOnSide(p, this->First, this->Inverse[0]),
+      PlaceOnSide(p, this->Second, this->Inverse[1]),
+      this->First + PlaceOnSide(p - this->First, this->Third, this->Inverse[2]) };
+    const Vector& nearest = *std::min_element(onSides.begin(), onSides.end(),
+      [&](const Vector& a, const Vector& b) { return Dot(p - a, p - a) < Dot(p - b, p - b); });
+    return this->Corner + nearest;
+  }
+
   /** Not a number if there is none. */
   Vector UnitNormal() const { return std::sqrt(this->Inverse[3]) * this->Normal; }
 
@@ -89,10 +107,13 @@ private:
   /** @param inverse of the squared length; infinite if there is none */
   static double SquaredToSide(const Vector& p, const Vector& side, double inverse)
   {
-    const double along = Dot(p, side);
-    const double place = along <= 0.0 ? 0.0 : std::min(along * inverse, 1.0);
-    const Vector rest = p - place * side;
+    const Vector rest = p - PlaceOnSide(p, side, inverse);
     return Dot(rest, rest);
+  }
+  static Vector PlaceOnSide(const Vector& p, const Vector& side, double inverse)
+  {
+    const double along = Dot(p, side);
+    return (along <= 0.0 ? 0.0 : std::min(along * inverse, 1.0)) * side;
   }
 
   Vector Corner{};

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DomainMap_h
+#define isodiamond_DomainMap_h
+
+#include "DistanceError/IsovertexClusters.h"
+#include "DistanceError/ScaleZeroDomain.h"
+#include "DistanceError/SpineEdges.h"
+#include "DistanceError/SpineNeighbourhood.h"
+#include "Patches/PatchDistance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace isodiamond
+{
+
+/**
+ * A map from the surface of full resolution in the domain of a diamond of scale 0 to the diamond's
+ * patches: how far it moves any point bounds the way back.
+ *
+ * As of one tetrahedron (MapBounds), but isovertices inside of the domain may go to any triangle of
+ * the patches around; those on its border have to stay on it. Where the ends of an edge go to
+ * different triangles, which share a side, some point of the edge goes to that side. So a triangle
+ * of full resolution is mapped in pieces, each to one triangle of the patches, and no point moves
+ * farther than the pieces' corners do. As it takes border to border, all of the patches is covered:
+ * these hold no closed surface, as there is no vertex inside of the domain of a spine.
+ */
+template <typename Lengths>
+class DomainMap
+{
+public:
+  /** Hierarchy and lengths must outlive it. */
+  DomainMap(const IsodiamondHierarchy& hierarchy, const Lengths& lengths, int surface)
+    : Hierarchy(hierarchy)
+    , Neighbourhood(hierarchy)
+    , InWorld(lengths)
+    , Surface(surface)
+  {
+  }
+
+  /**
+   * How far a point of the diamond's patches can be from the surface; infinite if nothing is found.
+   *
+   * @param window of bricks of scale 0, around the diamond
+   * @param isNear tells whether a squared distance needs no other place to go to
+   * @param mayMove(place, squared) tells whether something may go so far, to a place of the patches
+   */
+  template <typename IsNear, typename MayMove>
+  double Bound(
+    const BrickWindow& window, const Place& diamond, const IsNear& isNear, const MayMove& mayMove)
+  {
+    this->Greatest = 0.0;
+    this->FindPatches(diamond);
+    return this->TakeIsovertices(window, diamond, isNear, mayMove) && this->TakeEdges(mayMove)
+      ? std::sqrt(this->Greatest)
+      : std::numeric_limits<double>::infinity();
+  }
+
+private:
+  /** A triangle of the patches. */
+  struct PatchTriangle
+  {
+    int Tetrahedron = 0;
+    std::array<int, 3> Corners{}; ///< as SpineEdges counts
+    std::uint32_t CornerMask = 0;
+    bool HasDistance = false;
+    TriangleDistance Distance;
+  };
+
+  /** An isovertex of full resolution. */
+  struct Isovertex
+  {
+    Vector Position{};
+    std::uint32_t On = 0; ///< the patches' triangles that it is taken to, a mask
+  };
+
+  /** A place of the patches, and how far something is from it. */
+  struct Image
+  {
+    Vector Position{};
+    double Squared = std::numeric_limits<double>::infinity();
+  };
+
+  template <typename MayMove>
+  bool IsTaken(const Image& image, const MayMove& mayMove)
+  {
+    this->Greatest = std::max(this->Greatest, image.Squared);
+    return mayMove(image.Position, image.Squared);
+  }
+
+  void FindPatches(const Place& diamond)
+  {
+    const SpineEdges& edges = SpineEdgesOf(diamond.Position);
+    this->Count = 0;
+    this->There = 0;
+    this->Crossed = 0;
+    this->Neighbourhood.ForEachTetrahedron(diamond, true,
+      [&](int number, const HalfPlace& tetrahedron)
+      {
+        this->There |= 1U << number;
+        const SurfacePatch patch =
+          PatchOf(this->Hierarchy, tetrahedron.Rank, *tetrahedron.Half, this->Surface);
+        for (int i = 0; i < patch.TriangleCount; ++i)
+        {
+          PatchTriangle& triangle = this->Triangles[this->Count++];
+          triangle.Tetrahedron = number;
+          triangle.CornerMask = 0;
+          triangle.HasDistance = false;
+          for (int j = 0; j < 3; ++j)
+          {
+            const std::uint8_t edge = patch.Triangles[i][j];
+            const int corner = edges.OfTetrahedron[number][edge];
+            triangle.Corners[j] = corner;
+            triangle.CornerMask |= 1U << corner;
+            if (((this->Crossed >> corner) & 1U) == 0)
+            {
+              this->Corners[corner] =
+                this->InWorld(IsovertexOn(this->Hierarchy, tetrahedron, edge, this->Surface));
+              this->Crossed |= 1U << corner;
+            }
+          }
+        }
+      });
+    this->Domain = &ScaleZeroDomainOf(diamond.Position);
+  }
+
+  /** Decides where the isovertices of full resolution go. @return whether all may */
+  template <typename IsNear, typename MayMove>
+  bool TakeIsovertices(
+    const BrickWindow& window, const Place& diamond, const IsNear& isNear, const MayMove& mayMove)
+  {
+    for (std::size_t i = 0; i < this->Domain->Owners.size(); ++i)
+    {
+      const ScaleZeroDomain::Owner& owner = this->Domain->Owners[i];
+      const Place place{ 0, diamond.Position + owner.Offset };
+      this->Ranks[i] = window.Rank(place.Position);
+      if (this->Ranks[i] == DiamondSet::None)
+      {
+        continue;
+      }
+      const auto rank = static_cast<std::uint32_t>(this->Ranks[i]);
+      const std::uint32_t crossed = owner.EdgeMask &
+        (this->Surface == 0 ? this->Hierarchy.Edges(rank) : this->Hierarchy.UpperEdges(rank));
+      for (const ScaleZeroDomain::Edge& edge : owner.Edges)
+      {
+        const std::uint32_t holders = edge.Tetrahedra & this->There;
+        if (((crossed >> edge.OwnerEdge) & 1U) != 0 && holders != 0)
+        {
+          Isovertex& isovertex = this->Isovertices[i][edge.OwnerEdge];
+          isovertex.Position =
+            this->InWorld(IsovertexAt(this->Hierarchy, place, rank, edge.OwnerEdge, this->Surface));
+          const Image image = this->ImageOf(edge.Around, holders, isNear, isovertex);
+          if (!this->IsTaken(image, mayMove))
+          {
+            return false;
+          }
+        }
+      }
+    }
+    return true;
+  }
+
+  /** Where an isovertex goes: to the border of the tetrahedra's patches that it lies on, if that is
+   *  near or there is no choice. */
+  template <typename IsNear>
+  Image ImageOf(
+    std::uint32_t around, std::uint32_t holders, const IsNear& isNear, Isovertex& isovertex)
+  {
+    const std::uint32_t crossed = around & this->Crossed;
+    const bool isOnEdge = PopCount(around) == 1;
+    // In a tetrahedron, between two, or on the spine with tetrahedra all around.
+    const bool isInside =
+      around == 0 || (isOnEdge ? holders == this->Domain->AllTetrahedra : PopCount(holders) == 2);
+    Image image;
+    if (PopCount(crossed) == (isOnEdge ? 1 : 2))
+    {
+      const Vector& first = this->Corners[LowestBit(crossed)];
+      const Vector& second = this->Corners[LowestBit(isOnEdge ? crossed : crossed & (crossed - 1))];
+      isovertex.On = this->TrianglesWith(crossed);
+      image = OnSegment(isovertex.Position, first, second);
+    }
+    return isInside && !isNear(image.Squared) ? this->NearestIn(holders, isovertex) : image;
+  }
+
+  /** Takes an isovertex to the nearest of the patches of some tetrahedra. */
+  Image NearestIn(std::uint32_t tetrahedra, Isovertex& isovertex)
+  {
+    Image nearest;
+    for (int i = 0; i < this->Count; ++i)
+    {
+      if (((tetrahedra >> this->Triangles[i].Tetrahedron) & 1U) != 0)
+      {
+        const double squared = this->DistanceTo(i).Squared(isovertex.Position);
+        if (squared < nearest.Squared)
+        {
+          nearest.Squared = squared;
+          isovertex.On = 1U << i;
+        }
+      }
+    }
+    if (nearest.Squared < std::numeric_limits<double>::infinity())
+    {
+      nearest.Position = this->DistanceTo(LowestBit(isovertex.On)).Nearest(isovertex.Position);
+    }
+    return nearest;
+  }
+
+  const TriangleDistance& DistanceTo(int index)
+  {
+    PatchTriangle& triangle = this->Triangles[index];
+    if (!triangle.HasDistance)
+    {
+      triangle.HasDistance = true;
+      triangle.Distance = { this->Corners[triangle.Corners[0]], this->Corners[triangle.Corners[1]],
+        this->Corners[triangle.Corners[2]] };
+    }
+    return triangle.Distance;
+  }
+
+  std::uint32_t TrianglesWith(std::uint32_t corners) const
+  {
+    std::uint32_t triangles = 0;
+    for (int i = 0; i < this->Count; ++i)
+    {
+      triangles |= (corners & ~this->Triangles[i].CornerMask) == 0 ? 1U << i : 0U;
+    }
+    return triangles;
+  }
+
+  /** Decides where the edges of full resolution go whose ends go to different triangles. @return
+   *  whether all triangles of full resolution are mapped */
+  template <typename MayMove>
+  bool TakeEdges(const MayMove& mayMove)
+  {
+    for (const ScaleZeroDomain::Tetrahedron& tetrahedron : this->Domain->Tetrahedra)
+    {
+      const std::int64_t rank = this->Ranks[tetrahedron.Owner];
+      if (rank == DiamondSet::None || ((this->There >> tetrahedron.Whole) & 1U) == 0)
+      {
+        continue;
+      }
+      const SurfacePatch patch = PatchOf(
+        this->Hierarchy, static_cast<std::uint32_t>(rank), *tetrahedron.Half, this->Surface);
+      for (int i = 0; i < patch.TriangleCount; ++i)
+      {
+        std::array<const Isovertex*, 3> corners;
+        for (int j = 0; j < 3; ++j)
+        {
+          const auto [owner, edge] = tetrahedron.Edges[patch.Triangles[i][j]];
+          corners[j] = &this->Isovertices[owner][edge];
+        }
+        if (!this->IsMapped(corners, mayMove))
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  /** Whether all of a triangle goes to one triangle of the patches, or to two with a common side.
+   */
+  template <typename MayMove>
+  bool IsMapped(const std::array<const Isovertex*, 3>& corners, const MayMove& mayMove)
+  {
+    if ((corners[0]->On & corners[1]->On & corners[2]->On) != 0)
+    {
+      return true;
+    }
+    std::uint32_t both = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Isovertex& from = *corners[i];
+      const Isovertex& to = *corners[(i + 1) % 3];
+      if ((from.On & to.On) == 0)
+      {
+        const std::uint32_t pair = this->NeighboursAmong(from.On, to.On);
+        if (pair == 0 || (both != 0 && pair != both) ||
+          !this->IsTaken(this->OnSide(pair, from, to), mayMove))
+        {
+          return false;
+        }
+        both = pair;
+      }
+    }
+    bool isInBoth = true;
+    for (int i = 0; i < 3; ++i)
+    {
+      const std::uint32_t common = corners[i]->On & corners[(i + 1) % 3]->On;
+      isInBoth = isInBoth && (common == 0 || (common & both) != 0);
+    }
+    return isInBoth;
+  }
+
+  /** The first two of some triangles and of others that share a side, a mask; 0 if there are none.
+   */
+  std::uint32_t NeighboursAmong(std::uint32_t some, std::uint32_t others) const
+  {
+    std::uint32_t pair = 0;
+    ForEachBit(some,
+      [&](int i)
+      {
+        ForEachBit(others,
+          [&](int j)
+          {
+            const bool isNeighbour =
+              PopCount(this->Triangles[i].CornerMask & this->Triangles[j].CornerMask) == 2;
+            pair = pair == 0 && isNeighbour ? (1U << i) | (1U << j) : pair;
+          });
+      });
+    return pair;
+  }
+
+  /** Where an edge meets the side that two triangles share. */
+  Image OnSide(std::uint32_t pair, const Isovertex& from, const Isovertex& to) const
+  {
+    const std::uint32_t shared = this->Triangles[LowestBit(pair)].CornerMask &
+      this->Triangles[LowestBit(pair & (pair - 1))].CornerMask;
+    return OnOther(from.Position, to.Position, this->Corners[LowestBit(shared)],
+      this->Corners[LowestBit(shared & (shared - 1))]);
+  }
+
+  /** The point of a segment that is nearest. */
+  static Image OnSegment(const Vector& point, const Vector& begin, const Vector& end)
+  {
+    const Vector way = end - begin;
+    const double along = Dot(point - begin, way);
+    const Vector place = begin + (along > 0.0 ? std::min(along / Dot(way, way), 1.0) : 0.0) * way;
+    return { place, Dot(point - place, point - place) };
+  }
+
+  /** The point of another segment that is nearest to some point of one: that which is nearest to
+   *  the other's line. */
+  static Image OnOther(
+    const Vector& begin, const Vector& end, const Vector& otherBegin, const Vector& otherEnd)
+  {
+    const Vector way = end - begin;
+    const Vector other = otherEnd - otherBegin;
+    const Vector across = way - (Dot(way, other) / Dot(other, other)) * other;
+    const double along = Dot(otherBegin - begin, across) / Dot(way, across);
+    return OnSegment(
+      begin + (along > 0.0 ? std::min(along, 1.0) : 0.0) * way, otherBegin, otherEnd);
+  }
+
+  const IsodiamondHierarchy& Hierarchy;
+  SpineNeighbourhood Neighbourhood;
+  const Lengths& InWorld;
+  int Surface;
+  double Greatest = 0.0; ///< squared, of how far anything moves
+  std::uint32_t There = 0;
+  std::uint32_t Crossed = 0; ///< of the spine's edges
+  std::array<Vector, SpineEdges::MostEdges> Corners{};
+  int Count = 0;
+  std::array<PatchTriangle, 16> Triangles;
+  const ScaleZeroDomain* Domain = nullptr;
+  std::array<std::int64_t, 27> Ranks{};                               ///< of the owners
+  std::array<std::array<Isovertex, MaximumVertices>, 27> Isovertices; ///< of crossed edges
+};
+
+}
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_MapBounds_h
+#define isodiamond_MapBounds_h
+
+#include "Hierarchy/ErrorCode.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * Bounds of the way back that the way forth finds as it goes, for each tetrahedron of each diamond.
+ *
+ * Let a map take every isovertex of full resolution in a tetrahedron to a point of the patch: on an
+ * edge, to the patch's corner on it; on a triangle, to a point of the patch's side in it; inside,
+ * to any. Linear over the triangles of full resolution, it takes the border of their surface to
+ * that of the patch, each side of this covered an odd number of times. So all of a flat patch is
+ * covered, and no point of it is farther from the surface than the farthest isovertex from where it
+ * is taken. Of a patch of two triangles, which can be bent, any point is by the bend farther.
+ *
+ * Without a bound where an isovertex lies on an edge that the patch does not cross, or on a
+ * triangle where it has no side.
+ */
+class MapBounds
+{
+public:
+  static constexpr ErrorCode::Type None = ErrorCode::Always;
+
+  /** No bounds, of no diamonds: none are wanted. */
+  MapBounds() = default;
+
+  MapBounds(std::size_t diamondCount, int surfaceCount)
+  {
+    OfDiamond none;
+    none.fill(None);
+    for (int surface = 0; surface < surfaceCount; ++surface)
+    {
+      this->Codes[surface].assign(diamondCount, none);
+    }
+  }
+
+  bool AreWanted() const { return !this->Codes[0].empty(); }
+
+  /** @param rank of the diamond
+   *  @param tetrahedron as ForEachParentHalf() counts */
+  ErrorCode::Type Of(int surface, std::uint32_t rank, int tetrahedron) const
+  {
+    return this->AreWanted() ? this->Codes[surface][rank][tetrahedron] : None;
+  }
+
+  void Set(int surface, std::uint32_t rank, int tetrahedron, ErrorCode::Type code)
+  {
+    this->Codes[surface][rank][tetrahedron] = code;
+  }
+
+private:
+  using OfDiamond = std::array<ErrorCode::Type, 8>;
+  std::array<std::vector<OfDiamond>, 2> Codes;
+};
+
+}
+
+#endif
