@@ -40,7 +40,6 @@ void vtkIsodiamondBuilder::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
   os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
   os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
-  os << indent << "TwoSidedDistances: " << (this->TwoSidedDistances ? "On" : "Off") << "\n";
   os << indent << "PreserveTopology: " << (this->PreserveTopology ? "On" : "Off") << "\n";
   os << indent << "MinimumPieceSize: " << this->MinimumPieceSize << "\n";
   os << indent << "RefineInterior: " << (this->RefineInterior ? "On" : "Off") << "\n";
@@ -212,7 +211,6 @@ isodiamond::BuildOptions vtkIsodiamondBuilder::GetOptions(const isodiamond::Affi
   options.Metric = static_cast<isodiamond::ErrorMetric>(this->ErrorMetric);
   options.ExactIsovertices = this->ExactIsovertices;
   options.PreserveFeatures = this->PreserveFeatures;
-  options.TwoSided = this->TwoSidedDistances;
   options.PreserveTopology = this->PreserveTopology;
   options.MinimumPieceSize = this->MinimumPieceSize;
   options.RefineInterior = this->RefineInterior;

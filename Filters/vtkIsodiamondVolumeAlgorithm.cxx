@@ -37,7 +37,6 @@ void vtkIsodiamondVolumeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
   os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
   os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
-  os << indent << "TwoSidedDistances: " << (this->TwoSidedDistances ? "On" : "Off") << "\n";
   os << indent << "PreserveTopology: " << (this->PreserveTopology ? "On" : "Off") << "\n";
   os << indent << "MinimumPieceSize: " << this->MinimumPieceSize << "\n";
   os << indent << "InterpolateAttributes: " << (this->InterpolateAttributes ? "On" : "Off") << "\n";
@@ -141,7 +140,6 @@ isodiamond::BuildOptions vtkIsodiamondVolumeAlgorithm::GetOptions(
   isodiamond::BuildOptions options;
   options.ExactIsovertices = this->ExactIsovertices;
   options.PreserveFeatures = this->PreserveFeatures;
-  options.TwoSided = this->TwoSidedDistances;
   options.PreserveTopology = this->PreserveTopology;
   options.MinimumPieceSize = this->MinimumPieceSize;
   if (query.View && this->ErrorMetric != vtkIsodiamondHierarchy::DISTANCE)

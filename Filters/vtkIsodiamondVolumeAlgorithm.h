@@ -54,10 +54,10 @@ public:
 
   ///@{
   /**
-   * How the error of a tolerance is measured. *Distance*: in world units; no vertex of the
-   * full-resolution surface is farther from the mesh than the tolerance, and with TwoSidedDistances
-   * no point of the mesh is farther from that surface. *Field* (the paper's): in field units,
-   * between the field and its linear interpolant. Default: distance.
+   * How the error of a tolerance is measured. *Distance*: in world units; no point of the mesh
+   * is farther from the full-resolution surface than the tolerance, and no vertex of that from the
+   * mesh. *Field* (the paper's): in field units, between the field and its linear interpolant.
+   * Default: distance.
    */
   vtkSetClampMacro(
     ErrorMetric, int, vtkIsodiamondHierarchy::FIELD, vtkIsodiamondHierarchy::DISTANCE);
@@ -89,18 +89,6 @@ public:
   vtkSetMacro(PreserveFeatures, bool);
   vtkGetMacro(PreserveFeatures, bool);
   vtkBooleanMacro(PreserveFeatures, bool);
-  ///@}
-
-  ///@{
-  /**
-   * With the distance metric, measure both ways: then no point of the mesh is farther from the
-   * full-resolution surface than the tolerance, either. Off, a triangle may bridge what is nearer
-   * together than the tolerance. The first execution takes several times as long with it, on noisy
-   * data more than ten times. Default: off.
-   */
-  vtkSetMacro(TwoSidedDistances, bool);
-  vtkGetMacro(TwoSidedDistances, bool);
-  vtkBooleanMacro(TwoSidedDistances, bool);
   ///@}
 
   ///@{
@@ -186,7 +174,6 @@ protected:
   int ErrorMetric = vtkIsodiamondHierarchy::DISTANCE;
   bool ExactIsovertices = true;
   bool PreserveFeatures = true;
-  bool TwoSidedDistances = false;
   bool PreserveTopology = true;
   int MinimumPieceSize = 0;
   vtkTypeBool InterpolateAttributes = 1;

@@ -30,8 +30,7 @@ bool AreAlike(const isodiamond::BuildOptions& a, const isodiamond::BuildOptions&
   return a.Metric == b.Metric && a.ExactIsovertices == b.ExactIsovertices &&
     a.PreserveTopology == b.PreserveTopology && a.MinimumPieceSize == b.MinimumPieceSize &&
     (a.Metric == isodiamond::ErrorMetric::Field ||
-      (a.PreserveFeatures == b.PreserveFeatures && a.TwoSided == b.TwoSided &&
-        HaveSameLengths(a.World, b.World)));
+      (a.PreserveFeatures == b.PreserveFeatures && HaveSameLengths(a.World, b.World)));
 }
 
 }

@@ -185,7 +185,6 @@ isodiamond::BuildOptions Distance(const isodiamond::GridGeometry& world)
 {
   isodiamond::BuildOptions options;
   options.Metric = isodiamond::ErrorMetric::Distance;
-  options.TwoSided = true;
   options.World = world;
   return options;
 }

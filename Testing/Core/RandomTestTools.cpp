@@ -245,7 +245,6 @@ BuildOptions RandomOptions(Random& random, const std::array<int, 3>& dimensions)
   options.Metric = Pick(random, 2) == 0 ? ErrorMetric::Field : ErrorMetric::Distance;
   options.ExactIsovertices = Pick(random, 2) == 0;
   options.PreserveFeatures = Pick(random, 2) == 0;
-  options.TwoSided = Pick(random, 2) == 0;
   options.RefineInterior = Pick(random, 2) == 0;
   options.PreserveTopology = Pick(random, 2) == 0;
   options.MinimumPieceSize = Pick(random, 2) == 0 ? 0 : Pick(random, 10);

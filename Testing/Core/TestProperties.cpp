@@ -80,7 +80,6 @@ private:
     const test::AnyMesh full(*this->Minimal.Hierarchy, Query{});
     test::Promise promise;
     promise.Forth = this->Options.PreserveFeatures;
-    promise.Back = this->Options.TwoSided;
     promise.MostSamples = 5000;
     promise.Tolerance =
       query.Region ? std::max(query.Tolerance, query.OutsideTolerance) : query.Tolerance;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The way back of the distance metric: errors of all diamonds against brute force on the
 // reference's patches, and the parts that it is made of. Whole meshes are in TestDistanceError.cpp.
+#include "Build/ActivationThresholds.h"
 #include "DistanceError/DistanceError.h"
 #include "DistanceError/FineSurface.h"
 #include "DistanceError/SlabTest.h"
@@ -174,6 +175,7 @@ public:
     std::vector<ErrorCode::Type> threaded = before;
     RaiseByWayBack(this->Hierarchy, world, known, threaded, test::ThreadedFor(3));
     EXPECT_TRUE(raised == threaded);
+    this->CheckThresholds(before, raised, { hidden, &bounds, {} }, world);
 
     std::vector<test::NearestTriangle> nearest;
     for (const test::SurfaceTriangles& full : this->Full)
@@ -199,6 +201,35 @@ public:
   }
 
 private:
+  /** What thresholds spare the way back changes none of them by more than it is rounded up by. */
+  void CheckThresholds(const std::vector<ErrorCode::Type>& before,
+    const std::vector<ErrorCode::Type>& raised, BeforeWayBack known,
+    const GridGeometry& world) const
+  {
+    const auto thresholds = [&](const std::vector<ErrorCode::Type>& codes)
+    {
+      return ActivationThresholds(
+        this->Hierarchy.SampleGrid(), this->Hierarchy.Diamonds(), codes, SerialFor);
+    };
+    known.Thresholds = thresholds(before);
+    std::vector<ErrorCode::Type> spared = before;
+    RaiseByWayBack(this->Hierarchy, world, known, spared, SerialFor);
+    const std::vector<ErrorCode::Type> expected = thresholds(raised);
+    const std::vector<ErrorCode::Type> found = thresholds(spared);
+    const ErrorCode code(DistanceErrorScale(this->Hierarchy.SampleGrid(), world));
+    for (std::size_t rank = 0; rank < found.size(); ++rank)
+    {
+      const double least = LeastError(world);
+      const double ratio =
+        std::max(code.Decode(found[rank]), least) / std::max(code.Decode(expected[rank]), least);
+      if (found[rank] != expected[rank])
+      {
+        ASSERT_GE(ratio, 1.0 / 1.5626) << "rank " << rank; // (5/4)^2 for two surfaces
+        ASSERT_LE(ratio, 1.5626) << "rank " << rank;
+      }
+    }
+  }
+
   void Compare(const Place& place, const GridGeometry& world,
     const std::vector<test::NearestTriangle>& nearest, const std::array<ErrorCode::Type, 2>& codes,
     Seen& seen) const

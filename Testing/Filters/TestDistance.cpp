@@ -132,7 +132,6 @@ void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, boo
   contour->SetInputData(grid);
   contour->SetValue(0, isovalue);
   contour->SetCloseBoundary(close);
-  contour->TwoSidedDistancesOn();
   contour->ComputeNormalsOff();
   contour->Update();
   vtkNew<vtkPolyData> full;
@@ -349,7 +348,6 @@ TEST(Distance, IsAPromiseOnBothSurfacesOfIntervalVolumes)
     double range[2];
     grid->GetScalarRange(range);
     vtkNew<vtkIsodiamondIntervalVolume> volume;
-    volume->TwoSidedDistancesOn();
     volume->SetInputData(grid);
     volume->SetIsorange(
       range[0] + 0.45 * (range[1] - range[0]), range[0] + 0.8 * (range[1] - range[0]));
@@ -550,14 +548,11 @@ TEST(Distance, BuildsAgainOnlyForWhatMatters)
   expectBuilds(1);
   contour->PreserveFeaturesOff();
   expectBuilds(1);
-  contour->TwoSidedDistancesOn();
-  expectBuilds(1);
   contour->ExactIsoverticesOff();
   expectBuilds(1);
   contour->SetErrorMetricToField();
   expectBuilds(1);
   contour->PreserveFeaturesOn(); // says nothing to the field metric
-  contour->TwoSidedDistancesOff();
   image->SetSpacing(1.0, 1.0, 1.0);
   expectBuilds(0);
   contour->SetValue(0, 0.05);

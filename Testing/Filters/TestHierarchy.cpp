@@ -218,7 +218,6 @@ TEST(Hierarchy, OfVersion2HasOneSidedDistancesAndAllPieces)
 {
   const auto builder = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
   builder->SetErrorMetricToDistance();
-  builder->TwoSidedDistancesOn();
   builder->PreserveTopologyOn();
   builder->SetMinimumPieceSize(3);
   builder->Update();

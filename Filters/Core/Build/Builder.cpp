@@ -308,7 +308,7 @@ public:
     this->Header.FieldScale = source.FieldScale;
     this->Header.ErrorScale = errorScale;
     this->Header.ExactIsovertices = options.ExactIsovertices;
-    this->Header.TwoSided = options.Metric == ErrorMetric::Distance && options.TwoSided;
+    this->Header.TwoSided = options.Metric == ErrorMetric::Distance;
     this->Header.PreservesTopology = options.PreserveTopology;
     this->Header.ActiveCount = this->Kinds.Active.Size();
     this->Header.CreationCount = this->Kinds.Creation.Size();
@@ -336,19 +336,14 @@ public:
   {
     this->Report("Measuring errors", 0.25, 0.5);
     const IsodiamondHierarchy hierarchy(relevant, this->For);
-    MapBounds bounds = this->Header.TwoSided
-      ? MapBounds(this->Members.Size(), this->Header.Region.SurfaceCount())
-      : MapBounds();
+    MapBounds bounds(this->Members.Size(), this->Header.Region.SurfaceCount());
     DiamondCodes own = OwnDistanceCodes(this->Origin, hierarchy, this->SignsToGoBy(), this->Options,
       this->Interior, bounds, this->For);
     this->SubdivideAlways(own);
-    if (this->Header.TwoSided)
-    {
-      this->Report("Measuring errors", 0.5, 0.8);
-      const BeforeWayBack known{ this->Options.Hidden, &bounds,
-        ActivationThresholds(this->Origin.SampleGrid, this->Members, own.Surface, this->For) };
-      RaiseByWayBack(hierarchy, this->Options.World, known, own.Surface, this->For);
-    }
+    this->Report("Measuring errors", 0.5, 0.8);
+    const BeforeWayBack known{ this->Options.Hidden, &bounds,
+      ActivationThresholds(this->Origin.SampleGrid, this->Members, own.Surface, this->For) };
+    RaiseByWayBack(hierarchy, this->Options.World, known, own.Surface, this->For);
     return own;
   }
 

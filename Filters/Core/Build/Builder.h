@@ -19,9 +19,6 @@ struct BuildOptions
   bool ExactIsovertices = true;
   /** With the distance metric, whether every feature is kept at any tolerance. */
   bool PreserveFeatures = true;
-  /** With the distance metric, whether the way back is measured as well: RaiseByWayBack(). That
-   * takes several times as long as all else. */
-  bool TwoSided = false;
   /** Whether the mesh of every tolerance is homeomorphic to that of full resolution: critical
    *  diamonds are always subdivided; CriticalDiamonds.h. */
   bool PreserveTopology = false;

@@ -13,7 +13,7 @@
 /**
  * @file DistanceError.h
  * The distance metric: how far the surface of full resolution lies from a diamond's patches, and
- * these from it, in world units. The error of a diamond is that of the way forth, or the greater
+ * these from it, in world units. The error of a diamond is the greater
  * of both ways.
  *
  * The way forth of a diamond is the largest distance from a full-resolution isovertex in its closed
@@ -68,8 +68,8 @@ struct BeforeWayBack
  * Raises distance errors to the way back: how far a point of a diamond's patches can be from the
  * surface of full resolution, of an interval volume from the same of both. So if every leaf of a
  * mesh lies in a diamond with an error of at most t, no point of the mesh is farther than t from
- * full resolution. Rounded up by 1/8 at most; and what is more than nothing is never less than
- * 1/128 of a step of the lattice. See WayBack.h.
+ * full resolution. Rounded up by 1/4 at most; and what is more than nothing is never less than
+ * 1/64 of a step of the lattice. See WayBack.h.
  *
  * @param relevant, world as above
  * @param codes of DistanceErrors()

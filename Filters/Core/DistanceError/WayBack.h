@@ -477,8 +477,9 @@ private:
   {
     const Ball ball = this->Balls(cell);
     const Vector to = ball.Middle - point;
-    const double reach = std::sqrt(nearest.Squared) + ball.Radius;
-    return Dot(to, to) < reach * reach;
+    // Whether |to| < the radius and the distance together, without roots.
+    const double beyond = Dot(to, to) - ball.Radius * ball.Radius - nearest.Squared;
+    return beyond < 0.0 || beyond * beyond < 4.0 * ball.Radius * ball.Radius * nearest.Squared;
   }
 
   void Compare(const Vector& point, const FineSurface::Triangle& corners, Nearest& nearest) const

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The maps that bound the way back: no point of a patch is farther from full resolution than the
+// bound says, by brute force; and they are found where the surface is simple.
+#include "DistanceError/DistanceError.h"
+#include "DistanceError/DomainMap.h"
+#include "DistanceError/MapBounds.h"
+#include "DistanceTestTools.h"
+#include "Patches/WorldLengths.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace isodiamond;
+
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+/** A hierarchy with its full resolution, in a world without right angles. */
+struct MapCase
+{
+  explicit MapCase(const test::Field& field)
+    : Relevant(test::Build(Model::Relevant, field))
+    , Full(test::Placed(test::Extract(*this->Relevant.Hierarchy, 0.0), this->World))
+  {
+  }
+
+  const IsodiamondHierarchy& Hierarchy() const { return *this->Relevant.Hierarchy; }
+
+  /** The triangles of a tetrahedron's patch, in the world. */
+  test::SurfaceTriangles PatchOfTetrahedron(const HalfPlace& tetrahedron) const
+  {
+    const SurfacePatch patch = PatchOf(this->Hierarchy(), tetrahedron.Rank, *tetrahedron.Half, 0);
+    test::SurfaceTriangles triangles;
+    for (int i = 0; i < patch.TriangleCount; ++i)
+    {
+      reference::SurfaceTriangle triangle;
+      for (int j = 0; j < 3; ++j)
+      {
+        const FinePosition corner =
+          IsovertexOn(this->Hierarchy(), tetrahedron, patch.Triangles[i][j], 0);
+        triangle.Corners[j] = { corner[0] / 256.0, corner[1] / 256.0, corner[2] / 256.0 };
+      }
+      triangles.push_back(triangle);
+    }
+    return test::Placed(triangles, this->World);
+  }
+
+  /** How far samples of triangles are from full resolution. */
+  double Sampled(const test::SurfaceTriangles& triangles) const
+  {
+    test::SampledDistance sampled;
+    for (const reference::SurfaceTriangle& triangle : triangles)
+    {
+      sampled.Add(triangle, this->Full, 0.125);
+    }
+    return sampled.Largest;
+  }
+
+  AffineMap World{
+    { { { 0.8, 0.3, -0.2, 7 }, { 0.1, -1.1, 0.4, -2 }, { -0.3, 0.25, 1.4, 0.5 } } }
+  };
+  test::Built Relevant;
+  test::NearestTriangle Full;
+};
+
+std::vector<test::Field> Fields()
+{
+  return { test::NoiseField({ 9, 9, 9 }, 71), test::SphereField({ 17, 17, 17 }),
+    test::WaveField({ 10, 6, 13 }), test::SparseField({ 17, 17, 17 }, 72) };
+}
+
+}
+
+TEST(MapBounds, BoundTheWayBackFromEveryFlatPatch)
+{
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    const MapCase map(field);
+    const IsodiamondHierarchy& hierarchy = map.Hierarchy();
+    MapBounds bounds(hierarchy.Diamonds().Size(), 1);
+    ASSERT_TRUE(bounds.AreWanted());
+    DistanceErrors(hierarchy, field.View(), map.World, true, SerialFor, &bounds);
+    const ErrorCode code(DistanceErrorScale(hierarchy.SampleGrid(), map.World));
+    int found = 0;
+    int coarse = 0;
+    int all = 0;
+    hierarchy.Diamonds().ForEach(
+      [&](const Place& diamond, std::uint32_t rank)
+      {
+        SpineNeighbourhood(hierarchy).ForEachTetrahedron(diamond, true,
+          [&](int number, const HalfPlace& tetrahedron)
+          {
+            const test::SurfaceTriangles patch = map.PatchOfTetrahedron(tetrahedron);
+            const double bound = code.Decode(bounds.Of(0, rank, number));
+            ++all;
+            if (patch.size() == 1 && bound < Infinity)
+            {
+              ++found;
+              coarse += diamond.Scale > 0 ? 1 : 0;
+              ASSERT_LE(map.Sampled(patch), bound * (1.0 + 1e-9) + 1e-12);
+            }
+          });
+      });
+    EXPECT_GT(found, all / 20);
+    EXPECT_GT(coarse, 0);
+  }
+}
+
+TEST(DomainMap, BoundsTheWayBackFromAllPatches)
+{
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    const MapCase map(field);
+    const IsodiamondHierarchy& hierarchy = map.Hierarchy();
+    const AffineLengths lengths(map.World);
+    DomainMap<AffineLengths> domain(hierarchy, lengths, 0);
+    int found = 0;
+    int inside = 0;
+    int all = 0;
+    hierarchy.Diamonds().ForEach(
+      [&](const Place& diamond, std::uint32_t)
+      {
+        if (diamond.Scale > 0 || hierarchy.SampleGrid().SticksOut(diamond.Position, 0))
+        {
+          return;
+        }
+        test::SurfaceTriangles patches;
+        SpineNeighbourhood(hierarchy).ForEachTetrahedron(diamond, true,
+          [&](int, const HalfPlace& tetrahedron)
+          {
+            for (const reference::SurfaceTriangle& triangle : map.PatchOfTetrahedron(tetrahedron))
+            {
+              patches.push_back(triangle);
+            }
+          });
+        const BrickWindow window(hierarchy.Diamonds().Level(0), diamond.Position);
+        // With and without a reason to leave the border of a patch.
+        const double least = domain.Bound(
+          window, diamond, [](double) { return false; },
+          [](const Vector&, double squared) { return squared < Infinity; });
+        const double bound = domain.Bound(
+          window, diamond, [](double) { return true; },
+          [](const Vector&, double squared) { return squared < Infinity; });
+        if (patches.empty())
+        {
+          return;
+        }
+        const double sampled = map.Sampled(patches);
+        ++all;
+        found += bound < Infinity ? 1 : 0;
+        inside += least < bound ? 1 : 0;
+        ASSERT_LE(sampled, bound * (1.0 + 1e-9) + 1e-12);
+        ASSERT_LE(sampled, least * (1.0 + 1e-9) + 1e-12);
+      });
+    EXPECT_GT(found, all / 3);
+    EXPECT_GT(inside, all / 50);
+  }
+}
