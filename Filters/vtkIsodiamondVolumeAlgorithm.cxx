@@ -14,8 +14,11 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 
 #include <algorithm>
 
@@ -130,6 +133,13 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
         });
       vtkIsodiamond::KeepPiece(output, this->Piece);
       this->NumberOfRemovedPieces += this->RemovedFromBlock;
+      if (this->MinimumPieceSize > 0)
+      {
+        vtkNew<vtkIdTypeArray> removed;
+        removed->SetName("NumberOfRemovedPieces");
+        removed->InsertNextValue(this->RemovedFromBlock);
+        output->GetFieldData()->AddArray(removed);
+      }
     });
 }
 
@@ -164,7 +174,7 @@ vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamon
   constexpr double buildPart = 0.8;
   vtkIsodiamond::Task building = task.Part(0.0, buildPart);
   const isodiamond::IsodiamondHierarchy& hierarchy =
-    this->Hierarchies->Get(volume, region, refineInterior, building);
+    this->Hierarchies->Get(volume, region, { !query.IsFull(), refineInterior }, building);
   this->RemovedFromBlock += hierarchy.Header().RemovedPieces;
   vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
   extracting.Begin("Refining", 0.0, 0.3);

@@ -140,7 +140,8 @@ public:
   ///@}
 
   /** How many pieces MinimumPieceSize removed in the last execution, from all isovalues and blocks
-   *  together. 0 before the first one and after an error. */
+   *  together. 0 before the first one and after an error. Unless that size is 0, each mesh has its
+   *  own in the field data, `NumberOfRemovedPieces`. */
   vtkGetMacro(NumberOfRemovedPieces, vtkIdType);
 
   double* GetErrorToleranceRange() VTK_SIZEHINT(2) override;

@@ -53,37 +53,65 @@ void Cache::Prepare(
   this->Current.Options = options;
 }
 
-const isodiamond::IsodiamondHierarchy& Cache::Get(
-  const Volume& volume, const isodiamond::Isoregion& region, bool refineInterior, Task& task)
+isodiamond::BuildOptions Cache::OptionsFor(
+  const Volume& volume, bool refineInterior, Task& task) const
 {
+  isodiamond::BuildOptions options = this->Current.Options;
+  options.RefineInterior = refineInterior;
+  options.Hidden = &volume.Hidden;
+  options.Report = task.Report();
+  return options;
+}
+
+const isodiamond::IsodiamondHierarchy& Cache::Get(
+  const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task)
+{
+  constexpr isodiamond::Model model = isodiamond::Model::Minimal;
   // What can be refined inside need not be.
   const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
     [&](const Entry& entry)
     {
-      return entry.Region == region && (entry.RefineInterior || !refineInterior) &&
+      return entry.Region == region && (entry.RefineInterior || !need.RefinedInterior) &&
         entry.From == this->Current;
     });
   if (found != this->Entries.end())
   {
     found->IsUsed = true;
     this->Entries.splice(this->Entries.begin(), this->Entries, found);
-    return *this->Entries.front().Hierarchy;
   }
-  isodiamond::BuildOptions options = this->Current.Options;
-  options.RefineInterior = refineInterior;
-  options.Hidden = &volume.Hidden;
-  options.Report = task.Report();
-  std::list<Entry> added(1);
-  Entry& entry = added.front();
-  entry.From = this->Current;
-  entry.Region = region;
-  entry.RefineInterior = refineInterior;
-  entry.Encoding = isodiamond::BuildIsodiamonds(
-    isodiamond::Model::Minimal, volume.Samples, region, task.For(), options);
-  entry.Hierarchy = std::make_unique<isodiamond::IsodiamondHierarchy>(entry.Encoding, task.For());
-  ++this->NumberOfBuilds;
-  this->Entries.splice(this->Entries.begin(), added);
-  return *entry.Hierarchy;
+  else
+  {
+    const isodiamond::BuildOptions options = this->OptionsFor(volume, need.RefinedInterior, task);
+    std::list<Entry> added(1);
+    Entry& entry = added.front();
+    entry.From = this->Current;
+    entry.Region = region;
+    entry.RefineInterior = need.RefinedInterior;
+    // Where cells are hidden, what is inside of a volume is refined, too: by its errors.
+    if (need.Errors || need.RefinedInterior || (region.IsVolume() && volume.Hidden.Any()))
+    {
+      entry.Encoding =
+        isodiamond::BuildIsodiamonds(model, volume.Samples, region, task.For(), options);
+    }
+    else
+    {
+      entry.Staged.emplace(volume.Samples, region, task.For(), options);
+    }
+    ++this->NumberOfBuilds;
+    this->Entries.splice(this->Entries.begin(), added);
+  }
+  Entry& entry = this->Entries.front();
+  if (entry.Staged && need.Errors)
+  {
+    entry.Encoding = entry.Staged->Finish(
+      model, volume.Samples, task.For(), this->OptionsFor(volume, entry.RefineInterior, task));
+    entry.Staged.reset();
+  }
+  if (!entry.Staged && !entry.Hierarchy)
+  {
+    entry.Hierarchy = std::make_unique<isodiamond::IsodiamondHierarchy>(entry.Encoding, task.For());
+  }
+  return entry.Current();
 }
 
 void Cache::Trim(std::int64_t bytes)

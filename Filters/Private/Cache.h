@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <list>
 #include <memory>
+#include <optional>
 
 namespace vtkIsodiamond
 {
@@ -31,9 +32,17 @@ public:
    *  before padding @param options RefineInterior is Get()'s */
   void Prepare(vtkDataArray* array, const Volume& volume, const isodiamond::BuildOptions& options);
 
-  /** The hierarchy of a region; built if there is none yet. */
+  /** What of a hierarchy a query needs. */
+  struct Need
+  {
+    bool Errors = true; ///< else it asks for full resolution
+    bool RefinedInterior = false;
+  };
+
+  /** The hierarchy of a region; built if there is none yet, and its errors measured when a query
+   *  first needs them. */
   const isodiamond::IsodiamondHierarchy& Get(
-    const Volume& volume, const isodiamond::Isoregion& region, bool refineInterior, Task& task);
+    const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task);
 
   /** Forgets all but what was used since the last time, and as much more as fits. */
   void Trim(std::int64_t bytes);
@@ -61,15 +70,25 @@ private:
     Source From;
     isodiamond::Isoregion Region = 0.0;
     bool RefineInterior = false;
-    bool IsUsed = true; ///< since the last time of trimming
+    bool IsUsed = true;                            ///< since the last time of trimming
+    std::optional<isodiamond::StagedBuild> Staged; ///< as long as nobody needs errors
     isodiamond::Encoding Encoding;
-    std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy;
+    std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy; ///< of the encoding
 
+    const isodiamond::IsodiamondHierarchy& Current() const
+    {
+      return this->Staged ? this->Staged->FullResolution() : *this->Hierarchy;
+    }
+    /** 0 if an abortion left nothing to be seen yet. */
     std::int64_t Bytes() const
     {
-      return this->Hierarchy->StorageSize() + this->Hierarchy->DerivedSize();
+      return this->Staged || this->Hierarchy
+        ? this->Current().StorageSize() + this->Current().DerivedSize()
+        : 0;
     }
   };
+
+  isodiamond::BuildOptions OptionsFor(const Volume& volume, bool refineInterior, Task& task) const;
 
   ContentHashes Hashes;
   Source Current;

@@ -18,7 +18,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <random>
 
 namespace test
@@ -79,6 +81,24 @@ vtkSmartPointer<vtkImageData> PhantomImage(const std::array<int, 3>& dims, doubl
           -bore(y, z, 0.5, 0.62, 0.09), -box(0.72, 0.5, 0.4, 0.03, 0.2, 0.4) });
       return 100.0 / (1.0 + std::exp(2.0 * part)) + noise * normal(random);
     });
+}
+
+vtkSmartPointer<vtkImageData> SampleVolume(const char* name, const std::array<int, 3>& dims)
+{
+  const char* folder = std::getenv("ISODIAMONDS_DATA_DIR");
+  vtkNew<vtkUnsignedCharArray> values;
+  values->SetName("density");
+  values->SetNumberOfValues(vtkIdType{ 1 } * dims[0] * dims[1] * dims[2]);
+  std::ifstream file(std::string(folder ? folder : "") + "/" + name, std::ios::binary);
+  if (!folder ||
+    !file.read(reinterpret_cast<char*>(values->GetPointer(0)), values->GetNumberOfValues()))
+  {
+    return nullptr;
+  }
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(dims.data());
+  image->GetPointData()->SetScalars(values);
+  return image;
 }
 
 void Messages::Execute(vtkObject*, unsigned long event, void* data)

@@ -41,6 +41,10 @@ vtkSmartPointer<vtkRectilinearGrid> Rectilinear(
  *  along z: cells between 0.4 and 4 in a grid of about 40 samples on each axis. */
 double UnevenPlace(int axis, int index);
 
+/** A uint8 volume of the folder that the environment's ISODIAMONDS_DATA_DIR names; null without it.
+ */
+vtkSmartPointer<vtkImageData> SampleVolume(const char* name, const std::array<int, 3>& dims);
+
 /** Collects the errors and warnings of an algorithm instead of printing them. */
 class Messages : public vtkCommand
 {

@@ -154,25 +154,6 @@ void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, boo
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
 }
 
-/** A uint8 volume of the sample data; null without it. */
-vtkSmartPointer<vtkImageData> SampleVolume(const char* name, const std::array<int, 3>& dims)
-{
-  const char* folder = std::getenv("ISODIAMONDS_DATA_DIR");
-  vtkNew<vtkUnsignedCharArray> values;
-  values->SetName("density");
-  values->SetNumberOfValues(vtkIdType{ 1 } * dims[0] * dims[1] * dims[2]);
-  std::ifstream file(std::string(folder ? folder : "") + "/" + name, std::ios::binary);
-  if (!folder ||
-    !file.read(reinterpret_cast<char*>(values->GetPointer(0)), values->GetNumberOfValues()))
-  {
-    return nullptr;
-  }
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(dims.data());
-  image->GetPointData()->SetScalars(values);
-  return image;
-}
-
 /** One surface of an interval volume: the faces of one tetrahedron whose corners all lie on it. */
 vtkSmartPointer<vtkPolyData> SurfaceOf(vtkUnstructuredGrid* volume, int surface)
 {
@@ -324,8 +305,8 @@ TEST(Distance, IsAPromiseOnNoisyWaves)
 
 TEST(Distance, IsAPromiseOnSampleVolumes)
 {
-  const auto tooth = SampleVolume("tooth_103x94x161_uint8.raw", { 103, 94, 161 });
-  const auto fuel = SampleVolume("fuel_64x64x64_uint8.raw", { 64, 64, 64 });
+  const auto tooth = test::SampleVolume("tooth_103x94x161_uint8.raw", { 103, 94, 161 });
+  const auto fuel = test::SampleVolume("fuel_64x64x64_uint8.raw", { 64, 64, 64 });
   if (!tooth || !fuel)
   {
     GTEST_SKIP() << "ISODIAMONDS_DATA_DIR does not hold the tooth and the fuel";

@@ -125,6 +125,71 @@ TEST(Progress, HasNamedPhasesInOrder)
   EXPECT_EQ(ofBuilder->Phases.count("Measuring errors"), 1U);
 }
 
+TEST(Progress, FullResolutionWaitsForNoErrors)
+{
+  const auto image = test::PhantomImage({ 40, 40, 40 }, 1.0);
+  vtkNew<vtkIsodiamondContour> contour;
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  contour->SetValue(0, 50.0);
+  volume->SetIsorange(50.0, 110.0);
+  for (vtkIsodiamondVolumeAlgorithm* filter : { static_cast<vtkIsodiamondVolumeAlgorithm*>(contour),
+         static_cast<vtkIsodiamondVolumeAlgorithm*>(volume) })
+  {
+    filter->SetInputData(image);
+    vtkNew<Listener> listener;
+    filter->AddObserver(vtkCommand::ProgressEvent, listener);
+    filter->Update();
+    EXPECT_GT(CellsOf(filter), 0);
+    EXPECT_EQ(listener->Phases.count("Placing isovertices"), 1U);
+    EXPECT_EQ(listener->Phases.count("Measuring errors"), 0U);
+    listener->Phases.clear();
+    listener->Start(-1);
+    filter->SetErrorTolerance(0.5);
+    filter->Update();
+    EXPECT_EQ(listener->Phases.count("Measuring errors"), 1U);
+    EXPECT_EQ(listener->Phases.count("Placing isovertices"), 0U);
+    listener->Phases.clear();
+    listener->Start(-1);
+    filter->SetErrorTolerance(0.0);
+    filter->Update();
+    listener->Start(-1);
+    filter->SetErrorTolerance(1.0);
+    filter->Update();
+    EXPECT_EQ(listener->Phases.count("Measuring errors"), 0U);
+    EXPECT_EQ(filter->GetNumberOfBuilds(), 1);
+  }
+}
+
+TEST(Progress, AnAbortedMeasurementIsDoneAgain)
+{
+  const auto image = test::PhantomImage({ 64, 64, 64 }, 1.0);
+  vtkNew<vtkIsodiamondContour> reference;
+  reference->SetInputData(image);
+  reference->SetValue(0, 50.0);
+  reference->SetErrorTolerance(0.5);
+  reference->Update();
+  int aborted = 0;
+  for (int at = 0; at < 12; ++at)
+  {
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputData(image);
+    contour->SetValue(0, 50.0);
+    contour->Update();
+    contour->SetErrorTolerance(0.5);
+    vtkNew<Listener> listener;
+    contour->AddObserver(vtkCommand::ProgressEvent, listener);
+    listener->Start(at);
+    contour->Update();
+    aborted += CellsOf(contour) == 0 ? 1 : 0;
+    contour->SetAbortExecute(0);
+    contour->Modified();
+    listener->Start(-1);
+    contour->Update();
+    EXPECT_EQ(test::Difference(contour->GetOutput(), reference->GetOutput()), "") << at;
+  }
+  EXPECT_GE(aborted, 2);
+}
+
 TEST(Progress, AnAbortedContourIsEmptyAndTheNextIsWhole)
 {
   const auto image = test::PhantomImage({ 64, 64, 64 }, 1.0);

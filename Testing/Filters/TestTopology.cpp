@@ -297,14 +297,46 @@ TEST(Topology, OfAnIntervalVolumeIsThatOfFullResolution)
   ExpectTopologyOfFullResolution(volume);
 }
 
+TEST(Topology, OfSampleVolumesIsThatOfFullResolution)
+{
+  const std::vector<std::pair<vtkSmartPointer<vtkImageData>, double>> volumes = {
+    { test::SampleVolume("tooth_103x94x161_uint8.raw", { 103, 94, 161 }), 119.5 },
+    { test::SampleVolume("hydrogen_atom_128x128x128_uint8.raw", { 128, 128, 128 }), 14.5 },
+    { test::SampleVolume("neghip_64x64x64_uint8.raw", { 64, 64, 64 }), 60.5 }
+  };
+  for (const auto& [volume, isovalue] : volumes)
+  {
+    if (!volume)
+    {
+      GTEST_SKIP() << "ISODIAMONDS_DATA_DIR does not hold the tooth, hydrogen atom and neghip";
+    }
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputData(volume);
+    contour->SetValue(0, isovalue);
+    contour->PreserveFeaturesOff();
+    const Topology full = TopologyOf(Updated(contour));
+    for (const double tolerance : { 0.25, 1.0, 4.0, std::numeric_limits<double>::infinity() })
+    {
+      contour->SetErrorTolerance(tolerance);
+      EXPECT_TRUE(TopologyOf(Updated(contour)) == full) << isovalue << " at " << tolerance;
+    }
+  }
+}
+
 TEST(Topology, IsOfWhatIsLeftWithoutSmallPieces)
 {
   vtkNew<vtkIsodiamondContour> contour;
   contour->SetInputData(NoisyImage());
   contour->SetValue(0, Isovalue);
+  Updated(contour);
+  EXPECT_EQ(contour->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
   contour->SetMinimumPieceSize(3);
   const Topology full = TopologyOf(Updated(contour));
   EXPECT_EQ(contour->GetNumberOfRemovedPieces(), RemovedAt(Isovalue, 3));
+  vtkDataArray* told = contour->GetOutput()->GetFieldData()->GetArray("NumberOfRemovedPieces");
+  ASSERT_NE(told, nullptr);
+  EXPECT_EQ(told->GetNumberOfTuples(), 1);
+  EXPECT_EQ(told->GetTuple1(0), RemovedAt(Isovalue, 3));
   contour->SetErrorTolerance(std::numeric_limits<double>::infinity());
   EXPECT_TRUE(TopologyOf(Updated(contour)) == full);
 }

@@ -332,18 +332,17 @@ public:
     return own;
   }
 
-  DiamondCodes MeasureDistances(const Encoding& relevant) const
+  DiamondCodes MeasureDistances(const IsodiamondHierarchy& relevant) const
   {
     this->Report("Measuring errors", 0.25, 0.5);
-    const IsodiamondHierarchy hierarchy(relevant, this->For);
     MapBounds bounds(this->Members.Size(), this->Header.Region.SurfaceCount());
-    DiamondCodes own = OwnDistanceCodes(this->Origin, hierarchy, this->SignsToGoBy(), this->Options,
+    DiamondCodes own = OwnDistanceCodes(this->Origin, relevant, this->SignsToGoBy(), this->Options,
       this->Interior, bounds, this->For);
     this->SubdivideAlways(own);
     this->Report("Measuring errors", 0.5, 0.8);
     const BeforeWayBack known{ this->Options.Hidden, &bounds,
       ActivationThresholds(this->Origin.SampleGrid, this->Members, own.Surface, this->For) };
-    RaiseByWayBack(hierarchy, this->Options.World, known, own.Surface, this->For);
+    RaiseByWayBack(relevant, this->Options.World, known, own.Surface, this->For);
     return own;
   }
 
@@ -422,7 +421,7 @@ Encoding BuildByDistance(Model model, const Source& source, const Isoregion& reg
   const Steps steps(source, region, options, errorScale, parallelFor);
   // Distances are measured on it.
   Encoding relevant = steps.PlaceIsovertices(0.2, 0.25);
-  DiamondCodes codes = steps.MeasureDistances(relevant);
+  DiamondCodes codes = steps.MeasureDistances(IsodiamondHierarchy(relevant, parallelFor));
   steps.FindThresholds(codes);
   return steps.Complete(model, std::move(relevant), std::move(codes));
 }
@@ -435,6 +434,23 @@ void CheckMinimumPieceSize(const BuildOptions& options)
   }
 }
 
+bool NeedsFieldErrors(const Isoregion& region, const BuildOptions& options)
+{
+  return options.Metric == ErrorMetric::Field || RefinesInterior(region, options);
+}
+
+Grid GridOf(const AnySamples& samples)
+{
+  return Grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
+}
+
+std::pair<ErrorCode::Type, ValueRange> SummaryOf(
+  const FieldErrors& errors, double scale, const Place& place)
+{
+  const DomainSummary domain = errors.Summarize(place);
+  return { ErrorCode(scale).Encode(domain.Error), domain.Range };
+}
+
 Encoding Build(Model model, const Source& source, const Isoregion& region,
   const BuildOptions& options, const ParallelFor& parallelFor)
 {
@@ -445,22 +461,85 @@ Encoding Build(Model model, const Source& source, const Isoregion& region,
 
 }
 
+/** Owns what the steps refer to. */
+struct StagedBuild::State
+{
+  State(const AnySamples& samples, const Isoregion& region, const ParallelFor& parallelFor,
+    const BuildOptions& options)
+    : Samples(samples)
+    , For(parallelFor)
+    , Options(options)
+    , TheGrid(GridOf(samples))
+    , From{ this->TheGrid, this->Samples, ErrorCode(FieldErrorScale(samples)).Scale(),
+      [this](const Place& place)
+      { return SummaryOf(*this->Errors, this->From.FieldScale, place); } }
+    , Done(this->From, region, this->Options,
+        options.Metric == ErrorMetric::Distance ? DistanceErrorScale(this->TheGrid, options.World)
+                                                : this->From.FieldScale,
+        this->For)
+    , Relevant(this->Done.PlaceIsovertices(0.2, 0.9))
+  {
+    this->Hierarchy.emplace(this->Relevant, this->For);
+  }
+
+  AnySamples Samples;
+  ParallelFor For;
+  BuildOptions Options;
+  Grid TheGrid;
+  std::optional<FieldErrors> Errors;
+  Source From;
+  Steps Done;
+  Encoding Relevant;
+  std::optional<IsodiamondHierarchy> Hierarchy;
+};
+
+StagedBuild::StagedBuild(const AnySamples& samples, const Isoregion& region,
+  const ParallelFor& parallelFor, const BuildOptions& options)
+{
+  CheckMinimumPieceSize(options);
+  this->Kept = std::make_unique<State>(samples, region, parallelFor, options);
+}
+
+StagedBuild::~StagedBuild() = default;
+StagedBuild::StagedBuild(StagedBuild&&) noexcept = default;
+StagedBuild& StagedBuild::operator=(StagedBuild&&) noexcept = default;
+
+const IsodiamondHierarchy& StagedBuild::FullResolution() const
+{
+  return *this->Kept->Hierarchy;
+}
+
+Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const ParallelFor& parallelFor,
+  const BuildOptions& options)
+{
+  State& kept = *this->Kept;
+  kept.Samples = samples;
+  kept.For = parallelFor;
+  kept.Options = options;
+  if (NeedsFieldErrors(kept.Relevant.Header.Region, options))
+  {
+    kept.Errors.emplace(kept.TheGrid, kept.Samples, kept.For);
+  }
+  DiamondCodes codes = options.Metric == ErrorMetric::Field
+    ? kept.Done.MeasureField()
+    : kept.Done.MeasureDistances(*kept.Hierarchy);
+  kept.Done.FindThresholds(codes);
+  kept.Hierarchy.reset();
+  return kept.Done.Complete(model, std::move(kept.Relevant), std::move(codes));
+}
+
 Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options)
 {
   CheckMinimumPieceSize(options);
   const ErrorCode code(FieldErrorScale(samples));
-  const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
+  const Grid grid = GridOf(samples);
   std::optional<FieldErrors> errors; // takes a pass over the samples, and is not always asked
-  if (options.Metric == ErrorMetric::Field || RefinesInterior(region, options))
+  if (NeedsFieldErrors(region, options))
   {
     errors.emplace(grid, samples, parallelFor);
   }
-  const auto summary = [&](const Place& place)
-  {
-    const DomainSummary domain = errors->Summarize(place);
-    return std::make_pair(code.Encode(domain.Error), domain.Range);
-  };
+  const auto summary = [&](const Place& place) { return SummaryOf(*errors, code.Scale(), place); };
   return Build(model, { grid, samples, code.Scale(), summary }, region, options, parallelFor);
 }
 
