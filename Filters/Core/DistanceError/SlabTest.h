@@ -72,10 +72,9 @@ private:
 
 /**
  * Whether a surface passes a flat piece within a distance, all over it: it crosses neither of two
- * copies that are moved by the distance, up and down in some direction, but the way from one to the
- * other.
+ * copies that are moved by the distance, up and down, but the way from one to the other.
  *
- * Of the surface counts what lies over the piece, in that direction. It is closed but for the
+ * Of the surface counts what lies over the piece. It is closed but for the
  * grid's boundary and for hidden cells: where the copies leave the grid, or come near to a hidden
  * cell, the answer is no.
  */
@@ -83,18 +82,16 @@ template <typename Lengths>
 class SlabTest
 {
 public:
-  /** @param normal of the piece @param direction the two are of unit length, at less than a right
-   *         angle
+  /** @param normal of the piece, of unit length
    *  @param known how near is near enough in any case @param limit and at most */
-  SlabTest(const ConvexPolygon& piece, const Vector& normal, const Vector& direction, double known,
-    double limit, const FineSurface& fine, const Lengths& lengths, const CellBalls<Lengths>& balls)
+  SlabTest(const ConvexPolygon& piece, const Vector& normal, double known, double limit,
+    const FineSurface& fine, const Lengths& lengths, const CellBalls<Lengths>& balls)
     : Piece(piece)
-    , Upward(direction)
+    , Upward(normal)
     , Known(known)
     , Limit(limit)
     , InWorld(lengths)
     , Found(known)
-    , Way(piece.Middle())
   {
     const CellBox whole = fine.Whole();
     const std::array<Vector, 2> box = this->IndexBox(whole);
@@ -106,18 +103,18 @@ public:
     {
       const Vector& from = piece.Corners[i];
       const Vector& to = piece.Corners[i + 1 == piece.Count ? 0 : i + 1];
-      this->Inward[i] = { Cross(direction, to - from), from, lengths };
+      this->Inward[i] = { Cross(normal, to - from), from, lengths };
     }
     // No corner, no line between two of them: what is symmetric has many triangles meet there.
     this->Line = 0.41 * piece.Corners[0] + 0.33 * piece.Corners[1] + 0.26 * piece.Corners[2];
-    this->Heights = { 1.0 / Dot(normal, direction) * normal, this->Line, lengths };
+    this->Heights = { normal, this->Line, lengths };
     this->IsClear = fine.ForEachCell(CellsIn(box, whole),
       [&](const Point& cell, const auto& triangles)
       {
         const Ball ball = balls(cell);
         if (this->MayReach(ball))
         {
-          const Vector off = Cross(ball.Middle - this->Line, direction);
+          const Vector off = Cross(ball.Middle - this->Line, normal);
           const bool isNearLine = Dot(off, off) <= ball.Radius * ball.Radius;
           triangles(
             [&](const FineSurface::Triangle& triangle) { this->Look(triangle, isNearLine); });
@@ -130,12 +127,6 @@ public:
 
   /** How far from the piece the surface is, where it passes between. */
   double Greatest() const { return this->Found; }
-
-  /** If it is not between, a place of the piece where it is not. */
-  const Vector& InTheWay() const { return this->Way; }
-
-  /** Whether the copies leave the grid. */
-  bool LeavesGrid() const { return this->Leaves; }
 
 private:
   /** Where the piece and its copies are. */
@@ -295,21 +286,7 @@ private:
       return; // another sheet
     }
     this->Found = std::max({ this->Found, high, -low });
-    if (high < this->Limit && low > -this->Limit)
-    {
-      return;
-    }
-    this->IsCrossed = true;
-    double farthest = 0.0;
-    for (int i = 0; i < over.Count; ++i)
-    {
-      const double height = this->Heights(over.Corners[i]);
-      if (std::abs(height) > farthest)
-      {
-        farthest = std::abs(height);
-        this->Way = over.Corners[i] - height * this->Upward;
-      }
-    }
+    this->IsCrossed = this->IsCrossed || high >= this->Limit || low <= -this->Limit;
   }
 
   /** Whether the line up and down meets a triangle between the copies. */
@@ -343,7 +320,6 @@ private:
   bool IsCrossed = false;
   int Crossings = 0; ///< of the line
   double Found;
-  Vector Way;
 };
 
 }

@@ -32,8 +32,7 @@ namespace isodiamond
  * For the others, let two copies of a flat piece be moved away from it by a distance, up and down.
  * If the surface crosses neither of them, but the way from one to the other, it has to pass
  * between, all over the piece: no point of the piece is farther. Few triangles need a look for
- * that. What it does not hold for is measured at the place that is in the way, and if that does not
- * help cut, until the nearest triangles tell.
+ * that. What it does not hold for is cut, until the nearest triangles tell.
  *
  * The result is the greatest distance, but for a part of 1/4 at most unless cells are extremely
  * uneven; never less.
@@ -306,39 +305,12 @@ private:
     }
   }
 
-  /** Whether the surface passes a piece within what is known, all over it: up and down, or across
-   *  the surface where it is in the way. */
+  /** Whether the surface passes a piece within what is known, all over it. */
   bool IsBetween(const FlatPiece& piece)
   {
-    Vector direction = piece.Normal;
-    bool isTurned = false;
-    while (Dot(direction, piece.Normal) > 0.25) // else it is too oblique, or no number
-    {
-      const SlabTest<Lengths> test(piece.Polygon, piece.Normal, direction, this->Known - piece.Bend,
-        (1.0 + Precision) * this->Known - piece.Bend, this->Fine, this->InWorld, this->Balls);
-      if (test.IsBetween())
-      {
-        return this->IsAccepted(test.Greatest() + piece.Bend);
-      }
-      if (test.LeavesGrid())
-      {
-        return false;
-      }
-      const double before = this->Known;
-      const Nearest nearest = this->FindNearest(test.InTheWay(), before);
-      if (this->Known <= before)
-      {
-        if (isTurned)
-        {
-          return false;
-        }
-        isTurned = true;
-        const Vector across = nearest.Triangle.UnitNormal();
-        const double side = Dot(across, piece.Normal) > 0.0 ? 1.0 : -1.0;
-        direction = side * across;
-      }
-    }
-    return false;
+    const SlabTest<Lengths> test(piece.Polygon, piece.Normal, this->Known - piece.Bend,
+      (1.0 + Precision) * this->Known - piece.Bend, this->Fine, this->InWorld, this->Balls);
+    return test.IsBetween() && this->IsAccepted(test.Greatest() + piece.Bend);
   }
 
   /** A piece against the triangle that is nearest to its middle; what is not near enough is cut. */
