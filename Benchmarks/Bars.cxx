@@ -147,6 +147,14 @@ void JudgeBuilds(const VolumeResult& volume, Judge& judge)
   judge.AtMost(5, "bytes of HD a voxel", table.Get("HD build, field", "bytes") / samples, 8.0);
 }
 
+/** 9: what a first Apply shows, against ParaView's Contour. */
+void JudgeFirstApply(const VolumeResult& volume, Judge& judge)
+{
+  const Table& table = volume.Isosurface;
+  judge.AtMost(9, "first full resolution in one step / vtkContourFilter",
+    Time(table, "one step, full resolution") / Time(table, "vtkContourFilter"), 1.0);
+}
+
 /** 6: interval volumes against IsoVolume. */
 void JudgeIntervalVolume(const VolumeResult& volume, Judge& judge)
 {
@@ -220,6 +228,7 @@ std::vector<Bar> JudgeBars(const Report& report)
     JudgeSimplification(volume, judge);
     JudgeBuilds(volume, judge);
     JudgeIntervalVolume(volume, judge);
+    JudgeFirstApply(volume, judge);
     for (const Shape shape : { Shape::Isosurface, Shape::IntervalVolume })
     {
       JudgeBytes(volume, shape, judge);

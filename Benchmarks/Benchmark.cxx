@@ -39,6 +39,7 @@ std::vector<Contestant> FromVolume(
   {
     return contestants;
   }
+  contestants.push_back(FullResolutionContestant(task));
   contestants.push_back(OneStepContestant(task, vtkIsodiamondHierarchy::FIELD));
   if (options.HasDistance)
   {

@@ -8,6 +8,7 @@
 #include "vtkIsodiamondContour.h"
 #include "vtkIsodiamondExtractor.h"
 #include "vtkIsodiamondIntervalVolume.h"
+#include "vtkIsodiamondVolumeAlgorithm.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
@@ -99,9 +100,9 @@ void DescribeHierarchy(vtkIsodiamondHierarchy* hierarchy, Figures& figures)
   }
 }
 
-template <typename Filter>
-vtkSmartPointer<vtkAlgorithm> Configured(
-  const vtkSmartPointer<Filter>& filter, const Task& task, int metric, double tolerance)
+vtkSmartPointer<vtkIsodiamondVolumeAlgorithm> Configured(
+  const vtkSmartPointer<vtkIsodiamondVolumeAlgorithm>& filter, const Task& task, int metric,
+  double tolerance)
 {
   filter->SetInputData(task.Volume.Image);
   filter->SetErrorMetric(metric);
@@ -110,7 +111,11 @@ vtkSmartPointer<vtkAlgorithm> Configured(
   return filter;
 }
 
-vtkSmartPointer<vtkAlgorithm> MakeOneStep(const Task& task, int metric, double tolerance)
+/** So small that the mesh is full resolution, but not 0, for which no errors are measured. */
+constexpr double LeastTolerance = 1e-300;
+
+vtkSmartPointer<vtkIsodiamondVolumeAlgorithm> MakeOneStep(
+  const Task& task, int metric, double tolerance)
 {
   if (task.Shape == Shape::IntervalVolume)
   {
@@ -123,6 +128,22 @@ vtkSmartPointer<vtkAlgorithm> MakeOneStep(const Task& task, int metric, double t
   contour->ComputeNormalsOff();
   contour->ComputeScalarsOff();
   return Configured(contour, task, metric, tolerance);
+}
+
+Contestant OneStep(const std::string& name, const Task& task, int metric, double tolerance)
+{
+  const auto filter = std::make_shared<vtkSmartPointer<vtkAlgorithm>>();
+  Contestant contestant;
+  contestant.Name = name;
+  contestant.Run = [filter, task, metric, tolerance]
+  {
+    *filter = MakeOneStep(task, metric, tolerance);
+    (*filter)->Update();
+  };
+  contestant.Describe = [filter](Figures& figures) { DescribeMesh(*filter, figures); };
+  contestant.Release = [filter] { *filter = nullptr; };
+  contestant.StartsFromVolume = true;
+  return contestant;
 }
 
 }
@@ -212,18 +233,12 @@ Contestant ExtractContestant(const Task& task, const Model& model,
 
 Contestant OneStepContestant(const Task& task, int metric)
 {
-  const auto filter = std::make_shared<vtkSmartPointer<vtkAlgorithm>>();
-  Contestant contestant;
-  contestant.Name = std::string("one step, ") + MetricName(metric);
-  contestant.Run = [filter, task, metric]
-  {
-    *filter = MakeOneStep(task, metric, 0.0);
-    (*filter)->Update();
-  };
-  contestant.Describe = [filter](Figures& figures) { DescribeMesh(*filter, figures); };
-  contestant.Release = [filter] { *filter = nullptr; };
-  contestant.StartsFromVolume = true;
-  return contestant;
+  return OneStep(std::string("one step, ") + MetricName(metric), task, metric, LeastTolerance);
+}
+
+Contestant FullResolutionContestant(const Task& task)
+{
+  return OneStep("one step, full resolution", task, vtkIsodiamondHierarchy::DISTANCE, 0.0);
 }
 
 Contestant NewToleranceContestant(
@@ -231,10 +246,17 @@ Contestant NewToleranceContestant(
 {
   Task own = task;
   own.Threads = threads > 0 ? threads : task.Threads;
-  const vtkSmartPointer<vtkAlgorithm> filter = MakeOneStep(own, metric, tolerance);
+  const vtkSmartPointer<vtkIsodiamondVolumeAlgorithm> filter = MakeOneStep(own, metric, tolerance);
   Contestant contestant = FilterContestant(name, { filter });
   contestant.Tolerance = Model{ vtkIsodiamondHierarchy::MINIMAL, metric }.ToleranceOf(tolerance);
-  contestant.Prepare = [filter] { filter->Update(); }; // builds
+  contestant.Prepare = [filter]
+  {
+    const double wanted = filter->GetErrorTolerance();
+    filter->SetErrorTolerance(LeastTolerance); // builds and measures
+    filter->Update();
+    filter->SetErrorTolerance(wanted);
+    filter->Update();
+  };
   contestant.Threads = threads;
   return contestant;
 }

@@ -64,9 +64,12 @@ Contestant CheckContestant(const Model& model, vtkIsodiamondHierarchy* hierarchy
 Contestant ExtractContestant(const Task& task, const Model& model,
   vtkIsodiamondHierarchy* hierarchy, double tolerance, const std::string& name = "");
 
-/** vtkIsodiamondContour or vtkIsodiamondIntervalVolume on a new volume: builds and extracts at
- *  tolerance 0. "one step, field" or "one step, distance". */
+/** vtkIsodiamondContour or vtkIsodiamondIntervalVolume on a new volume: builds, measures errors,
+ * and extracts full resolution. "one step, field" or "one step, distance". */
 Contestant OneStepContestant(const Task& task, int metric);
+
+/** The same at tolerance 0, where no errors are measured. "one step, full resolution". */
+Contestant FullResolutionContestant(const Task& task);
 
 /** The same filter with a new tolerance on the same volume. @param threads 0 for the task's */
 Contestant NewToleranceContestant(
