@@ -112,6 +112,7 @@ TEST(MapBounds, BoundTheWayBackFromEveryFlatPatch)
 
 TEST(DomainMap, BoundsTheWayBackFromAllPatches)
 {
+  int coarse = 0;
   for (const test::Field& field : Fields())
   {
     SCOPED_TRACE(field.Name);
@@ -125,7 +126,7 @@ TEST(DomainMap, BoundsTheWayBackFromAllPatches)
     hierarchy.Diamonds().ForEach(
       [&](const Place& diamond, std::uint32_t)
       {
-        if (diamond.Scale > 0 || hierarchy.SampleGrid().SticksOut(diamond.Position, 0))
+        if (diamond.Scale > 1 || hierarchy.SampleGrid().SticksOut(diamond.Position, diamond.Scale))
         {
           return;
         }
@@ -138,13 +139,12 @@ TEST(DomainMap, BoundsTheWayBackFromAllPatches)
               patches.push_back(triangle);
             }
           });
-        const BrickWindow window(hierarchy.Diamonds().Level(0), diamond.Position);
         // With and without a reason to leave the border of a patch.
         const double least = domain.Bound(
-          window, diamond, [](double) { return false; },
+          diamond, [](double) { return false; },
           [](const Vector&, double squared) { return squared < Infinity; });
         const double bound = domain.Bound(
-          window, diamond, [](double) { return true; },
+          diamond, [](double) { return true; },
           [](const Vector&, double squared) { return squared < Infinity; });
         if (patches.empty())
         {
@@ -153,6 +153,7 @@ TEST(DomainMap, BoundsTheWayBackFromAllPatches)
         const double sampled = map.Sampled(patches);
         ++all;
         found += bound < Infinity ? 1 : 0;
+        coarse += bound < Infinity ? diamond.Scale : 0;
         inside += least < bound ? 1 : 0;
         ASSERT_LE(sampled, bound * (1.0 + 1e-9) + 1e-12);
         ASSERT_LE(sampled, least * (1.0 + 1e-9) + 1e-12);
@@ -160,4 +161,5 @@ TEST(DomainMap, BoundsTheWayBackFromAllPatches)
     EXPECT_GT(found, all / 3);
     EXPECT_GT(inside, all / 50);
   }
+  EXPECT_GT(coarse, 100);
 }

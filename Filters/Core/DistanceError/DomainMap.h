@@ -2,8 +2,8 @@
 #ifndef isodiamond_DomainMap_h
 #define isodiamond_DomainMap_h
 
+#include "DistanceError/FineDomain.h"
 #include "DistanceError/IsovertexClusters.h"
-#include "DistanceError/ScaleZeroDomain.h"
 #include "DistanceError/SpineEdges.h"
 #include "DistanceError/SpineNeighbourhood.h"
 #include "Patches/PatchDistance.h"
@@ -13,13 +13,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace isodiamond
 {
 
 /**
- * A map from the surface of full resolution in the domain of a diamond of scale 0 to the diamond's
- * patches: how far it moves any point bounds the way back.
+ * A map from the surface of full resolution in the domain of a diamond of scale 0 or 1 to the
+ * diamond's patches: how far it moves any point bounds the way back.
  *
  * As of one tetrahedron (MapBounds), but isovertices inside of the domain may go to any triangle of
  * the patches around; those on its border have to stay on it. Where the ends of an edge go to
@@ -44,17 +45,15 @@ public:
   /**
    * How far a point of the diamond's patches can be from the surface; infinite if nothing is found.
    *
-   * @param window of bricks of scale 0, around the diamond
    * @param isNear tells whether a squared distance needs no other place to go to
    * @param mayMove(place, squared) tells whether something may go so far, to a place of the patches
    */
   template <typename IsNear, typename MayMove>
-  double Bound(
-    const BrickWindow& window, const Place& diamond, const IsNear& isNear, const MayMove& mayMove)
+  double Bound(const Place& diamond, const IsNear& isNear, const MayMove& mayMove)
   {
     this->Greatest = 0.0;
     this->FindPatches(diamond);
-    return this->TakeIsovertices(window, diamond, isNear, mayMove) && this->TakeEdges(mayMove)
+    return this->TakeIsovertices(diamond, isNear, mayMove) && this->TakeEdges(mayMove)
       ? std::sqrt(this->Greatest)
       : std::numeric_limits<double>::infinity();
   }
@@ -124,18 +123,20 @@ private:
           }
         }
       });
-    this->Domain = &ScaleZeroDomainOf(diamond.Position);
+    this->Domain = &FineDomainOf(diamond);
   }
 
   /** Decides where the isovertices of full resolution go. @return whether all may */
   template <typename IsNear, typename MayMove>
-  bool TakeIsovertices(
-    const BrickWindow& window, const Place& diamond, const IsNear& isNear, const MayMove& mayMove)
+  bool TakeIsovertices(const Place& diamond, const IsNear& isNear, const MayMove& mayMove)
   {
+    this->Isovertices.clear();
+    const Point centre = Centre(diamond);
+    const BrickWindow window(this->Hierarchy.Diamonds().Level(0), centre);
     for (std::size_t i = 0; i < this->Domain->Owners.size(); ++i)
     {
-      const ScaleZeroDomain::Owner& owner = this->Domain->Owners[i];
-      const Place place{ 0, diamond.Position + owner.Offset };
+      const FineDomain::Owner& owner = this->Domain->Owners[i];
+      const Place place{ 0, centre + owner.Offset };
       this->Ranks[i] = window.Rank(place.Position);
       if (this->Ranks[i] == DiamondSet::None)
       {
@@ -144,12 +145,13 @@ private:
       const auto rank = static_cast<std::uint32_t>(this->Ranks[i]);
       const std::uint32_t crossed = owner.EdgeMask &
         (this->Surface == 0 ? this->Hierarchy.Edges(rank) : this->Hierarchy.UpperEdges(rank));
-      for (const ScaleZeroDomain::Edge& edge : owner.Edges)
+      for (const FineDomain::Edge& edge : owner.Edges)
       {
         const std::uint32_t holders = edge.Tetrahedra & this->There;
         if (((crossed >> edge.OwnerEdge) & 1U) != 0 && holders != 0)
         {
-          Isovertex& isovertex = this->Isovertices[i][edge.OwnerEdge];
+          this->Indices[i][edge.OwnerEdge] = static_cast<std::uint16_t>(this->Isovertices.size());
+          Isovertex& isovertex = this->Isovertices.emplace_back();
           isovertex.Position =
             this->InWorld(IsovertexAt(this->Hierarchy, place, rank, edge.OwnerEdge, this->Surface));
           const Image image = this->ImageOf(edge.Around, holders, isNear, isovertex);
@@ -235,7 +237,7 @@ private:
   template <typename MayMove>
   bool TakeEdges(const MayMove& mayMove)
   {
-    for (const ScaleZeroDomain::Tetrahedron& tetrahedron : this->Domain->Tetrahedra)
+    for (const FineDomain::Tetrahedron& tetrahedron : this->Domain->Tetrahedra)
     {
       const std::int64_t rank = this->Ranks[tetrahedron.Owner];
       if (rank == DiamondSet::None || ((this->There >> tetrahedron.Whole) & 1U) == 0)
@@ -250,7 +252,7 @@ private:
         for (int j = 0; j < 3; ++j)
         {
           const auto [owner, edge] = tetrahedron.Edges[patch.Triangles[i][j]];
-          corners[j] = &this->Isovertices[owner][edge];
+          corners[j] = &this->Isovertices[this->Indices[owner][edge]];
         }
         if (!this->IsMapped(corners, mayMove))
         {
@@ -355,9 +357,11 @@ private:
   std::array<Vector, SpineEdges::MostEdges> Corners{};
   int Count = 0;
   std::array<PatchTriangle, 16> Triangles;
-  const ScaleZeroDomain* Domain = nullptr;
-  std::array<std::int64_t, 27> Ranks{};                               ///< of the owners
-  std::array<std::array<Isovertex, MaximumVertices>, 27> Isovertices; ///< of crossed edges
+  const FineDomain* Domain = nullptr;
+  static constexpr int MostOwners = 125; ///< of scale 1
+  std::array<std::int64_t, MostOwners> Ranks{};
+  std::array<std::array<std::uint16_t, MaximumVertices>, MostOwners> Indices{}; ///< crossed edges'
+  std::vector<Isovertex> Isovertices;
 };
 
 }

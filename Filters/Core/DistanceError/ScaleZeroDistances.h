@@ -5,8 +5,8 @@
 #include "DistanceError/Bisection.h"
 #include "DistanceError/ErrorMaxima.h"
 #include "DistanceError/FarthestSearch.h"
+#include "DistanceError/FineDomain.h"
 #include "DistanceError/IsovertexClusters.h"
-#include "DistanceError/ScaleZeroDomain.h"
 #include "Field/Parallel.h"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ private:
       [&](const Place& diamond, std::uint32_t rank)
       {
         this->Located.clear();
-        for (const ScaleZeroDomain::Owner& owner : ScaleZeroDomainOf(diamond.Position).Owners)
+        for (const FineDomain::Owner& owner : FineDomainOf(diamond).Owners)
         {
           // The isovertices of older owners are corners of the patches: at a distance of 0.
           if (!owner.IsOlder || this->Clusters.AlwaysSubdivide())
@@ -77,12 +77,12 @@ private:
   /** An isovertex in the domain. */
   struct LocatedIsovertex
   {
-    const ScaleZeroDomain::Edge* Edge = nullptr; ///< that it lies on
+    const FineDomain::Edge* Edge = nullptr; ///< that it lies on
     FinePosition Position{};
   };
 
   /** Finds the isovertices on the edges of one owner in the domain of a diamond of scale 0. */
-  void Locate(const BrickWindow& window, const Place& diamond, const ScaleZeroDomain::Owner& owner)
+  void Locate(const BrickWindow& window, const Place& diamond, const FineDomain::Owner& owner)
   {
     const Place place{ 0, diamond.Position + owner.Offset };
     const std::int64_t found = window.Rank(place.Position);
@@ -94,7 +94,7 @@ private:
     const std::uint32_t crossed = owner.EdgeMask &
       (this->Clusters.Surface() == 0 ? this->Hierarchy.Edges(rank)
                                      : this->Hierarchy.UpperEdges(rank));
-    for (const ScaleZeroDomain::Edge& edge : owner.Edges)
+    for (const FineDomain::Edge& edge : owner.Edges)
     {
       if (((crossed >> edge.OwnerEdge) & 1U) != 0 && this->Clusters.IsWanted(place, edge.OwnerEdge))
       {
@@ -125,7 +125,7 @@ private:
         std::array<double, 8> bounds{}; // of the way back: where isovertices are taken
         for (const LocatedIsovertex& isovertex : this->Located)
         {
-          const ScaleZeroDomain::Edge& edge = *isovertex.Edge;
+          const FineDomain::Edge& edge = *isovertex.Edge;
           const double squared =
             this->Search.Propose(edge.Tetrahedra, edge.Around, isovertex.Position, farthest);
           ForEachBit(edge.Tetrahedra & this->Search.AreThere(),

@@ -59,10 +59,8 @@ public:
   }
 
   /** The greater of a diamond's error so far and of the way back.
-   *  @param window of bricks around, if the diamond is of scale 0
    *  @param isWhole whether no cell in the domain is hidden: maps know of none */
-  double Measure(
-    const BrickWindow* window, const Place& diamond, std::uint32_t rank, double error, bool isWhole)
+  double Measure(const Place& diamond, std::uint32_t rank, double error, bool isWhole)
   {
     this->Known = std::max(error, this->Least);
     this->Bound = 0.0;
@@ -80,7 +78,7 @@ public:
         }
       });
     const bool isMapped =
-      this->HardCount > 0 && isWhole && window != nullptr && this->IsDomainMapped(*window, diamond);
+      this->HardCount > 0 && isWhole && diamond.Scale <= 1 && this->IsDomainMapped(diamond);
     for (int i = 0; i < this->HardCount && !isMapped; ++i)
     {
       this->MeasureFrom(this->Hard[i]);
@@ -141,20 +139,20 @@ private:
   }
 
   /** Whether a map of the domain bounds the way back. What is farther than is known is measured. */
-  bool IsDomainMapped(const BrickWindow& window, const Place& diamond)
+  bool IsDomainMapped(const Place& diamond)
   {
-    return this->BoundByMap(window, diamond, MapPrecision) < HUGE_VAL ||
-      this->BoundByMap(window, diamond, ComparedPrecision) < HUGE_VAL;
+    return this->BoundByMap(diamond, MapPrecision) < HUGE_VAL ||
+      this->BoundByMap(diamond, ComparedPrecision) < HUGE_VAL;
   }
 
-  double BoundByMap(const BrickWindow& window, const Place& diamond, double precision)
+  double BoundByMap(const Place& diamond, double precision)
   {
     const auto isNear = [&](double squared)
     {
       const double limit = (1.0 + precision) * this->Known;
       return squared <= limit * limit;
     };
-    const double bound = this->Map.Bound(window, diamond, isNear,
+    const double bound = this->Map.Bound(diamond, isNear,
       [&](const Vector& place, double squared)
       {
         if (!isNear(squared) && squared < HUGE_VAL)
@@ -535,7 +533,6 @@ void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
           const int scale = bricks[i].Scale;
           const BrickLevel& level = set.Level(scale);
           const Brick& brick = level.Bricks[bricks[i].Index];
-          const BrickWindow window(level, level.Box.Origin(brick.BoxIndex));
           set.ForEachInBrick(scale, brick,
             [&](const Place& place, std::uint32_t rank)
             {
@@ -547,8 +544,8 @@ void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
                 return;
               }
               const double error = code.Decode(before) / DistanceMargin;
-              const double greater = wayBack.Measure(scale == 0 ? &window : nullptr, place, rank,
-                error, hidden == nullptr || !hidden->Touch(place));
+              const double greater =
+                wayBack.Measure(place, rank, error, hidden == nullptr || !hidden->Touch(place));
               if (greater > error)
               {
                 codes[rank] = code.Encode(greater * DistanceMargin);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef isodiamond_ScaleZeroDomain_h
-#define isodiamond_ScaleZeroDomain_h
+#ifndef isodiamond_FineDomain_h
+#define isodiamond_FineDomain_h
 
 #include "Lattice/DiamondTetrahedra.h"
 
@@ -12,11 +12,11 @@ namespace isodiamond
 {
 
 /**
- * The edges and tetrahedra of full resolution in the closed domain of a diamond of scale 0: for
- * most diamonds that is where the isovertices are which their error depends on. By the diamonds
- * that own the edges.
+ * The edges and tetrahedra of full resolution in the closed domain of a diamond of scale 0 or 1,
+ * which nearly all diamonds are: that is where the isovertices are which their error depends on. By
+ * the diamonds that own the edges, all of scale 0.
  */
-struct ScaleZeroDomain
+struct FineDomain
 {
   /** An edge, and the diamond's tetrahedra that hold it. */
   struct Edge
@@ -30,10 +30,11 @@ struct ScaleZeroDomain
 
   struct Owner
   {
-    Point Offset{};             ///< from the diamond
+    Point Offset{};             ///< from the diamond, in samples
     std::uint32_t EdgeMask = 0; ///< of its subdivision edges, those in the domain
     std::vector<Edge> Edges;    ///< by OwnerEdge
-    /** Whether its edges are edges of the tetrahedra: their isovertices are corners of patches. */
+    /** At scale 0, whether its edges are edges of the tetrahedra: their isovertices are corners of
+     *  patches. */
     bool IsOlder = false;
   };
 
@@ -52,8 +53,8 @@ struct ScaleZeroDomain
   std::uint32_t AllTetrahedra = 0; ///< of the diamond, a mask of their numbers
 };
 
-/** The table of the type of a position. */
-const ScaleZeroDomain& ScaleZeroDomainOf(const Point& position);
+/** The table of the type of a diamond of scale 0 or 1. */
+const FineDomain& FineDomainOf(const Place& diamond);
 
 }
 
