@@ -190,6 +190,7 @@ int vtkIsodiamondExtractor::RequestData(
   return vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task& task)
     {
+      vtkIsodiamond::RemoveState(output->GetFieldData());
       auto execution = std::make_unique<Execution>();
       execution->Query = this->GetQuery();
       task.Begin("Reading the hierarchy", 0.0, 0.2);

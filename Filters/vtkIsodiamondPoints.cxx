@@ -119,6 +119,7 @@ int vtkIsodiamondPoints::RequestData(
   return vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task&)
     {
+      vtkIsodiamond::RemoveState(output->GetFieldData());
       const std::shared_ptr<const vtkIsodiamond::State> state =
         vtkIsodiamondHierarchy::ReadState(vtkPolyData::GetData(inputVector[0]));
       if (!state->Isodiamonds)

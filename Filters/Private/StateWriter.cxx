@@ -17,6 +17,8 @@
 #include "vtkTypeUInt8Array.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace vtkIsodiamond
@@ -144,6 +146,23 @@ void WriteLargestTolerance(vtkFieldData* fieldData)
     fieldData, format::LargestErrorTolerance, std::vector<double>{ LargestTolerance(fieldData) });
 }
 
+}
+
+void RemoveState(vtkFieldData* fieldData)
+{
+  const std::string prefix = "Isodiamond"; // of all that a hierarchy is made of
+  const std::set<std::string> numbers = { format::LargestErrorTolerance,
+    format::NumberOfActiveIsodiamonds, format::NumberOfRelevantIsodiamonds,
+    format::NumberOfCreationIsodiamonds, format::NumberOfIsovertices, format::NumberOfRemovedPieces,
+    format::StorageSize };
+  for (int i = fieldData->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    const char* name = fieldData->GetAbstractArray(i)->GetName();
+    if (name && (std::string(name).rfind(prefix, 0) == 0 || numbers.count(name) > 0))
+    {
+      fieldData->RemoveArray(i);
+    }
+  }
 }
 
 void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
