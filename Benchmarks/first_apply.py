@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a user of the one-step filter waits for, against ParaView's Contour (vtkContourFilter).
+
+    PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/first_apply.py [OPTIONS] [RAW ...]
+
+For each volume: the first Apply at full resolution; then the first tolerance, half a voxel, which
+measures errors; then another one, a voxel; and a first Apply at half a voxel at once. All as the
+panel starts them, but without normals and scalars, which vtkContourFilter makes none of here,
+either. Medians of some runs, each with a new filter; in times of vtkContourFilter, which has one
+thread. RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are synthetic and, where Debian's
+mricron-data is installed, an MRI head.
+"""
+import argparse
+import os
+import statistics
+
+import numpy
+from isodiamonds import vtkIsodiamondContour
+from simplifiers import timed
+from vtkmodules.vtkFiltersCore import vtkContourFilter
+from volumes import HEAD, HEAD_ISOVALUE, head, image_of, phantom, raw_volume
+
+
+def configured(contour, image, isovalue):
+    contour.SetInputData(image)
+    contour.SetValue(0, isovalue)
+    contour.ComputeNormalsOff()
+    contour.ComputeScalarsOff()
+    return contour
+
+
+def at(contour, tolerance):
+    contour.SetErrorTolerance(tolerance)
+    return timed(contour)
+
+
+def waits(image, isovalue, threads):
+    """Milliseconds: full resolution first, the first tolerance, the next one; a tolerance first."""
+    voxel = min(image.GetSpacing())
+    first, second = (configured(vtkIsodiamondContour(), image, isovalue) for _ in range(2))
+    for contour in (first, second):
+        contour.SetNumberOfThreads(threads)
+    return [at(first, 0), at(first, voxel / 2), at(first, voxel), at(second, voxel / 2)]
+
+
+def gyroid(size):
+    axis = numpy.linspace(-1, 1, size, dtype=numpy.float32) * numpy.float32(8 * numpy.pi)
+    z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
+    sin, cos = numpy.sin, numpy.cos
+    return sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)
+
+
+def ball(size):
+    axis = numpy.linspace(-1, 1, size, dtype=numpy.float32)
+    z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
+    return numpy.float32(0.6) - numpy.sqrt(x * x + y * y + z * z)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--size", type=int, default=128, help="of the synthetic volumes, in samples")
+    parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("raw", nargs="*", type=raw_volume, help="NAME_XxYxZ_uint8.raw:ISOVALUE")
+    arguments = parser.parse_args()
+    size = arguments.size
+    volumes = [
+        ("ball", image_of(ball(size)), 0),
+        ("gyroid", image_of(gyroid(size)), 0),
+        ("CT phantom", phantom(size), 50),
+    ]
+    if os.path.exists(HEAD):
+        volumes.append(("MRI head", head(), HEAD_ISOVALUE))
+    volumes.extend(arguments.raw)
+    print("| volume | threads | vtkContourFilter, ms | full resolution | first tolerance | next "
+          "| half a voxel at once |")
+    print("|---|---:|---:|---:|---:|---:|---:|")
+    for name, image, isovalue in volumes:
+        reference = configured(vtkContourFilter(), image, isovalue)
+        unit = statistics.median(timed(reference) for _ in range(arguments.runs))
+        for threads in (1, 2):
+            runs = [waits(image, isovalue, threads) for _ in range(arguments.runs)]
+            ratios = [f"{statistics.median(column) / unit:.2f}" for column in zip(*runs)]
+            print("|", " | ".join([name, str(threads), f"{unit:.0f}", *ratios]), "|", flush=True)
+
+
+main()
