@@ -60,8 +60,8 @@ std::shared_ptr<const State> ReadState(vtkFieldData* fieldData);
 /** Whether the state was read from just these arrays. */
 bool IsCurrent(const State& state, vtkFieldData* fieldData);
 
-/** Takes a hierarchy, and the numbers that tell of it, out of field data that were passed on with it:
- *  a mesh would keep all of it alive, and be saved with it. */
+/** Takes a hierarchy, and the numbers that tell of it, out of field data that were passed on with
+ * it: a mesh would keep all of it alive, and be saved with it. */
 void RemoveState(vtkFieldData* fieldData);
 
 /** Puts an RI or MI into a data set; its geometry becomes the outline of the grid. @param
