@@ -46,7 +46,8 @@ public:
    * How far a point of the diamond's patches can be from the surface; infinite if nothing is found.
    *
    * @param isNear tells whether a squared distance needs no other place to go to
-   * @param mayMove(place, squared) tells whether something may go so far, to a place of the patches
+   * @param mayMove tells of a place of the patches and a squared distance whether something may go
+   *        so far, to there
    */
   template <typename IsNear, typename MayMove>
   double Bound(const Place& diamond, const IsNear& isNear, const MayMove& mayMove)
