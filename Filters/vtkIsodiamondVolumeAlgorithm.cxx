@@ -3,6 +3,7 @@
 
 #include "Patches/WorldLengths.h"
 #include "Private/Cache.h"
+#include "Private/Format.h"
 #include "Private/Input.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
@@ -136,7 +137,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       if (this->MinimumPieceSize > 0)
       {
         vtkNew<vtkIdTypeArray> removed;
-        removed->SetName("NumberOfRemovedPieces");
+        removed->SetName(vtkIsodiamond::format::NumberOfRemovedPieces);
         removed->InsertNextValue(this->RemovedFromBlock);
         output->GetFieldData()->AddArray(removed);
       }

@@ -50,6 +50,7 @@ public:
     this->Last = 0.0;
     this->Count = 0;
     this->AbortAt = abortAt;
+    this->Phases.clear();
   }
 
   double Last = 0.0;
@@ -142,16 +143,15 @@ TEST(Progress, FullResolutionWaitsForNoErrors)
     EXPECT_GT(CellsOf(filter), 0);
     EXPECT_EQ(listener->Phases.count("Placing isovertices"), 1U);
     EXPECT_EQ(listener->Phases.count("Measuring errors"), 0U);
-    listener->Phases.clear();
     listener->Start(-1);
     filter->SetErrorTolerance(0.5);
     filter->Update();
     EXPECT_EQ(listener->Phases.count("Measuring errors"), 1U);
     EXPECT_EQ(listener->Phases.count("Placing isovertices"), 0U);
-    listener->Phases.clear();
     listener->Start(-1);
     filter->SetErrorTolerance(0.0);
     filter->Update();
+    EXPECT_EQ(listener->Phases.count("Measuring errors"), 0U);
     listener->Start(-1);
     filter->SetErrorTolerance(1.0);
     filter->Update();

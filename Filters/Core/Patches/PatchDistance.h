@@ -86,9 +86,6 @@ public:
     return this->Corner + nearest;
   }
 
-  /** Not a number if there is none. */
-  Vector UnitNormal() const { return std::sqrt(this->Inverse[3]) * this->Normal; }
-
   /** The plane through one of the three sides that stands on the triangle, by a point and its
    *  normal, which leads away from the triangle. What is between all three is over the triangle. */
   struct Wall
