@@ -45,8 +45,9 @@ void vtkDiamondMesh::PrintSelf(ostream& os, vtkIndent indent)
 
 //------------------------------------------------------------------------------
 void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
-  const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkUnstructuredGrid* output)
+  const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkDataObject* data)
 {
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::SafeDownCast(data);
   task.Begin("Collecting tetrahedra", 0.0, 1.0);
   const isodiamond::DiamondMesh mesh = isodiamond::ExtractDiamondMesh(refined);
   const isodiamond::AffineMap& world = state.World;

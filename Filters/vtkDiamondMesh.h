@@ -29,7 +29,9 @@ protected:
   ~vtkDiamondMesh() override = default;
 
   void WriteMesh(const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined,
-    vtkIsodiamond::Task& task, vtkUnstructuredGrid* output) override;
+    vtkIsodiamond::Task& task, vtkDataObject* output) override;
+  /** Tetrahedra need an unstructured grid. */
+  bool GivesPolyData() const override { return false; }
 
 private:
   vtkDiamondMesh(const vtkDiamondMesh&) = delete;

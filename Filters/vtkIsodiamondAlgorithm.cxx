@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondAlgorithm.h"
 
+#include "Private/Format.h"
 #include "Private/Piece.h"
+#include "Private/Target.h"
 #include "Private/WorldQuery.h"
 
 #include "vtkDemandDrivenPipeline.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
+#include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 //------------------------------------------------------------------------------
@@ -22,6 +27,8 @@ void vtkIsodiamondAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
+  os << indent << "TargetNumberOfTriangles: " << this->TargetNumberOfTriangles << "\n";
+  os << indent << "AchievedTolerance: " << this->AchievedTolerance << "\n";
   os << indent << "UseRegionOfInterest: " << (this->UseRegionOfInterest ? "On" : "Off") << "\n";
   os << indent << "RegionOfInterest:";
   for (const double bound : this->RegionOfInterest)
@@ -74,6 +81,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
 {
   vtkIsodiamond::WorldQuery query;
   query.ErrorTolerance = this->ErrorTolerance;
+  query.HasTarget = this->TargetNumberOfTriangles > 0;
   query.OutsideErrorTolerance = this->OutsideErrorTolerance;
   if (this->UseRegionOfInterest)
   {
@@ -95,6 +103,21 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
         2.0 * std::tan(0.5 * angle) * this->PixelTolerance / this->ViewHeight };
   }
   return query;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondAlgorithm::NoteTolerance(
+  double tolerance, const vtkIsodiamond::CountedTolerance* aimed, vtkDataObject* output)
+{
+  this->AchievedTolerance = tolerance;
+  if (aimed)
+  {
+    vtkIsodiamond::WarnIfAbove(this, *aimed, this->TargetNumberOfTriangles);
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(vtkIsodiamond::format::AchievedTolerance);
+    array->InsertNextValue(tolerance);
+    output->GetFieldData()->AddArray(array);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -19,6 +19,7 @@
 class vtkDataObject;
 namespace vtkIsodiamond
 {
+struct CountedTolerance;
 struct WorldQuery;
 }
 
@@ -39,6 +40,21 @@ public:
   vtkSetMacro(ErrorTolerance, double);
   vtkGetMacro(ErrorTolerance, double);
   ///@}
+
+  ///@{
+  /**
+   * If it is not 0, ErrorTolerance does not count, but what comes of this: the least tolerance with
+   * no more triangles (tetrahedra, of an interval volume) than this, in the sum over isovalues, or
+   * the coarsest mesh and a warning. Of composite inputs each block has as many. With a region of
+   * interest or a viewpoint, and of an HD, the tolerance is found in 14 queries. Default: 0.
+   */
+  vtkSetClampMacro(TargetNumberOfTriangles, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(TargetNumberOfTriangles, vtkIdType);
+  ///@}
+
+  /** The tolerance of the last mesh: ErrorTolerance, or what TargetNumberOfTriangles led to, which
+   *  the mesh then has in its field data, too. 0 before the first one and after an error. */
+  vtkGetMacro(AchievedTolerance, double);
 
   ///@{
   /**
@@ -76,8 +92,9 @@ public:
   ///@{
   /**
    * The error that is tolerated outside of the region of interest, in the units of ErrorTolerance.
-   * Negative values and NaN are errors while the region is used. Default: VTK_DOUBLE_MAX, as good
-   * as infinity.
+   * 0 chooses it: four times ErrorTolerance, or one voxel (the smallest spacing; by the field
+   * metric 1 % of the extent of the values), whichever is more. Negative values and NaN are errors
+   * while the region is used. Default: VTK_DOUBLE_MAX, as good as infinity.
    */
   vtkSetMacro(OutsideErrorTolerance, double);
   vtkGetMacro(OutsideErrorTolerance, double);
@@ -153,9 +170,15 @@ protected:
     vtkInformationVector* outputVector) = 0;
 
   /** What the properties ask of a hierarchy. @throws std::invalid_argument if they make no sense */
-  vtkIsodiamond::WorldQuery GetQuery() const;
+  virtual vtkIsodiamond::WorldQuery GetQuery() const;
+
+  /** Puts the tolerance of a mesh where users can see it, and warns if it was a target's and has
+   *  more cells. */
+  void NoteTolerance(
+    double tolerance, const vtkIsodiamond::CountedTolerance* aimed, vtkDataObject* output);
 
   double ErrorTolerance = 0.0;
+  vtkIdType TargetNumberOfTriangles = 0;
   bool UseRegionOfInterest = false;
   double RegionOfInterest[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
   double OutsideErrorTolerance = VTK_DOUBLE_MAX;
@@ -167,6 +190,7 @@ protected:
   int OutputPointsPrecision = DEFAULT_PRECISION;
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
+  double AchievedTolerance = 0.0;
   int Piece[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
 
 private:

@@ -208,7 +208,10 @@ vtkIsodiamond::Choice vtkIsodiamondBuilder::GetChoice() const
 isodiamond::BuildOptions vtkIsodiamondBuilder::GetOptions(const isodiamond::AffineMap& world) const
 {
   isodiamond::BuildOptions options;
-  options.Metric = static_cast<isodiamond::ErrorMetric>(this->ErrorMetric);
+  // An HD does not ask.
+  options.Metric = this->ErrorMetric == vtkIsodiamondHierarchy::FIELD
+    ? isodiamond::ErrorMetric::Field
+    : isodiamond::ErrorMetric::Distance;
   options.ExactIsovertices = this->ExactIsovertices;
   options.PreserveFeatures = this->PreserveFeatures;
   options.PreserveTopology = this->PreserveTopology;

@@ -54,6 +54,9 @@ public:
   vtkTypeMacro(vtkIsodiamondBuilder, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /** Beside vtkIsodiamondHierarchy::ErrorMetrics: distance, but for an HD field. */
+  static constexpr int AUTOMATIC = vtkIsodiamondHierarchy::DISTANCE + 1;
+
   ///@{
   /**
    * Which hierarchy: of diamonds (HD: any isovalue later, about 3 bytes a voxel beyond the
@@ -105,13 +108,14 @@ public:
    * How the error of a tolerance is measured. *Distance*: in world units; no point of the mesh
    * is farther from the full-resolution surface than the tolerance, and no vertex of that from the
    * mesh. *Field* (the paper's): in field units, between the field and its linear interpolant. An
-   * HD has the field's only: distances need an isovalue. Default: field.
+   * HD has the field's only: distances need an isovalue. *Automatic*: distance, but for an HD
+   * field. Default: field.
    */
-  vtkSetClampMacro(
-    ErrorMetric, int, vtkIsodiamondHierarchy::FIELD, vtkIsodiamondHierarchy::DISTANCE);
+  vtkSetClampMacro(ErrorMetric, int, vtkIsodiamondHierarchy::FIELD, AUTOMATIC);
   vtkGetMacro(ErrorMetric, int);
   void SetErrorMetricToField() { this->SetErrorMetric(vtkIsodiamondHierarchy::FIELD); }
   void SetErrorMetricToDistance() { this->SetErrorMetric(vtkIsodiamondHierarchy::DISTANCE); }
+  void SetErrorMetricToAutomatic() { this->SetErrorMetric(AUTOMATIC); }
   ///@}
 
   ///@{

@@ -75,6 +75,19 @@ int vtkIsodiamondContour::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
+std::vector<isodiamond::Isoregion> vtkIsodiamondContour::GetRegions() const
+{
+  std::vector<isodiamond::Isoregion> regions;
+  for (int i = 0; i < this->ContourValues->GetNumberOfContours(); ++i)
+  {
+    vtkIsodiamond::Choice choice;
+    choice.Isovalue = this->ContourValues->GetValue(i);
+    regions.push_back(choice.Region());
+  }
+  return regions;
+}
+
+//------------------------------------------------------------------------------
 void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task, vtkDataObject* output)
 {
@@ -84,25 +97,24 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   options.Hidden = &volume.Hidden;
   options.MorePointData = vtkIsodiamond::FromVolume(volume,
     { this->ComputeNormals != 0, this->ComputeGradients != 0, this->InterpolateAttributes != 0 });
-  const int count = this->ContourValues->GetNumberOfContours();
+  const std::vector<isodiamond::Isoregion> regions = this->GetRegions();
+  const auto count = static_cast<double>(regions.size());
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(this->OutputPointsPrecision);
   std::size_t kibibytes = 0;
-  for (int i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < regions.size(); ++i)
   {
-    vtkIsodiamond::Task part = task.Part(1.0 * i / count, (i + 1.0) / count);
-    vtkIsodiamond::Choice choice;
-    choice.Isovalue = this->ContourValues->GetValue(i);
+    vtkIsodiamond::Task part = task.Part(i / count, (i + 1) / count);
     vtkNew<vtkPolyData> contour;
-    this->ExtractMesh(volume, choice.Region(), false, query, options, part).Give(contour);
+    this->ExtractMesh(volume, regions[i], query, options, part).Give(contour);
     append->AddInputData(contour);
     kibibytes += contour->GetActualMemorySize();
   }
-  if (count == 1)
+  if (regions.size() == 1)
   {
     output->ShallowCopy(append->GetInput(0));
   }
-  else if (count > 1)
+  else if (regions.size() > 1)
   {
     ExpectMemoryToAppend(kibibytes);
     vtkIsodiamond::RunSerial([&] { append->Update(); });

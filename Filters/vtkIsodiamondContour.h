@@ -104,6 +104,8 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   bool ClosesBoundary() const override { return this->CloseBoundary; }
+  std::vector<isodiamond::Isoregion> GetRegions() const override;
+  const char* GetNameOfCells() const override { return "Triangles"; }
   void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) override;
 

@@ -4,12 +4,17 @@
 #include "Private/Input.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
+#include "Private/Target.h"
 #include "Private/WorldQuery.h"
 
+#include "vtkDataObjectTypes.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <optional>
@@ -55,13 +60,32 @@ vtkIsodiamondExtractor::~vtkIsodiamondExtractor() = default;
 void vtkIsodiamondExtractor::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "OutputType: " << this->OutputType << "\n";
   os << indent << "InteriorTolerance: " << this->InteriorTolerance << "\n";
+  os << indent << "UseInteriorTolerance: " << (this->UseInteriorTolerance ? "On" : "Off") << "\n";
   os << indent << "Shape: " << this->Shape << "\n";
   os << indent << "Isorange: " << this->Isorange[0] << " " << this->Isorange[1] << "\n";
   os << indent << "UseIsorange: " << (this->UseIsorange ? "On" : "Off") << "\n";
   os << indent << "Isovalue: " << this->Isovalue << "\n";
   os << indent << "UseIsovalue: " << (this->UseIsovalue ? "On" : "Off") << "\n";
   os << indent << "PreserveTopology: " << (this->PreserveTopology ? "On" : "Off") << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::SetInteriorTolerance(double tolerance)
+{
+  this->StoreInteriorTolerance(tolerance);
+  this->UseInteriorToleranceOn();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::StoreInteriorTolerance(double tolerance)
+{
+  if (this->InteriorTolerance != tolerance)
+  {
+    this->InteriorTolerance = tolerance;
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -119,7 +143,10 @@ vtkIdType vtkIsodiamondExtractor::GetNumberOfFrontDiamonds()
 vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetQuery() const
 {
   vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
-  query.InteriorTolerance = this->InteriorTolerance;
+  if (this->UseInteriorTolerance)
+  {
+    query.InteriorTolerance = this->InteriorTolerance;
+  }
   if (this->Shape >= 0)
   {
     query.Shape = static_cast<isodiamond::Shape>(this->Shape);
@@ -140,6 +167,12 @@ vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetQuery() const
 vtkUnstructuredGrid* vtkIsodiamondExtractor::GetOutput()
 {
   return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkIsodiamondExtractor::GetPolyDataOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------
@@ -177,47 +210,145 @@ int vtkIsodiamondExtractor::FillInputPortInformation(int, vtkInformation* info)
 //------------------------------------------------------------------------------
 int vtkIsodiamondExtractor::FillOutputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
   return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkIsodiamondExtractor::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    vtkInformation* info = outputVector->GetInformationObject(0);
+    vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+    const int type = this->GivesPolyData() ? VTK_POLY_DATA : VTK_UNSTRUCTURED_GRID;
+    if (!output || output->GetDataObjectType() != type)
+    {
+      info->Set(vtkDataObject::DATA_OBJECT(),
+        vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type)));
+    }
+    return 1;
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 
 //------------------------------------------------------------------------------
 int vtkIsodiamondExtractor::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
   this->Last.reset();
+  this->AchievedTolerance = 0.0;
   return vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task& task)
     {
       vtkIsodiamond::RemoveState(output->GetFieldData());
       auto execution = std::make_unique<Execution>();
-      execution->Query = this->GetQuery();
+      vtkIsodiamond::WorldQuery& query = execution->Query;
+      query = this->GetQuery();
       task.Begin("Reading the hierarchy", 0.0, 0.2);
       execution->State =
-        vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), execution->Query);
-      task.Begin("Refining", 0.2, 0.5);
+        vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), query);
+      this->WarnOfUnusedValues(*execution->State);
+      std::optional<vtkIsodiamond::CountedTolerance> aimed;
+      if (this->TargetNumberOfTriangles > 0)
+      {
+        task.Begin("Finding the tolerance", 0.2, 0.3);
+        aimed = this->Aim(*execution->State, query, task);
+        query.ErrorTolerance = aimed->Tolerance;
+      }
+      task.Begin("Refining", 0.3, 0.5);
       vtkIsodiamond::Task writing = task.Part(0.5, 1.0);
-      vtkIsodiamond::RefineState(*execution->State, execution->Query, this->NumberOfThreads,
-        task.For(),
+      vtkIsodiamond::RefineState(*execution->State, query, this->NumberOfThreads, task.For(),
         [&](const isodiamond::RefinedSet& refined)
         { this->WriteMesh(*execution->State, refined, writing, output); });
       vtkIsodiamond::KeepPiece(output, this->Piece);
+      this->NoteTolerance(query.ErrorTolerance, aimed ? &*aimed : nullptr, output);
       this->Last = std::move(execution);
     });
 }
 
 //------------------------------------------------------------------------------
-void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
-  const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkUnstructuredGrid* output)
+void vtkIsodiamondExtractor::WarnOfUnusedValues(const vtkIsodiamond::State& state)
 {
+  // Values of a user who did not turn them on; what they are at first says nothing.
+  const vtkIsodiamond::Choice& own = state.Chosen;
+  const bool isVolume = this->GetQuery().Override(own).Shape == isodiamond::Shape::IntervalVolume;
+  if (!isVolume && !this->UseIsovalue && this->Isovalue != 0.0 && this->Isovalue != own.Isovalue)
+  {
+    vtkWarningMacro("Isovalue is " << this->Isovalue
+                                   << ", but UseIsovalue is off: the mesh has the "
+                                   << "hierarchy's, " << own.Isovalue << ".");
+  }
+  const std::array<double, 2> isorange = { this->Isorange[0], this->Isorange[1] };
+  if (isVolume && !this->UseIsorange && isorange != std::array<double, 2>{ 0.0, 1.0 } &&
+    isorange != own.Isorange)
+  {
+    vtkWarningMacro("Isorange is set, but UseIsorange is off: the mesh has the hierarchy's, "
+      << own.Isorange[0] << " to " << own.Isorange[1] << ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond::State& state,
+  const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task)
+{
+  const isodiamond::ParallelFor parallelFor = task.For();
+  vtkIsodiamond::CountedTolerance found;
+  if (state.Isodiamonds && !query.Region && !query.View)
+  {
+    vtkIsodiamond::RunThreaded(this->NumberOfThreads,
+      [&]
+      {
+        const isodiamond::CellCounts counts(
+          *state.Isodiamonds, parallelFor, query.InteriorTolerance);
+        found = vtkIsodiamond::LeastTolerance({ &counts }, this->TargetNumberOfTriangles);
+      });
+    return found;
+  }
+  const isodiamond::ErrorCode& codes =
+    state.Isodiamonds ? state.Isodiamonds->Codes() : state.Scalars->Codes();
+  vtkIsodiamond::WorldQuery tried = query;
+  return vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles,
+    [&](double tolerance)
+    {
+      tried.ErrorTolerance = tolerance;
+      std::int64_t cells = 0;
+      vtkIsodiamond::RefineState(state, tried, this->NumberOfThreads, parallelFor,
+        [&](const isodiamond::RefinedSet& refined)
+        { cells = isodiamond::CountCells(refined, parallelFor); });
+      return cells;
+    });
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
+  const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkDataObject* output)
+{
+  const bool isVolume = refined.Hierarchy().Region().IsVolume();
+  vtkPolyData* surface = vtkPolyData::SafeDownCast(output);
+  if (isVolume && surface)
+  {
+    throw std::invalid_argument("Tetrahedra of an interval volume need an unstructured grid: poly "
+                                "data are for isosurfaces.");
+  }
   const isodiamond::GridGeometry world = state.World;
   vtkIsodiamond::MeshOptions options{ world, state.ArrayName };
+  // Nobody wants to see a surface in the colour of its isovalue.
+  options.ValuesAreScalars = isVolume;
   options.PointsPrecision = this->OutputPointsPrecision;
   if (state.Isodiamonds && !state.PointArrays.empty())
   {
     options.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
   }
-  vtkIsodiamond::ExtractMesh(refined, options, task)
-    .Give(output, refined.Hierarchy().Region().IsVolume());
+  const vtkIsodiamond::Mesh mesh = vtkIsodiamond::ExtractMesh(refined, options, task);
+  if (surface)
+  {
+    mesh.Give(surface);
+  }
+  else
+  {
+    mesh.Give(vtkUnstructuredGrid::SafeDownCast(output), isVolume);
+  }
 }

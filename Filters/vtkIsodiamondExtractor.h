@@ -6,10 +6,10 @@
  * Input: a vtkIsodiamondHierarchy, or any vtkPolyData that holds one (as a reader gives back).
  * Output: of an isosurface triangles, with normals to lower values; of an interval volume
  * tetrahedra. Point data: under the name of the array that the hierarchy was built from the field's
- * value, which is the isovalue on a surface and the sample inside; of an interval volume also
- * `Surface`: -1 on the lower surface, 1 on the upper one, 0 inside; and the other arrays that the
- * hierarchy carries. Cell data: `Level` of the
- * diamond that a cell lies in, 0 for the coarsest.
+ * value, which is the isovalue on a surface and the sample inside, the point scalars of a volume
+ * only; of an interval volume also `Surface`: -1 on the lower surface, 1 on the upper one, 0
+ * inside; and the other arrays that the hierarchy carries. Cell data: `Level` of the diamond that a
+ * cell lies in, 0 for the coarsest.
  *
  * The mesh has no cracks at any tolerance, and the three models give the same one. A coarser
  * tolerance costs less time, in proportion to what it returns. All tetrahedra have positive
@@ -37,6 +37,7 @@ namespace isodiamond
 class RefinedSet;
 }
 class vtkFieldData;
+class vtkPolyData;
 class vtkUnstructuredGrid;
 namespace vtkIsodiamond
 {
@@ -70,16 +71,39 @@ public:
    *  infinity, stays at VTK_DOUBLE_MAX while there is no hierarchy. */
   double* GetInteriorToleranceRange() VTK_SIZEHINT(2);
 
+  /** Data sets for the output. */
+  enum OutputTypes
+  {
+    UNSTRUCTURED_GRID = 0,
+    POLY_DATA = 1
+  };
+
+  ///@{
+  /**
+   * The type of the output: an unstructured grid, or poly data for the filters and writers that
+   * take surfaces; for an interval volume that is an error. Default: unstructured grid.
+   */
+  vtkSetClampMacro(OutputType, int, UNSTRUCTURED_GRID, POLY_DATA);
+  vtkGetMacro(OutputType, int);
+  void SetOutputTypeToUnstructuredGrid() { this->SetOutputType(UNSTRUCTURED_GRID); }
+  void SetOutputTypeToPolyData() { this->SetOutputType(POLY_DATA); }
+  ///@}
+
   ///@{
   /**
    * The error that is tolerated where no surface is, inside an interval volume, in field units.
    * In tetrahedra with all vertices inside the error is at most the greater of this and of
-   * ErrorTolerance, which holds where their diamond carries a surface. Needs an HD or
-   * vtkIsodiamondBuilder's RefineInterior. Default: VTK_DOUBLE_MAX, as good as infinity: the inside
-   * is as coarse as its surfaces let it be.
+   * ErrorTolerance, which holds where their diamond carries a surface. Without it the inside is as
+   * coarse as its surfaces let it be. SetInteriorTolerance turns UseInteriorTolerance on. Needs an
+   * HD or vtkIsodiamondBuilder's RefineInterior. Default: off.
    */
-  vtkSetMacro(InteriorTolerance, double);
+  void SetInteriorTolerance(double tolerance);
+  /** The same, but leaves UseInteriorTolerance as it is: for user interfaces that set both. */
+  void StoreInteriorTolerance(double tolerance);
   vtkGetMacro(InteriorTolerance, double);
+  vtkSetMacro(UseInteriorTolerance, bool);
+  vtkGetMacro(UseInteriorTolerance, bool);
+  vtkBooleanMacro(UseInteriorTolerance, bool);
   ///@}
 
   ///@{
@@ -133,8 +157,12 @@ public:
   vtkBooleanMacro(PreserveTopology, bool);
   ///@}
 
-  /** The mesh. */
+  /** The mesh as unstructured grid, and as poly data; null if OutputType is the other one. */
   vtkUnstructuredGrid* GetOutput();
+  vtkPolyData* GetPolyDataOutput();
+
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
 protected:
   vtkIsodiamondExtractor();
@@ -147,12 +175,16 @@ protected:
 
   /** Makes the output of a query. */
   virtual void WriteMesh(const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined,
-    vtkIsodiamond::Task& task, vtkUnstructuredGrid* output);
+    vtkIsodiamond::Task& task, vtkDataObject* output);
 
-  /** What the properties ask of a hierarchy. */
-  vtkIsodiamond::WorldQuery GetQuery() const;
+  /** Whether the output is poly data. */
+  virtual bool GivesPolyData() const { return this->OutputType == POLY_DATA; }
 
-  double InteriorTolerance = VTK_DOUBLE_MAX;
+  vtkIsodiamond::WorldQuery GetQuery() const override;
+
+  int OutputType = UNSTRUCTURED_GRID;
+  double InteriorTolerance = 1.0;
+  bool UseInteriorTolerance = false;
   int Shape = -1;
   double Isorange[2] = { 0.0, 1.0 };
   bool UseIsorange = false;
@@ -166,6 +198,9 @@ private:
   void operator=(const vtkIsodiamondExtractor&) = delete;
 
   vtkFieldData* FindHierarchy();
+  vtkIsodiamond::CountedTolerance Aim(const vtkIsodiamond::State& state,
+    const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task);
+  void WarnOfUnusedValues(const vtkIsodiamond::State& state);
 
   /** The hierarchy, query and counts of the last execution. */
   struct Execution;

@@ -24,6 +24,25 @@ void vtkIsodiamondIntervalVolume::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Isorange: " << this->Isorange[0] << " " << this->Isorange[1] << "\n";
   os << indent << "InteriorTolerance: " << this->InteriorTolerance << "\n";
+  os << indent << "UseInteriorTolerance: " << (this->UseInteriorTolerance ? "On" : "Off") << "\n";
+  os << indent << "ComputeGradients: " << (this->ComputeGradients ? "On" : "Off") << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondIntervalVolume::SetInteriorTolerance(double tolerance)
+{
+  this->StoreInteriorTolerance(tolerance);
+  this->UseInteriorToleranceOn();
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondIntervalVolume::StoreInteriorTolerance(double tolerance)
+{
+  if (this->InteriorTolerance != tolerance)
+  {
+    this->InteriorTolerance = tolerance;
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -53,26 +72,31 @@ int vtkIsodiamondIntervalVolume::FillOutputPortInformation(int, vtkInformation* 
 }
 
 //------------------------------------------------------------------------------
+vtkIsodiamond::WorldQuery vtkIsodiamondIntervalVolume::GetQuery() const
+{
+  vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
+  if (this->UseInteriorTolerance)
+  {
+    query.InteriorTolerance = this->InteriorTolerance;
+  }
+  return query;
+}
+
+//------------------------------------------------------------------------------
+std::vector<isodiamond::Isoregion> vtkIsodiamondIntervalVolume::GetRegions() const
+{
+  return { { this->Isorange[0], this->Isorange[1] } };
+}
+
+//------------------------------------------------------------------------------
 void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task, vtkDataObject* output)
 {
-  vtkIsodiamond::WorldQuery withInterior = query;
-  withInterior.InteriorTolerance = this->InteriorTolerance;
-  vtkIsodiamond::CheckTolerances(withInterior);
-  const auto extent = [&]
-  {
-    const isodiamond::ValueRange range = isodiamond::FiniteRange(volume.Samples);
-    return range.Maximum - range.Minimum;
-  };
-  const bool refineInterior =
-    this->InteriorTolerance < VTK_DOUBLE_MAX && this->InteriorTolerance < extent();
   vtkIsodiamond::MeshOptions options{ volume.Placement.World, volume.ArrayName };
   options.PointsPrecision = this->OutputPointsPrecision;
   options.Hidden = &volume.Hidden;
-  options.MorePointData =
-    vtkIsodiamond::FromVolume(volume, { false, false, this->InterpolateAttributes != 0 });
-  this
-    ->ExtractMesh(
-      volume, { this->Isorange[0], this->Isorange[1] }, refineInterior, withInterior, options, task)
+  options.MorePointData = vtkIsodiamond::FromVolume(
+    volume, { false, this->ComputeGradients != 0, this->InterpolateAttributes != 0 });
+  this->ExtractMesh(volume, this->GetRegions().front(), query, options, task)
     .Give(vtkUnstructuredGrid::SafeDownCast(output), true);
 }

@@ -46,12 +46,28 @@ public:
 
   ///@{
   /**
-   * The error that is tolerated inside, in field units. No field error is greater than the extent
-   * of the array's values; from there on the inside is as coarse as its surfaces let it be.
-   * Negative values and NaN are errors. Default: VTK_DOUBLE_MAX.
+   * The error that is tolerated inside, in field units; without it the inside is as coarse as its
+   * surfaces let it be, which it is, too, from the extent of the array's values on.
+   * SetInteriorTolerance turns UseInteriorTolerance on. Negative values and NaN are errors.
+   * Default: off.
    */
-  vtkSetMacro(InteriorTolerance, double);
+  void SetInteriorTolerance(double tolerance);
+  /** The same, but leaves UseInteriorTolerance as it is: for user interfaces that set both. */
+  void StoreInteriorTolerance(double tolerance);
   vtkGetMacro(InteriorTolerance, double);
+  vtkSetMacro(UseInteriorTolerance, bool);
+  vtkGetMacro(UseInteriorTolerance, bool);
+  vtkBooleanMacro(UseInteriorTolerance, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The gradient of the full-resolution field at every point, in the world. Default: off. There are
+   * no normals: where a surface meets the grid's boundary, a point would need two.
+   */
+  vtkSetMacro(ComputeGradients, vtkTypeBool);
+  vtkGetMacro(ComputeGradients, vtkTypeBool);
+  vtkBooleanMacro(ComputeGradients, vtkTypeBool);
   ///@}
 
   /** Interior tolerances that are worth trying: up to the extent of the array's values; {0,
@@ -66,11 +82,16 @@ protected:
   ~vtkIsodiamondIntervalVolume() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  vtkIsodiamond::WorldQuery GetQuery() const override;
+  std::vector<isodiamond::Isoregion> GetRegions() const override;
+  const char* GetNameOfCells() const override { return "Tetrahedra"; }
   void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) override;
 
   double Isorange[2] = { 0.0, 1.0 };
-  double InteriorTolerance = VTK_DOUBLE_MAX;
+  double InteriorTolerance = 1.0;
+  bool UseInteriorTolerance = false;
+  vtkTypeBool ComputeGradients = 0;
   double InteriorToleranceRange[2] = { 0.0, VTK_DOUBLE_MAX };
 
 private:

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondVolumeAlgorithm.h"
 
+#include "Mesh/CellCounts.h"
 #include "Patches/WorldLengths.h"
 #include "Private/Cache.h"
 #include "Private/Format.h"
 #include "Private/Input.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
+#include "Private/Target.h"
 #include "Private/Task.h"
 #include "Private/Threads.h"
 #include "Private/WorldQuery.h"
@@ -22,6 +24,26 @@
 #include "vtkNew.h"
 
 #include <algorithm>
+#include <optional>
+
+namespace
+{
+
+/** Which hierarchy a query needs. Interior tolerances from the extent of the values on need nothing
+ *  inside. */
+vtkIsodiamond::Cache::Need NeedOf(
+  const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::Volume& volume)
+{
+  const auto extent = [&]
+  {
+    const isodiamond::ValueRange range = isodiamond::FiniteRange(volume.Samples);
+    return range.Maximum - range.Minimum;
+  };
+  return { !query.IsFull(),
+    query.InteriorTolerance < VTK_DOUBLE_MAX && query.InteriorTolerance < extent() };
+}
+
+}
 
 //------------------------------------------------------------------------------
 vtkIsodiamondVolumeAlgorithm::vtkIsodiamondVolumeAlgorithm()
@@ -39,6 +61,7 @@ void vtkIsodiamondVolumeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
+  os << indent << "ToleranceUnit: " << this->ToleranceUnit << "\n";
   os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
   os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
   os << indent << "PreserveTopology: " << (this->PreserveTopology ? "On" : "Off") << "\n";
@@ -68,9 +91,9 @@ double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
   double largest = 0.0;
   for (vtkDataSet* grid : vtkIsodiamond::LeavesOf(this->GetInput()))
   {
-    largest = std::max(largest,
-      vtkIsodiamond::LargestTolerance(
-        static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), grid, this->FindInputArray(grid)));
+    const double inUnits = vtkIsodiamond::LargestTolerance(
+      static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), grid, this->FindInputArray(grid));
+    largest = std::max(largest, inUnits / this->GetUnit(vtkIsodiamond::VoxelOf(grid)));
   }
   this->ErrorToleranceRange[1] = largest > 0.0 ? largest : 1.0;
   return this->ErrorToleranceRange;
@@ -111,16 +134,20 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  this->AchievedTolerance = 0.0;
   return vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task& task)
     {
-      const vtkIsodiamond::WorldQuery query = this->GetQuery();
+      vtkIsodiamond::WorldQuery query = this->GetQuery();
       vtkIsodiamond::CheckTolerances(query);
       vtkDataSet* grid = vtkDataSet::GetData(inputVector[0]);
       vtkIsodiamond::CheckWhole(grid, inputVector[0]->GetInformationObject(0), this->Piece);
       const vtkIsodiamond::InputArray array = this->FindInputArray(grid);
       const vtkIsodiamond::Volume volume =
         vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
+      const double unit = this->GetUnit(volume.Placement.World.SmallestStep());
+      query.ErrorTolerance *= unit;
+      query.OutsideErrorTolerance *= unit;
       const isodiamond::BuildOptions options = this->GetOptions(volume.Placement.World, query);
       this->RemovedFromBlock = 0;
       vtkIsodiamond::RunThreaded(this->NumberOfThreads,
@@ -130,7 +157,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
           const vtkIsodiamond::CacheTrimmer trimmer{ *this->Hierarchies,
             std::int64_t{ this->CacheSize } << 20 };
           this->Hierarchies->Prepare(array.Array, volume, options);
-          this->Extract(volume, query, task, output);
+          this->ExtractAtTolerance(volume, query, unit, task, output);
         });
       vtkIsodiamond::KeepPiece(output, this->Piece);
       this->NumberOfRemovedPieces += this->RemovedFromBlock;
@@ -142,6 +169,100 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
         output->GetFieldData()->AddArray(removed);
       }
     });
+}
+
+//------------------------------------------------------------------------------
+double vtkIsodiamondVolumeAlgorithm::GetUnit(double voxel) const
+{
+  const bool isVoxel = this->ToleranceUnit == VOXELS &&
+    this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && voxel > 0.0;
+  return isVoxel ? voxel : 1.0;
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
+  const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
+  vtkIsodiamond::Task& task)
+{
+  const std::vector<isodiamond::Isoregion> regions = this->GetRegions();
+  const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
+  std::vector<const isodiamond::IsodiamondHierarchy*> hierarchies;
+  std::vector<const isodiamond::CellCounts*> counts;
+  for (std::size_t i = 0; i < regions.size(); ++i)
+  {
+    const auto count = static_cast<double>(regions.size());
+    vtkIsodiamond::Task part = task.Part(i / count, (i + 1) / count);
+    hierarchies.push_back(&this->Hierarchies->Get(volume, regions[i], need, part));
+    counts.push_back(
+      &this->Hierarchies->Count(volume, regions[i], need, query.InteriorTolerance, part));
+  }
+  if (hierarchies.empty() || !(query.Region || query.View))
+  {
+    return vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles);
+  }
+  task.Begin("Finding the tolerance", 1.0, 1.0);
+  const isodiamond::ParallelFor parallelFor = task.For();
+  vtkIsodiamond::WorldQuery tried = query;
+  return vtkIsodiamond::LeastTolerance(hierarchies.front()->Codes(), this->TargetNumberOfTriangles,
+    [&](double tolerance)
+    {
+      tried.ErrorTolerance = tolerance;
+      std::int64_t cells = 0;
+      for (const isodiamond::IsodiamondHierarchy* hierarchy : hierarchies)
+      {
+        cells += isodiamond::CountCells(
+          isodiamond::RefinedSet(*hierarchy,
+            vtkIsodiamond::CoreQuery(tried, *hierarchy, volume.Placement.World), parallelFor),
+          parallelFor);
+      }
+      return cells;
+    });
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondVolumeAlgorithm::ExtractAtTolerance(const vtkIsodiamond::Volume& volume,
+  const vtkIsodiamond::WorldQuery& query, double unit, vtkIsodiamond::Task& task,
+  vtkDataObject* output)
+{
+  constexpr double aimPart = 0.8;
+  vtkIsodiamond::WorldQuery aimed = query;
+  std::optional<vtkIsodiamond::CountedTolerance> found;
+  if (this->TargetNumberOfTriangles > 0)
+  {
+    vtkIsodiamond::Task aiming = task.Part(0.0, aimPart);
+    found = this->Aim(volume, query, aiming);
+    aimed.ErrorTolerance = found->Tolerance;
+  }
+  vtkIsodiamond::Task extracting = task.Part(found ? aimPart : 0.0, 1.0);
+  this->Extract(volume, aimed, extracting, output);
+  this->NoteTolerance(aimed.ErrorTolerance / unit, found ? &*found : nullptr, output);
+  this->WriteTable(volume, aimed, unit, extracting, output);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondVolumeAlgorithm::WriteTable(const vtkIsodiamond::Volume& volume,
+  const vtkIsodiamond::WorldQuery& query, double unit, vtkIsodiamond::Task& task,
+  vtkDataObject* output)
+{
+  if (query.IsFull())
+  {
+    return; // as if errors were not known, even if they are: the mesh is that of a new filter
+  }
+  std::vector<const isodiamond::CellCounts*> counts;
+  for (const isodiamond::Isoregion& region : this->GetRegions())
+  {
+    counts.push_back(&this->Hierarchies->Count(
+      volume, region, NeedOf(query, volume), query.InteriorTolerance, task));
+  }
+  if (!counts.empty())
+  {
+    // VTK would look for the values' extent, which the codes have, in threads of its own.
+    const double largest = this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE
+      ? vtkIsodiamond::LargestTolerance(isodiamond::ErrorMetric::Distance, volume.Grid, {})
+      : counts.front()->Codes().Scale();
+    vtkIsodiamond::WriteCounts(
+      counts, this->GetNameOfCells(), largest, unit, output->GetFieldData());
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -169,18 +290,17 @@ isodiamond::BuildOptions vtkIsodiamondVolumeAlgorithm::GetOptions(
 
 //------------------------------------------------------------------------------
 vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamond::Volume& volume,
-  const isodiamond::Isoregion& region, bool refineInterior, const vtkIsodiamond::WorldQuery& query,
+  const isodiamond::Isoregion& region, const vtkIsodiamond::WorldQuery& query,
   const vtkIsodiamond::MeshOptions& options, vtkIsodiamond::Task& task)
 {
   constexpr double buildPart = 0.8;
   vtkIsodiamond::Task building = task.Part(0.0, buildPart);
   const isodiamond::IsodiamondHierarchy& hierarchy =
-    this->Hierarchies->Get(volume, region, { !query.IsFull(), refineInterior }, building);
+    this->Hierarchies->Get(volume, region, NeedOf(query, volume), building);
   this->RemovedFromBlock += hierarchy.Header().RemovedPieces;
   vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
   extracting.Begin("Refining", 0.0, 0.3);
   const isodiamond::RefinedSet refined(hierarchy,
-    vtkIsodiamond::CoreQuery(query, hierarchy.SampleGrid(), volume.Placement.World),
-    extracting.For());
+    vtkIsodiamond::CoreQuery(query, hierarchy, volume.Placement.World), extracting.For());
   return vtkIsodiamond::ExtractMesh(refined, options, extracting);
 }

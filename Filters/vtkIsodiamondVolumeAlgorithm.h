@@ -28,6 +28,7 @@
 #include "vtkIsodiamondHierarchy.h"     // for the metrics
 
 #include <memory> // for the cache
+#include <vector> // for regions
 
 class vtkDataSet;
 namespace isodiamond
@@ -64,6 +65,24 @@ public:
   vtkGetMacro(ErrorMetric, int);
   void SetErrorMetricToField() { this->SetErrorMetric(vtkIsodiamondHierarchy::FIELD); }
   void SetErrorMetricToDistance() { this->SetErrorMetric(vtkIsodiamondHierarchy::DISTANCE); }
+  ///@}
+
+  /** Units of tolerances. */
+  enum ToleranceUnits
+  {
+    WORLD_UNITS = 0,
+    VOXELS = 1
+  };
+
+  ///@{
+  /**
+   * What 1 is in ErrorTolerance and OutsideErrorTolerance by the distance metric: a world unit, or
+   * a voxel, which is the smallest spacing of the grid. Default: world units.
+   */
+  vtkSetClampMacro(ToleranceUnit, int, WORLD_UNITS, VOXELS);
+  vtkGetMacro(ToleranceUnit, int);
+  void SetToleranceUnitToWorldUnits() { this->SetToleranceUnit(WORLD_UNITS); }
+  void SetToleranceUnitToVoxels() { this->SetToleranceUnit(VOXELS); }
   ///@}
 
   ///@{
@@ -159,6 +178,12 @@ protected:
   /** Whether the volume is padded. */
   virtual bool ClosesBoundary() const { return false; }
 
+  /** What meshes are to be extracted of. @throws std::invalid_argument if it makes no sense */
+  virtual std::vector<isodiamond::Isoregion> GetRegions() const = 0;
+
+  /** What the mesh consists of, in words. */
+  virtual const char* GetNameOfCells() const = 0;
+
   /** Makes the output, from hierarchies of the cache, which is ready for the volume. Runs in a
    *  scope of vtkSMPTools. @throws std::exception that says what is wrong */
   virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
@@ -166,13 +191,13 @@ protected:
 
   /** The mesh of a region: its hierarchy is one of the cache, refined by a query. */
   vtkIsodiamond::Mesh ExtractMesh(const vtkIsodiamond::Volume& volume,
-    const isodiamond::Isoregion& region, bool refineInterior,
-    const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::MeshOptions& options,
-    vtkIsodiamond::Task& task);
+    const isodiamond::Isoregion& region, const vtkIsodiamond::WorldQuery& query,
+    const vtkIsodiamond::MeshOptions& options, vtkIsodiamond::Task& task);
 
   vtkIsodiamond::InputArray FindInputArray(vtkDataSet* input);
 
   int ErrorMetric = vtkIsodiamondHierarchy::DISTANCE;
+  int ToleranceUnit = WORLD_UNITS;
   bool ExactIsovertices = true;
   bool PreserveFeatures = true;
   bool PreserveTopology = true;
@@ -186,6 +211,14 @@ private:
 
   isodiamond::BuildOptions GetOptions(
     const isodiamond::GridGeometry& world, const vtkIsodiamond::WorldQuery& query) const;
+  double GetUnit(double voxel) const;
+  vtkIsodiamond::CountedTolerance Aim(const vtkIsodiamond::Volume& volume,
+    const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task);
+  void WriteTable(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
+    double unit, vtkIsodiamond::Task& task, vtkDataObject* output);
+  void ExtractAtTolerance(const vtkIsodiamond::Volume& volume,
+    const vtkIsodiamond::WorldQuery& query, double unit, vtkIsodiamond::Task& task,
+    vtkDataObject* output);
 
   std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
   vtkIdType NumberOfRemovedPieces = 0;

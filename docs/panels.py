@@ -104,7 +104,7 @@ def hierarchy():
 def extract():
     extracted = IsodiamondExtract(built(ComputeNormals=1))
     extracted.ErrorTolerance = extracted.GetProperty("ErrorTolerance").GetDomain("range").GetMaximum(0) / 5
-    ColorBy(show(extracted), None)
+    show(extracted)
 
 
 def points():

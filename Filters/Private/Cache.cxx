@@ -114,6 +114,20 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
   return entry.Current();
 }
 
+const isodiamond::CellCounts& Cache::Count(const Volume& volume,
+  const isodiamond::Isoregion& region, const Need& need, double interiorTolerance, Task& task)
+{
+  const isodiamond::IsodiamondHierarchy& hierarchy = this->Get(volume, region, need, task);
+  Entry& entry = this->Entries.front();
+  if (!entry.Counts || entry.CountedInside != interiorTolerance)
+  {
+    task.Begin("Counting cells", 1.0, 1.0);
+    entry.Counts.emplace(hierarchy, task.For(), interiorTolerance);
+    entry.CountedInside = interiorTolerance;
+  }
+  return *entry.Counts;
+}
+
 void Cache::Trim(std::int64_t bytes)
 {
   std::int64_t kept = 0;

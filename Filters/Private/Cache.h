@@ -3,6 +3,7 @@
 #define vtkIsodiamond_Cache_h
 
 #include "Build/Builder.h"
+#include "Mesh/CellCounts.h"
 #include "Private/ContentHash.h"
 #include "Private/Input.h"
 #include "Private/Task.h"
@@ -44,6 +45,11 @@ public:
   const isodiamond::IsodiamondHierarchy& Get(
     const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task);
 
+  /** How many cells there are at every tolerance, of the same hierarchy. Kept until a query has
+   *  another interior tolerance, or the hierarchy is forgotten. @pre need.Errors */
+  const isodiamond::CellCounts& Count(const Volume& volume, const isodiamond::Isoregion& region,
+    const Need& need, double interiorTolerance, Task& task);
+
   /** Forgets all but what was used since the last time, and as much more as fits. */
   void Trim(std::int64_t bytes);
 
@@ -74,6 +80,8 @@ private:
     std::optional<isodiamond::StagedBuild> Staged; ///< as long as nobody needs errors
     isodiamond::Encoding Encoding;
     std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy; ///< of the encoding
+    std::optional<isodiamond::CellCounts> Counts;
+    double CountedInside = 0.0; ///< the interior tolerance of the counts
 
     const isodiamond::IsodiamondHierarchy& Current() const
     {

@@ -44,6 +44,9 @@ inline constexpr const char* NumberOfIsovertices = "NumberOfIsovertices";
 inline constexpr const char* NumberOfRemovedPieces = "NumberOfRemovedPieces";
 inline constexpr const char* StorageSize = "StorageSize";
 
+/** The same beside a mesh. */
+inline constexpr const char* AchievedTolerance = "AchievedTolerance";
+
 }
 
 /** Indices into the header. */

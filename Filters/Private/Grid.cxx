@@ -222,6 +222,16 @@ Geometry GeometryOf(vtkDataSet* grid, int padding)
   return geometry;
 }
 
+double VoxelOf(vtkDataSet* grid)
+{
+  const std::array<int, 3> dimensions = DimensionsOf(grid);
+  const bool hasCells =
+    std::all_of(dimensions.begin(), dimensions.end(), [](int samples) { return samples > 1; });
+  return hasCells && !vtkStructuredGrid::SafeDownCast(grid)
+    ? GeometryOf(grid, 0).World.SmallestStep()
+    : 0.0;
+}
+
 isodiamond::HiddenCells HiddenCellsOf(vtkDataSet* grid, int padding)
 {
   vtkUnsignedCharArray* cellGhosts = grid->GetCellGhostArray();

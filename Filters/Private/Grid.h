@@ -31,6 +31,9 @@ std::array<int, 3> DimensionsOf(vtkDataSet* grid);
  */
 double DiagonalOf(vtkDataSet* grid);
 
+/** The smallest spacing of an image or rectilinear grid; 0 of all else. */
+double VoxelOf(vtkDataSet* grid);
+
 /** Where a grid's samples are in the world. */
 struct Geometry
 {

@@ -209,7 +209,11 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& op
   {
     const auto values = NewArray<vtkFloatArray>(options.ArrayName.c_str(), extraction.PointCount());
     values->Fill(refined.Hierarchy().Region().Isovalue());
-    mesh.PointData->SetScalars(values);
+    mesh.PointData->AddArray(values);
+    if (options.ValuesAreScalars)
+    {
+      mesh.PointData->SetScalars(values);
+    }
   }
   Complete(extraction, options, mesh);
 }

@@ -39,8 +39,9 @@ struct Mesh
 struct MeshOptions
 {
   const isodiamond::GridGeometry& World;
-  std::string ArrayName;  ///< the field's values get it
-  bool WithValues = true; ///< whether a surface's points have them
+  std::string ArrayName;        ///< the field's values get it
+  bool WithValues = true;       ///< whether a surface's points have them
+  bool ValuesAreScalars = true; ///< whether they are the active scalars then
   /** A vtkAlgorithm::DesiredOutputPrecision; by default floats for triangles, doubles for
    *  tetrahedra: rounded to floats, the thinnest would turn over. */
   int PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;

@@ -11,6 +11,7 @@
 #include "vtkIsodiamondHierarchy.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -32,10 +33,11 @@ struct View
 struct WorldQuery
 {
   double ErrorTolerance = 0.0;
+  bool HasTarget = false; ///< whether that tolerance is yet to be found
   double InteriorTolerance = HUGE_VAL;
   /** In the world; the tolerances hold there. */
   std::optional<isodiamond::Box> Region;
-  double OutsideErrorTolerance = HUGE_VAL;
+  double OutsideErrorTolerance = HUGE_VAL; ///< 0: see OutsideOf()
   std::optional<vtkIsodiamond::View> View;
   /** What to extract instead of the hierarchy's own; an HD can. */
   std::optional<isodiamond::Shape> Shape;
@@ -44,7 +46,10 @@ struct WorldQuery
   bool PreserveTopology = false; ///< of an HD
 
   /** Whether it is for full resolution, whatever errors are. */
-  bool IsFull() const { return this->ErrorTolerance == 0.0 && !this->Region && !this->View; }
+  bool IsFull() const
+  {
+    return this->ErrorTolerance == 0.0 && !this->HasTarget && !this->Region && !this->View;
+  }
 
   /** The hierarchy's own choice, overridden by the query's. */
   Choice Override(Choice choice) const
@@ -77,15 +82,47 @@ inline void CheckTolerances(const WorldQuery& query)
   }
 }
 
+/** The metric of a hierarchy, and the extent of what it measures. */
+struct Measure
+{
+  isodiamond::ErrorMetric Metric = isodiamond::ErrorMetric::Field;
+  double Extent = 1.0;
+
+  explicit Measure(const isodiamond::IsodiamondHierarchy& hierarchy)
+    : Metric(hierarchy.Header().Metric)
+    , Extent(hierarchy.Codes().Scale())
+  {
+  }
+  explicit Measure(const isodiamond::ScalarHierarchy& hierarchy)
+    : Extent(hierarchy.Codes().Scale())
+  {
+  }
+};
+
+/** The tolerance outside of a query's region. */
+inline double OutsideOf(
+  const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
+{
+  if (query.OutsideErrorTolerance != 0.0)
+  {
+    return query.OutsideErrorTolerance;
+  }
+  const bool isDistance = measure.Metric == isodiamond::ErrorMetric::Distance;
+  return std::max(
+    4.0 * query.ErrorTolerance, isDistance ? world.SmallestStep() : 0.01 * measure.Extent);
+}
+
 /** The query in terms of the core. @param world from the grid's index space; for a
  *  view not that of a curvilinear grid */
-inline isodiamond::Query CoreQuery(
-  const WorldQuery& query, const isodiamond::Grid& grid, const isodiamond::GridGeometry& world)
+template <typename Hierarchy>
+isodiamond::Query CoreQuery(
+  const WorldQuery& query, const Hierarchy& hierarchy, const isodiamond::GridGeometry& world)
 {
+  const isodiamond::Grid& grid = hierarchy.SampleGrid();
   isodiamond::Query result;
   result.Tolerance = query.ErrorTolerance;
   result.InteriorTolerance = query.InteriorTolerance;
-  result.OutsideTolerance = query.OutsideErrorTolerance;
+  result.OutsideTolerance = OutsideOf(query, Measure(hierarchy), world);
   result.PreserveTopology = query.PreserveTopology;
   const isodiamond::AffineMap* map = world.Affine();
   if (query.Region && map)
@@ -145,15 +182,13 @@ void RefineState(const State& state, const WorldQuery& query, int numberOfThread
     {
       if (state.Isodiamonds)
       {
-        const isodiamond::Grid& grid = state.Isodiamonds->SampleGrid();
         use(isodiamond::RefinedSet(
-          *state.Isodiamonds, CoreQuery(query, grid, state.World), parallelFor));
+          *state.Isodiamonds, CoreQuery(query, *state.Isodiamonds, state.World), parallelFor));
         return;
       }
       const isodiamond::Encoding answer =
         isodiamond::EncodeQuery(*state.Scalars, query.Override(state.Chosen).Region(),
-          CoreQuery(query, state.Scalars->SampleGrid(), state.World), state.ExactIsovertices,
-          parallelFor);
+          CoreQuery(query, *state.Scalars, state.World), state.ExactIsovertices, parallelFor);
       const isodiamond::IsodiamondHierarchy hierarchy(answer, parallelFor);
       use(isodiamond::RefinedSet(hierarchy, {}, parallelFor));
     });

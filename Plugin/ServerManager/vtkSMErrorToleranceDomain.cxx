@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMErrorToleranceDomain.h"
 
+#include "RoundNumbers.h"
+
 #include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -27,7 +30,10 @@ void vtkSMErrorToleranceDomain::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkSMErrorToleranceDomain::Update(vtkSMProperty*)
 {
-  this->SetEntries(std::vector<vtkEntry>{ vtkEntry(0.0, this->FindLargest()) });
+  const double largest = this->FindLargest();
+  const bool isKnown = std::isfinite(largest) && largest > 0.0;
+  this->SetEntries(
+    std::vector<vtkEntry>{ vtkEntry(0.0, isKnown ? RoundNumbers::AtLeast(largest) : 1.0) });
 }
 
 //------------------------------------------------------------------------------
@@ -47,8 +53,9 @@ double vtkSMErrorToleranceDomain::FindLargest()
   else if (input && vtkSMUncheckedPropertyHelper(metric).GetAsInt() == 1) // distance
   {
     const double* bounds = input->GetBounds();
-    largest =
-      0.02 * std::hypot(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]);
+    largest = 0.02 *
+      std::hypot(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]) /
+      this->FindUnit(input);
   }
   else if (input && array)
   {
@@ -59,5 +66,24 @@ double vtkSMErrorToleranceDomain::FindLargest()
     largest =
       values ? values->GetComponentFiniteRange(0)[1] - values->GetComponentFiniteRange(0)[0] : 0.0;
   }
-  return std::isfinite(largest) && largest > 0.0 ? largest : 1.0;
+  return largest;
+}
+
+//------------------------------------------------------------------------------
+double vtkSMErrorToleranceDomain::FindUnit(vtkPVDataInformation* input)
+{
+  vtkSMProperty* unit = this->GetRequiredProperty("Unit");
+  if (!unit || vtkSMUncheckedPropertyHelper(unit).GetAsInt() == 0)
+  {
+    return 1.0;
+  }
+  const double* bounds = input->GetBounds();
+  const int* extent = input->GetExtent();
+  double voxel = HUGE_VAL;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    voxel = std::min(
+      voxel, (bounds[2 * axis + 1] - bounds[2 * axis]) / (extent[2 * axis + 1] - extent[2 * axis]));
+  }
+  return std::isfinite(voxel) && voxel > 0.0 ? voxel : 1.0;
 }

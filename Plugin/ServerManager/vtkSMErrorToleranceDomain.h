@@ -5,8 +5,9 @@
  *
  * From 0 to what the input and the metric make of it: by the distance metric 2 % of the diagonal of
  * the input's bounds, by the field metric the extent of the array's values; of a hierarchy what it
- * says itself. Required properties: *Input*, and of filters that work on a volume *Metric* and
- * *ArraySelection*.
+ * says itself; rounded up. Required properties: *Input*, and of filters that work on a volume
+ * *Metric* (without one it is the field's) and *ArraySelection*; *Unit* where tolerances can be in
+ * voxels.
  */
 
 #ifndef vtkSMErrorToleranceDomain_h
@@ -14,6 +15,8 @@
 
 #include "vtkIsodiamondServerManagerModule.h" // for export macro
 #include "vtkSMDoubleRangeDomain.h"
+
+class vtkPVDataInformation;
 
 class VTKISODIAMONDSERVERMANAGER_EXPORT vtkSMErrorToleranceDomain : public vtkSMDoubleRangeDomain
 {
@@ -33,8 +36,11 @@ private:
   vtkSMErrorToleranceDomain(const vtkSMErrorToleranceDomain&) = delete;
   void operator=(const vtkSMErrorToleranceDomain&) = delete;
 
-  /** The end of the range; 1 while there is nothing to tell from. */
+  /** The end of the range; 0 or not finite while there is nothing to tell from. */
   double FindLargest();
+
+  /** What 1 is for the user, in the world: a voxel of even spacing stands for all. */
+  double FindUnit(vtkPVDataInformation* input);
 };
 
 #endif

@@ -118,6 +118,61 @@ TEST(Hierarchy, ThreeModelsGiveTheSameSurface)
   }
 }
 
+TEST(Hierarchy, GivesSurfacesAsPolyData)
+{
+  const auto mi = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(mi->GetOutputPort());
+  extractor->SetErrorTolerance(0.02);
+  extractor->Update();
+  ASSERT_NE(extractor->GetOutput(), nullptr);
+  EXPECT_EQ(extractor->GetPolyDataOutput(), nullptr);
+  EXPECT_EQ(extractor->GetOutput()->GetPointData()->GetScalars(), nullptr);
+  const auto expected = test::SortedTriangles(extractor->GetOutput());
+  extractor->SetOutputTypeToPolyData();
+  extractor->Update();
+  ASSERT_NE(extractor->GetPolyDataOutput(), nullptr);
+  EXPECT_EQ(extractor->GetOutput(), nullptr);
+  EXPECT_EQ(test::SortedTriangles(extractor->GetPolyDataOutput()), expected);
+  EXPECT_NE(extractor->GetPolyDataOutput()->GetPointData()->GetArray("density"), nullptr);
+  auto messages = test::Watch(extractor);
+  mi->SetShapeToIntervalVolume();
+  mi->SetIsorange(-0.1, 0.1);
+  extractor->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_NE(messages->Errors.find("unstructured grid"), std::string::npos);
+  EXPECT_EQ(extractor->GetPolyDataOutput()->GetNumberOfPoints(), 0);
+  extractor->SetOutputTypeToUnstructuredGrid();
+  extractor->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_GT(extractor->GetOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(Hierarchy, WarnsOfValuesThatAreSetButNotUsed)
+{
+  const auto hd = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(hd->GetOutputPort());
+  auto messages = test::Watch(extractor);
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 0);
+  extractor->StoreIsovalue(0.3);
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 1);
+  EXPECT_NE(messages->Warnings.find("UseIsovalue"), std::string::npos);
+  extractor->UseIsovalueOn();
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 1);
+  extractor->SetShapeToIntervalVolume();
+  extractor->StoreIsorange(-0.1, 0.1);
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 2);
+  EXPECT_NE(messages->Warnings.find("UseIsorange"), std::string::npos);
+  extractor->UseIsorangeOn();
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 2);
+}
+
 TEST(Hierarchy, OfDiamondsAnswersOtherIsovalues)
 {
   const auto hd = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);

@@ -39,7 +39,11 @@ struct Settings
   std::vector<double> Isovalues = { 0.0 };
   std::array<double, 2> Isorange = { -0.2, 0.2 };
   double Tolerance = 0.0;
+  int Target = 0;
+  int Unit = vtkIsodiamondVolumeAlgorithm::WORLD_UNITS;
+  int OutputType = vtkIsodiamondExtractor::UNSTRUCTURED_GRID;
   double InteriorTolerance = VTK_DOUBLE_MAX;
+  bool UseInterior = true;
   bool UseRegion = false;
   std::array<double, 6> Region = { 2.0, 6.0, 2.0, 6.0, 2.0, 6.0 };
   double OutsideTolerance = VTK_DOUBLE_MAX;
@@ -237,8 +241,16 @@ private:
 
   void ChangeQuery(Settings& settings)
   {
-    switch (this->Random() % 6)
+    switch (this->Random() % 8)
     {
+      case 6:
+        settings.Target = this->OneOf(2) ? 0 : static_cast<int>(this->Random() % 2000);
+        settings.UseInterior = !this->OneOf(3);
+        break;
+      case 7:
+        settings.Unit = 1 - settings.Unit;
+        settings.OutputType = 1 - settings.OutputType;
+        break;
       case 0:
         settings.Tolerance = this->OneOf(3) ? 0.0 : this->Between(0.0, 0.5);
         break;
@@ -421,6 +433,7 @@ private:
 void ApplyQuery(const Settings& settings, vtkIsodiamondAlgorithm* filter)
 {
   filter->SetErrorTolerance(settings.Tolerance);
+  filter->SetTargetNumberOfTriangles(settings.Target);
   filter->SetUseRegionOfInterest(settings.UseRegion);
   filter->SetRegionOfInterest(settings.Region.data());
   filter->SetOutsideErrorTolerance(settings.OutsideTolerance);
@@ -444,6 +457,7 @@ void ApplyVolume(const Settings& settings, vtkIsodiamondVolumeAlgorithm* filter)
   ApplyQuery(settings, filter);
   ApplyInput(settings, filter);
   filter->SetErrorMetric(settings.Metric);
+  filter->SetToleranceUnit(settings.Unit);
   filter->SetExactIsovertices(settings.ExactIsovertices);
   filter->SetPreserveFeatures(settings.PreserveFeatures);
   filter->SetPreserveTopology(settings.PreserveTopology);
@@ -486,6 +500,8 @@ public:
     ApplyVolume(settings, this->Volume);
     this->Volume->SetIsorange(settings.Isorange[0], settings.Isorange[1]);
     this->Volume->SetInteriorTolerance(settings.InteriorTolerance);
+    this->Volume->SetUseInteriorTolerance(settings.UseInterior);
+    this->Volume->SetComputeGradients(settings.Gradients);
   }
   std::vector<vtkAlgorithm*> Filters() override { return { this->Volume }; }
   vtkIdType RemovedPieces() override { return this->Volume->GetNumberOfRemovedPieces(); }
@@ -520,7 +536,9 @@ public:
     this->Builder->SetComputeNormals(settings.OtherArrays);
     this->Builder->SetNumberOfThreads(settings.Threads);
     ApplyQuery(settings, this->Extractor);
+    this->Extractor->SetOutputType(settings.OutputType);
     this->Extractor->SetInteriorTolerance(settings.InteriorTolerance);
+    this->Extractor->SetUseInteriorTolerance(settings.UseInterior);
     // Only an HD has others than its own; RI and MI warn of that.
     this->Extractor->SetShape(settings.Gradients ? settings.Shape : -1);
     this->Extractor->StoreIsovalue(isovalue + 0.05);

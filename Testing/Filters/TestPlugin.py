@@ -4,6 +4,8 @@ import os
 import sys
 
 from paraview.simple import *
+from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
 
@@ -14,24 +16,27 @@ assert fresh.GetDataInformation().GetNumberOfCells() > 0
 
 wavelet = Wavelet()
 wavelet.UpdatePipeline()
-middle = sum(wavelet.PointData["RTData"].GetRange()) / 2
-extent = wavelet.PointData["RTData"].GetRange()[1] - wavelet.PointData["RTData"].GetRange()[0]
+low, high = wavelet.PointData["RTData"].GetRange()
+extent = high - low
 
 # Contour: defaults that show a surface at once; a slider that goes to 2 % of the diagonal, or with
-# the field metric to the array's range; a region of interest that starts as the data's bounds.
+# the field metric to the array's range; a region of interest that starts as the middle half of the
+# data's bounds. All are numbers that a person would type.
 contour = IsodiamondContour(wavelet)
 assert list(contour.ContourBy) == ["POINTS", "RTData"], contour.ContourBy
-assert abs(contour.Isosurfaces[0] - middle) < 1e-3, contour.Isosurfaces
-assert contour.ErrorTolerance == 0
+assert list(contour.Isosurfaces) == [160], contour.Isosurfaces  # of 37.4 to 276.8
+assert contour.ErrorTolerance == 0 and contour.ToleranceUnit == "World Units"
+assert contour.TargetNumberOfTriangles == 0 and contour.ComputeScalars == 1
 assert contour.ErrorMetric == "Distance" and contour.ExactIsovertices and contour.PreserveFeatures
 assert contour.PreserveTopology == 1 and contour.MinimumPieceSize == 0
 domain = contour.GetProperty("ErrorTolerance").GetDomain("range")
-assert domain.GetMinimum(0) == 0 and abs(domain.GetMaximum(0) - 0.02 * 20 * 3**0.5) < 1e-3
-assert list(contour.RegionOfInterestPosition) == [-10, -10, -10], contour.RegionOfInterestPosition
-assert list(contour.RegionOfInterestSize) == [20, 20, 20], contour.RegionOfInterestSize
-assert not contour.UseRegionOfInterest and contour.OutsideErrorTolerance > 1e298
+assert domain.GetMinimum(0) == 0 and domain.GetMaximum(0) == 0.7, domain.GetMaximum(0)  # 0.693
+assert list(contour.RegionOfInterestPosition) == [-5, -5, -5], contour.RegionOfInterestPosition
+assert list(contour.RegionOfInterestSize) == [10, 10, 10], contour.RegionOfInterestSize
+assert not contour.UseRegionOfInterest and contour.OutsideErrorTolerance == 0
 contour.UpdatePipeline()
 full = contour.GetDataInformation().GetNumberOfCells()
+assert not any("tolerance" in name for name in contour.FieldData.keys())
 stock = Contour(wavelet)
 stock.UpdatePipeline()
 assert full > stock.GetDataInformation().GetNumberOfCells() > 0
@@ -39,23 +44,68 @@ contour.ErrorTolerance = 1
 contour.UpdatePipeline()
 coarse = contour.GetDataInformation().GetNumberOfCells()
 assert 0 < coarse < full / 2
+# The Information tab tells how many triangles there would be.
+table = {name: contour.FieldData[name].GetRange()[0] for name in contour.FieldData.keys()}
+assert table["Triangles at tolerance 0"] == full, table
+assert full > table["Triangles at tolerance 0.1"] > table["Triangles at tolerance 0.5"] > coarse
+
+
+# Tolerances in voxels, of which there are two in a unit; the slider, too.
+source = vtkRTAnalyticSource()
+source.SetWholeExtent(-10, 10, -10, 10, -10, 10)
+source.Update()
+source.GetOutput().SetSpacing(0.5, 0.5, 0.5)
+writer = vtkXMLImageDataWriter()
+writer.SetInputData(source.GetOutput())
+writer.SetFileName(os.path.join(sys.argv[1], "halves.vti"))
+writer.Write()
+voxels = OpenDataFile(writer.GetFileName())
+voxels.UpdatePipeline()
+scaled = IsodiamondContour(voxels, Isosurfaces=[160], ToleranceUnit="Voxels", ErrorTolerance=1)
+assert scaled.GetProperty("ErrorTolerance").GetDomain("range").GetMaximum(0) == 0.7
+scaled.UpdatePipeline()
+assert scaled.GetDataInformation().GetNumberOfCells() == coarse
+assert scaled.FieldData["Triangles at tolerance 0.5"].GetRange() == (
+    table["Triangles at tolerance 0.5"],
+) * 2
+scaled.ToleranceUnit = "World Units"
+scaled.ErrorTolerance = 0.5
+scaled.UpdatePipeline()
+assert scaled.GetDataInformation().GetNumberOfCells() == coarse
+
+# A number of triangles instead of a tolerance.
+target = (full + coarse) // 3
+contour.TargetNumberOfTriangles = target
+contour.UpdatePipeline()
+assert 0.95 * target < contour.GetDataInformation().GetNumberOfCells() <= target
+achieved = contour.FieldData["AchievedTolerance"].GetRange()[0]
+assert 0 < achieved < 1, achieved
+contour.UpdatePropertyInformation()
+assert contour.GetProperty("AchievedTolerance")[0] == achieved
+contour.TargetNumberOfTriangles = 0
+contour.ErrorTolerance = achieved
+contour.UpdatePipeline()
+assert 0.95 * target < contour.GetDataInformation().GetNumberOfCells() <= target
 contour.ErrorTolerance = 0
 contour.UseRegionOfInterest = 1
 contour.RegionOfInterestSize = [10, 10, 10]
-contour.OutsideErrorTolerance = 1
 contour.UpdatePipeline()
-assert coarse < contour.GetDataInformation().GetNumberOfCells() < full
+chosen = contour.GetDataInformation().GetNumberOfCells()
+assert coarse < chosen < full
+contour.OutsideErrorTolerance = 1  # a voxel, as was chosen
+contour.UpdatePipeline()
+assert contour.GetDataInformation().GetNumberOfCells() == chosen
 contour.UseRegionOfInterest = 0
 contour.ErrorMetric = "Field"
 contour.ErrorTolerance = 40
 contour.UpdatePipeline()
 assert 0 < contour.GetDataInformation().GetNumberOfCells() < full / 2
-assert abs(domain.GetMaximum(0) - extent) < 1e-3, "the slider adapts to the metric"
+assert domain.GetMaximum(0) == 240, "the slider adapts to the metric"
 larger = Wavelet(WholeExtent=[-20, 20] * 3)
 larger.UpdatePipeline()
 contour.Input = larger
 contour.ErrorMetric = "Distance"
-assert abs(domain.GetMaximum(0) - 0.02 * 40 * 3**0.5) < 1e-3, "and to the data"
+assert domain.GetMaximum(0) == 1.4, "and to the data"
 contour.Input = wavelet
 
 
@@ -75,7 +125,7 @@ assert removed() == 0
 
 # Two steps.
 hierarchy = IsodiamondHierarchy(wavelet)
-assert abs(hierarchy.Isovalue - middle) < 1e-3
+assert hierarchy.Isovalue == 160 and hierarchy.ErrorMetric == "Automatic"
 assert hierarchy.Model == "Minimal Isodiamonds"
 assert hierarchy.PreserveTopology == 1 and hierarchy.MinimumPieceSize == 0
 hierarchy.UpdatePipeline()
@@ -83,9 +133,23 @@ assert hierarchy.FieldData["NumberOfRemovedPieces"].GetRange() == (0, 0)
 extract = IsodiamondExtract(hierarchy)
 assert extract.PreserveTopology == 0
 domain = extract.GetProperty("ErrorTolerance").GetDomain("range")
-assert abs(domain.GetMaximum(0) - extent) < 1e-3, domain.GetMaximum(0)
+assert domain.GetMaximum(0) == 0.7, domain.GetMaximum(0)  # by distance
 extract.UpdatePipeline()
 assert extract.GetDataInformation().GetNumberOfCells() == full
+assert extract.GetDataInformation().GetDataSetTypeAsString() == "vtkUnstructuredGrid"
+display = Show(extract)
+assert display.ColorArrayName[1] in ("", None), "in no colour of the isovalue"
+Hide(extract)
+# As poly data what takes surfaces can follow.
+extract.OutputType = "Poly Data"
+decimated = Decimate(extract, TargetReduction=0.5)
+decimated.UpdatePipeline()
+assert extract.GetDataInformation().GetDataSetTypeAsString() == "vtkPolyData"
+assert extract.GetDataInformation().GetNumberOfCells() == full
+assert 0 < decimated.GetDataInformation().GetNumberOfCells() < 0.6 * full
+extract.TargetNumberOfTriangles = target
+extract.UpdatePipeline()
+assert 0.95 * target < extract.GetDataInformation().GetNumberOfCells() <= target
 points = IsodiamondPoints(hierarchy)
 points.UpdatePipeline()
 assert sorted(points.PointData.keys()) == ["Class", "Error", "Kind", "Level"]
@@ -96,9 +160,8 @@ assert mesh.GetDataInformation().GetNumberOfCells() > 0
 # Interval volumes: defaults of the array's range, tolerances that can be set.
 volume = IsodiamondIntervalVolume(wavelet)
 assert volume.PreserveTopology == 1 and volume.MinimumPieceSize == 0
-data_range = wavelet.PointData["RTData"].GetRange()
-assert all(abs(a - b) < 1e-3 for a, b in zip(volume.Isorange, data_range)), volume.Isorange
-assert volume.InteriorTolerance > 1e298, volume.InteriorTolerance  # off, whatever the array
+assert list(volume.Isorange) == [120, 200], volume.Isorange  # about the middle third
+assert volume.UseInteriorTolerance == 0 and volume.InteriorTolerance == 1
 volume.Isorange = [120, 180]
 volume.UpdatePipeline()
 tetrahedra = volume.GetDataInformation().GetNumberOfCells()
@@ -108,9 +171,13 @@ volume.ErrorTolerance = 1
 volume.UpdatePipeline()
 coarse = volume.GetDataInformation().GetNumberOfCells()
 assert 0 < coarse < tetrahedra
+assert volume.FieldData["Tetrahedra at tolerance 0"].GetRange()[0] == tetrahedra
 volume.InteriorTolerance = 5
+volume.UseInteriorTolerance = 1
+volume.ComputeGradients = 1
 volume.UpdatePipeline()
 assert volume.GetDataInformation().GetNumberOfCells() > coarse
+assert volume.PointData["Gradient"].GetNumberOfComponents() == 3
 fresh = IsodiamondIntervalVolume(Input=Wavelet(), Isorange=[120, 180])
 fresh.UpdatePipeline()
 assert fresh.GetDataInformation().GetNumberOfCells() == tetrahedra
@@ -124,9 +191,9 @@ distances = IsodiamondHierarchy(wavelet, ErrorMetric="Distance")
 distances.UpdatePipeline()
 extract = IsodiamondExtract(distances)
 domain = extract.GetProperty("ErrorTolerance").GetDomain("range")
-assert abs(domain.GetMaximum(0) - 0.02 * 20 * 3**0.5) < 1e-3, domain.GetMaximum(0)
-assert list(extract.RegionOfInterestPosition) == [-10, -10, -10]
-assert list(extract.RegionOfInterestSize) == [20, 20, 20]
+assert domain.GetMaximum(0) == 0.7, domain.GetMaximum(0)
+assert list(extract.RegionOfInterestPosition) == [-5, -5, -5]
+assert list(extract.RegionOfInterestSize) == [10, 10, 10]
 extract.ErrorTolerance = 1
 extract.UpdatePipeline()
 assert 0 < extract.GetDataInformation().GetNumberOfCells() < full / 2

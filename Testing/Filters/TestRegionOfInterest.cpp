@@ -194,7 +194,13 @@ TEST(RegionOfInterest, AtItsExtremes)
   EXPECT_TRUE(with({ 100, 200, 0, 32, 0, 32 }, 1.0) == coarse);
   EXPECT_TRUE(with({ 20, 10, 0, 32, 0, 32 }, 1.0) == coarse);
   EXPECT_TRUE(with({ 1, 0, 1, 0, 1, 0 }, Infinity) == coarsest);
-  EXPECT_TRUE(with({ 100, 200, 0, 32, 0, 32 }, 0.0) == fine);
+  EXPECT_TRUE(with({ 100, 200, 0, 32, 0, 32 }, 1e-12) == fine);
+  // 0 chooses: four times the error tolerance, or a voxel.
+  EXPECT_TRUE(with({ 100, 200, 0, 32, 0, 32 }, 0.0) == coarse);
+  contour->SetErrorTolerance(0.25);
+  EXPECT_TRUE(with({ 100, 200, 0, 32, 0, 32 }, 0.0) == coarse);
+  contour->SetErrorTolerance(0.5);
+  EXPECT_TRUE(with({ 100, 200, 0, 32, 0, 32 }, 0.0) == with({ 100, 200, 0, 32, 0, 32 }, 2.0));
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
 }
 

@@ -37,6 +37,7 @@ def session():
         Isorange=[150, 250],
         ErrorMetric="Field",
         ErrorTolerance=20,
+        UseInteriorTolerance=1,
         InteriorTolerance=15,
         PreserveTopology=0,
         MinimumPieceSize=20,

@@ -109,6 +109,29 @@ std::array<Vector, 3> GridGeometry::DerivativesAt(const Point& sample) const
   return derivatives;
 }
 
+double GridGeometry::SmallestStep() const
+{
+  double least = HUGE_VAL;
+  const AxisCoordinates* axes = this->Axes();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (axes != nullptr)
+    {
+      const std::vector<double>& places = (*axes)[axis];
+      for (std::size_t i = 1; i < places.size(); ++i)
+      {
+        least = std::min(least, std::abs(places[i] - places[i - 1]));
+      }
+    }
+    else if (this->Affine() != nullptr)
+    {
+      const Vector step = this->DerivativesAt({})[axis];
+      least = std::min(least, std::sqrt(Dot(step, step)));
+    }
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
 bool GridGeometry::Mirrors() const
 {
   if (const AffineMap* map = this->Affine())

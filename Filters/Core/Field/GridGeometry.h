@@ -72,6 +72,10 @@ public:
   int Padding() const { return this->Shift; }
   ///@}
 
+  /** The least distance of two samples next to each other along an axis; 0 of a curvilinear grid,
+   *  where nothing is asked of it. */
+  double SmallestStep() const;
+
   /** Whether orientation turns around from index space to the world; of a curvilinear grid that of
    *  its middle. */
   bool Mirrors() const;

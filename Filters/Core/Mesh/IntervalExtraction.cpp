@@ -81,15 +81,6 @@ const PatchTables& AllPatchTables()
   return tables;
 }
 
-std::int64_t CountTetrahedra(
-  const PatchTables& tables, const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
-{
-  const IntervalCases cases(hierarchy, parent.Rank, parent.Type);
-  std::int64_t tetrahedra = 0;
-  parent.ForEachLeaf([&](int half) { tetrahedra += tables[cases(half)].TetrahedronCount; });
-  return tetrahedra;
-}
-
 /** Writes the tetrahedra of one brick's leaves, one after the other. */
 template <typename Id>
 class TetrahedronWriter
@@ -149,10 +140,18 @@ private:
 
 }
 
+int CountTetrahedra(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
+{
+  const PatchTables& tables = AllPatchTables();
+  const IntervalCases cases(hierarchy, parent.Rank, parent.Type);
+  int tetrahedra = 0;
+  parent.ForEachLeaf([&](int half) { tetrahedra += tables[cases(half)].TetrahedronCount; });
+  return tetrahedra;
+}
+
 IntervalExtraction::IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
   : Passes(refined, parallelFor,
-      [&, &tables = AllPatchTables()](const LeafParent& parent)
-      { return CountTetrahedra(tables, refined.Hierarchy(), parent); })
+      [&](const LeafParent& parent) { return CountTetrahedra(refined.Hierarchy(), parent); })
 {
 }
 

@@ -9,6 +9,9 @@
 namespace isodiamond
 {
 
+/** The number of tetrahedra in a diamond's leaves. */
+int CountTetrahedra(const IsodiamondHierarchy& hierarchy, const LeafParent& parent);
+
 /**
  * The interval volume of a refined set, as tetrahedra: the patches of IntervalPatches.h over the
  * leaves of the current mesh.

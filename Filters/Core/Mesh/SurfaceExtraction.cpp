@@ -81,10 +81,14 @@ private:
 
 }
 
+int CountTriangles(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
+{
+  return PopCount(TrianglesOf(parent, CrossedVertices(hierarchy, parent)));
+}
+
 SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
   : Passes(refined, parallelFor,
-      [&](const LeafParent& parent)
-      { return PopCount(TrianglesOf(parent, CrossedVertices(refined.Hierarchy(), parent))); })
+      [&](const LeafParent& parent) { return CountTriangles(refined.Hierarchy(), parent); })
 {
 }
 

@@ -9,6 +9,9 @@
 namespace isodiamond
 {
 
+/** The number of triangles in a diamond's leaves. */
+int CountTriangles(const IsodiamondHierarchy& hierarchy, const LeafParent& parent);
+
 /**
  * The isosurface of a refined set: marching tetrahedra over the leaves of the current mesh.
  *

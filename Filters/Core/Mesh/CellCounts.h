@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_CellCounts_h
+#define isodiamond_CellCounts_h
+
+#include "Refinement/RefinedSet.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** The number of triangles, or tetrahedra, in the mesh of a refined set. */
+std::int64_t CountCells(const RefinedSet& refined, const ParallelFor& parallelFor);
+
+/**
+ * How many triangles, or tetrahedra, the mesh of a hierarchy has at every uniform tolerance, from
+ * one pass over the stored diamonds.
+ *
+ * A half-tetrahedron is in the mesh while the diamond that it halves is refined and its child is
+ * not: for all tolerances from the child's threshold on that are below the parent's. So each one
+ * adds its cells to an interval of codes, and there are only 2^14 of these.
+ */
+class CellCounts
+{
+public:
+  /** @param interiorTolerance of the queries, as Query has it */
+  CellCounts(const IsodiamondHierarchy& hierarchy, const ParallelFor& parallelFor,
+    double interiorTolerance = HUGE_VAL);
+
+  /** The number of cells at a tolerance, cells in hidden ones of the grid included. */
+  std::int64_t At(double tolerance) const { return this->Counts[this->Code.Accepted(tolerance)]; }
+
+  /** The codes of the tolerances: from one to the next the number may change. */
+  const ErrorCode& Codes() const { return this->Code; }
+
+private:
+  ErrorCode Code;
+  std::vector<std::int64_t> Counts; ///< by accepted code
+};
+
+}
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Target.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace vtkIsodiamond
+{
+namespace
+{
+
+using isodiamond::ErrorCode;
+
+/** The least tolerance that accepts a code. */
+double ToleranceOf(const ErrorCode& codes, int code)
+{
+  return code == 0 ? 0.0 : codes.Decode(static_cast<ErrorCode::Type>(code));
+}
+
+std::int64_t CellsAt(const std::vector<const isodiamond::CellCounts*>& counts, double tolerance)
+{
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 },
+    [&](std::int64_t sum, const isodiamond::CellCounts* one) { return sum + one->At(tolerance); });
+}
+
+/** A tolerance that is the i-th from the largest one down of 1, 2 and 5 times powers of ten. */
+double RoundTolerance(double largest, int i)
+{
+  constexpr double digits[] = { 5.0, 2.0, 1.0 };
+  double power = std::pow(10.0, std::floor(std::log10(largest)));
+  int digit = 0;
+  while (digits[digit] * power > largest * (1.0 + 1e-9))
+  {
+    ++digit; // 1 is never more than the largest
+  }
+  for (digit += i; digit >= 3; digit -= 3)
+  {
+    power /= 10.0;
+  }
+  return digits[digit] * power;
+}
+
+void AddCount(const std::string& name, std::int64_t count, vtkFieldData* output)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name.c_str());
+  array->InsertNextValue(count);
+  output->AddArray(array);
+}
+
+}
+
+CountedTolerance LeastTolerance(
+  const std::vector<const isodiamond::CellCounts*>& counts, std::int64_t target)
+{
+  if (counts.empty())
+  {
+    return {};
+  }
+  const ErrorCode& codes = counts.front()->Codes();
+  CountedTolerance coarsest{ 0.0, -1 };
+  for (int code = 0; code < ErrorCode::Always; ++code)
+  {
+    const double tolerance = ToleranceOf(codes, code);
+    const std::int64_t cells = CellsAt(counts, tolerance);
+    if (cells <= target)
+    {
+      return { tolerance, cells };
+    }
+    if (cells != coarsest.Cells)
+    {
+      coarsest = { tolerance, cells };
+    }
+  }
+  return coarsest;
+}
+
+CountedTolerance LeastTolerance(const ErrorCode& codes, std::int64_t target,
+  const std::function<std::int64_t(double tolerance)>& cellsAt)
+{
+  const auto at = [&](int code)
+  {
+    const double tolerance = ToleranceOf(codes, code);
+    return CountedTolerance{ tolerance, cellsAt(tolerance) };
+  };
+  CountedTolerance found = at(0);
+  if (found.Cells <= target)
+  {
+    return found;
+  }
+  int above = 0;
+  int below = ErrorCode::Always - 1;
+  found = at(below);
+  while (found.Cells <= target && below - above > 1)
+  {
+    const int middle = (above + below) / 2;
+    const CountedTolerance tried = at(middle);
+    if (tried.Cells <= target)
+    {
+      found = tried;
+      below = middle;
+    }
+    else
+    {
+      above = middle;
+    }
+  }
+  return found;
+}
+
+void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64_t target)
+{
+  if (found.Cells > target)
+  {
+    vtkWarningWithObjectMacro(filter,
+      "The coarsest mesh has " << found.Cells << " cells, more than the target of " << target
+                               << ".");
+  }
+}
+
+void WriteCounts(const std::vector<const isodiamond::CellCounts*>& counts, const char* cells,
+  double largest, double unit, vtkFieldData* output)
+{
+  constexpr int steps = 9;
+  const std::string prefix = std::string(cells) + " at tolerance ";
+  for (int i = steps - 1; i >= 0; --i)
+  {
+    const double tolerance = RoundTolerance(largest / unit, i);
+    std::ostringstream number;
+    number << tolerance;
+    AddCount(prefix + number.str(), CellsAt(counts, tolerance * unit), output);
+  }
+  AddCount(prefix + "0", CellsAt(counts, 0.0), output);
+}
+
+}

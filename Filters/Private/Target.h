@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamond_Target_h
+#define vtkIsodiamond_Target_h
+
+#include "Mesh/CellCounts.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkFieldData;
+
+/**
+ * @file Target.h
+ * Tolerances by the number of cells that their meshes have.
+ */
+namespace vtkIsodiamond
+{
+
+/** A tolerance, and the number of cells of its mesh. */
+struct CountedTolerance
+{
+  double Tolerance = 0.0;
+  std::int64_t Cells = 0;
+};
+
+/** The least tolerance with no more cells than a target, in the sum over hierarchies with errors of
+ *  one scale; if there is none, the least one of those with as many as the coarsest mesh. */
+CountedTolerance LeastTolerance(
+  const std::vector<const isodiamond::CellCounts*>& counts, std::int64_t target);
+
+/**
+ * The same by bisection, for queries with a region of interest or a viewpoint and those of an HD,
+ * where every count takes a query. A coarser mesh can have a few more cells; then the result may
+ * not be the least.
+ */
+CountedTolerance LeastTolerance(const isodiamond::ErrorCode& codes, std::int64_t target,
+  const std::function<std::int64_t(double tolerance)>& cellsAt);
+
+/** Warns if even the coarsest mesh has more cells than the target. */
+void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64_t target);
+
+/**
+ * Tells how many cells there would be, for who looks at the field data: an array with one value for
+ * each of some tolerances that a person would type, and full resolution.
+ *
+ * @param cells their name, in capitals
+ * @param largest tolerance that is worth trying
+ * @param unit what 1 is for the user, in the units of the counts
+ */
+void WriteCounts(const std::vector<const isodiamond::CellCounts*>& counts, const char* cells,
+  double largest, double unit, vtkFieldData* output);
+
+}
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RoundDefaults_h
+#define RoundDefaults_h
+
+#include "RoundNumbers.h"
+
+#include "vtkPVXMLElement.h"
+#include "vtkSMDoubleRangeDomain.h"
+#include "vtkSMPropertyHelper.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/**
+ * @file RoundDefaults.h
+ * Defaults within ranges, as round numbers.
+ */
+namespace RoundDefaults
+{
+
+/** The attribute `default_parts` of a domain's XML. */
+inline std::vector<double> ReadParts(vtkPVXMLElement* element)
+{
+  std::vector<double> parts;
+  std::istringstream text(std::string(element->GetAttributeOrEmpty("default_parts")));
+  for (double part = 0.0; text >> part;)
+  {
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+/** Sets a property's elements, as many as there are parts or ranges, whichever is more. @return
+ *  false without ranges or parts */
+inline bool Set(vtkSMDoubleRangeDomain& domain, const std::vector<double>& parts,
+  vtkSMProperty* property, bool useUncheckedValues)
+{
+  vtkSMPropertyHelper helper(property);
+  helper.SetUseUnchecked(useUncheckedValues);
+  unsigned int ranges = 0;
+  while (domain.GetMinimumExists(ranges) && domain.GetMaximumExists(ranges))
+  {
+    ++ranges;
+  }
+  if (ranges == 0 || parts.empty())
+  {
+    return false;
+  }
+  const auto given = static_cast<unsigned int>(parts.size());
+  for (unsigned int i = 0; i < std::max(given, ranges); ++i)
+  {
+    const unsigned int range = std::min(i, ranges - 1);
+    helper.Set(i,
+      RoundNumbers::Between(
+        domain.GetMinimum(range), domain.GetMaximum(range), parts[std::min(i, given - 1)]));
+  }
+  return true;
+}
+
+}
+
+#endif

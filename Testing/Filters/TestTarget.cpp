@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes by their number of cells, and what tells of other numbers.
+#include "FilterTestTools.h"
+
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondExtractor.h"
+#include "vtkIsodiamondIntervalVolume.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+template <typename Filter>
+vtkIdType CellsOf(Filter* filter)
+{
+  filter->Update();
+  return filter->GetOutput()->GetNumberOfCells();
+}
+
+/** Within 5 % below the target; and that at the tolerance which the filter tells. */
+template <typename Filter>
+void ExpectTargetIsMet(Filter* filter, vtkIdType target)
+{
+  SCOPED_TRACE(target);
+  filter->SetTargetNumberOfTriangles(target);
+  const vtkIdType cells = CellsOf(filter);
+  EXPECT_LE(cells, target);
+  EXPECT_GT(cells, 0.95 * target);
+  const double tolerance = filter->GetAchievedTolerance();
+  EXPECT_GT(tolerance, 0.0);
+  EXPECT_EQ(
+    filter->GetOutput()->GetFieldData()->GetArray("AchievedTolerance")->GetTuple1(0), tolerance);
+  filter->SetTargetNumberOfTriangles(0);
+  filter->SetErrorTolerance(tolerance);
+  EXPECT_EQ(CellsOf(filter), cells);
+  EXPECT_EQ(filter->GetAchievedTolerance(), tolerance);
+  EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("AchievedTolerance"), nullptr);
+  // It is the least one: codes are 2^-9 apart.
+  filter->SetErrorTolerance(tolerance * (1.0 - 1.0 / 500.0));
+  EXPECT_GT(CellsOf(filter), target);
+}
+
+vtkSmartPointer<vtkImageData> Image()
+{
+  return test::PhantomImage({ 40, 33, 36 }, 2.0);
+}
+
+}
+
+TEST(Target, OfASurface)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(Image());
+  contour->SetValue(0, 50.0);
+  const vtkIdType full = CellsOf(contour.GetPointer());
+  for (const double part : { 0.8, 0.5, 0.3 })
+  {
+    ExpectTargetIsMet(contour.GetPointer(), static_cast<vtkIdType>(part * full));
+  }
+  contour->SetTargetNumberOfTriangles(full);
+  EXPECT_EQ(CellsOf(contour.GetPointer()), full);
+  EXPECT_EQ(contour->GetAchievedTolerance(), 0.0);
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
+}
+
+TEST(Target, IsTheSumOfAllIsovalues)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(Image());
+  contour->SetValue(0, 50.0);
+  contour->SetValue(1, 30.0);
+  contour->SetErrorMetricToField();
+  const vtkIdType full = CellsOf(contour.GetPointer());
+  ExpectTargetIsMet(contour.GetPointer(), full / 2);
+}
+
+TEST(Target, WithARegionOfInterest)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(Image());
+  contour->SetValue(0, 50.0);
+  contour->UseRegionOfInterestOn();
+  contour->SetRegionOfInterest(0, 20, 0, 20, 0, 40);
+  const vtkIdType full = CellsOf(contour.GetPointer());
+  contour->SetErrorTolerance(VTK_DOUBLE_MAX);
+  const vtkIdType coarsest = CellsOf(contour.GetPointer());
+  ExpectTargetIsMet(contour.GetPointer(), (full + coarsest) / 2);
+}
+
+TEST(Target, OfTetrahedra)
+{
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  volume->SetInputData(Image());
+  volume->SetIsorange(30.0, 70.0);
+  const vtkIdType full = CellsOf(volume.GetPointer());
+  ExpectTargetIsMet(volume.GetPointer(), full / 2);
+  volume->SetInteriorTolerance(0.5);
+  volume->SetErrorTolerance(VTK_DOUBLE_MAX);
+  const vtkIdType coarsest = CellsOf(volume.GetPointer());
+  ExpectTargetIsMet(volume.GetPointer(), (full + coarsest) / 2);
+}
+
+TEST(Target, OfHierarchies)
+{
+  for (const int model : { vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS,
+         vtkIsodiamondHierarchy::RELEVANT, vtkIsodiamondHierarchy::MINIMAL })
+  {
+    SCOPED_TRACE(model);
+    vtkNew<vtkIsodiamondBuilder> builder;
+    builder->SetInputData(Image());
+    builder->SetIsovalue(50.0);
+    builder->SetModel(model);
+    builder->SetErrorMetricToAutomatic();
+    vtkNew<vtkIsodiamondExtractor> extractor;
+    extractor->SetInputConnection(builder->GetOutputPort());
+    const vtkIdType full = CellsOf(extractor.GetPointer());
+    EXPECT_EQ(builder->GetHierarchy()->GetErrorMetric(),
+      model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS ? vtkIsodiamondHierarchy::FIELD
+                                                             : vtkIsodiamondHierarchy::DISTANCE);
+    ExpectTargetIsMet(extractor.GetPointer(), full / 2);
+  }
+}
+
+TEST(Target, ThatNoMeshMeets)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(Image());
+  contour->SetValue(0, 50.0);
+  contour->SetErrorTolerance(VTK_DOUBLE_MAX);
+  const vtkIdType coarsest = CellsOf(contour.GetPointer());
+  auto messages = test::Watch(contour);
+  contour->SetTargetNumberOfTriangles(coarsest - 1);
+  EXPECT_EQ(CellsOf(contour.GetPointer()), coarsest);
+  EXPECT_EQ(messages->WarningCount, 1);
+  EXPECT_NE(messages->Warnings.find(std::to_string(coarsest)), std::string::npos);
+  EXPECT_TRUE(std::isfinite(contour->GetAchievedTolerance()));
+  contour->SetTargetNumberOfTriangles(coarsest);
+  EXPECT_EQ(CellsOf(contour.GetPointer()), coarsest);
+  EXPECT_EQ(messages->WarningCount, 1);
+}
+
+TEST(Target, TableOfTolerances)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  const auto image = Image();
+  image->SetSpacing(0.25, 0.25, 0.5);
+  contour->SetInputData(image);
+  contour->SetValue(0, 50.0);
+  contour->SetValue(1, 20.0);
+  contour->SetToleranceUnitToVoxels();
+  contour->SetErrorTolerance(3.0);
+  contour->Update();
+  vtkNew<vtkFieldData> table;
+  table->DeepCopy(contour->GetOutput()->GetFieldData());
+  const std::string prefix = "Triangles at tolerance ";
+  EXPECT_EQ(table->GetNumberOfArrays(), 10);
+  for (int i = 0; i < table->GetNumberOfArrays(); ++i)
+  {
+    const std::string name = table->GetArrayName(i);
+    ASSERT_EQ(name.rfind(prefix, 0), 0U) << name;
+    contour->SetErrorTolerance(std::stod(name.substr(prefix.size())));
+    EXPECT_EQ(CellsOf(contour.GetPointer()), table->GetArray(i)->GetTuple1(0)) << name;
+  }
+  // From 2 % of the diagonal down, in voxels: 1.7.
+  EXPECT_NE(table->GetArray("Triangles at tolerance 1"), nullptr);
+  EXPECT_EQ(table->GetArray("Triangles at tolerance 2"), nullptr);
+  EXPECT_NEAR(contour->GetErrorToleranceRange()[1], 1.7, 0.1);
+}
