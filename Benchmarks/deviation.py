@@ -132,10 +132,10 @@ def print_surface(name, mesh, milliseconds):
     )
 
 
-def compare(volume, topologies, tolerances, limit):
+def compare(volume, topologies, tolerances, limit, simplifies):
     size = " x ".join(map(str, volume.image.GetDimensions()))
     print(f"## {volume.name}, {size}, isovalue {volume.isovalue:g}\n\nFull resolution:\n")
-    contest = Contest(volume.image, volume.isovalue, topologies, limit)
+    contest = Contest(volume.image, volume.isovalue, topologies, limit, simplifies)
     theirs, ours = (Mesh.of(full, contest.voxel) for full in (contest.theirs, contest.full))
     print_surface("vtkFlyingEdges3D", theirs, contest.their_milliseconds)
     print_surface("Isodiamonds", ours, contest.milliseconds)
@@ -193,6 +193,9 @@ def parse():
         help="of Isodiamonds' meshes; both: two by distance, of which the first sets the number of "
         "triangles",
     )
+    parser.add_argument(
+        "--simplify", action="store_true", help="with a simplified mesh, which sets the number"
+    )
     parser.add_argument("--pictures", metavar="FOLDER", help="only pictures, into this folder")
     parser.add_argument(
         "--camera",
@@ -227,7 +230,9 @@ def main():
             draw(volume, topologies, arguments.tolerances or PICTURED, arguments.pictures)
         else:
             limit = math.inf if arguments.all else DECIMATION_LIMIT
-            compare(volume, topologies, arguments.tolerances or TOLERANCES, limit)
+            compare(
+                volume, topologies, arguments.tolerances or TOLERANCES, limit, arguments.simplify
+            )
 
 
 main()

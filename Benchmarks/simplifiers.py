@@ -108,23 +108,27 @@ class Contest:
     """The methods on one volume. The first sets the number of triangles for those after ours.
 
     topologies are values of PreserveTopology, each for a mesh of the distance metric, or None to
-    leave it as it is. Surfaces of more triangles than the limit are not decimated.
+    leave it as it is. If one simplifies, its mesh comes first. Surfaces of more triangles than the limit are not decimated.
     """
 
-    def __init__(self, image, isovalue, topologies, limit):
+    def __init__(self, image, isovalue, topologies, limit, simplifies=False):
         self.voxel = min(image.GetSpacing())
         self.limit = limit
         contour = vtkFlyingEdges3D()
         self.their_milliseconds = first_run(contour, image, isovalue)
         self.theirs = contour.GetOutput()
         self.by_distance = [isodiamonds(topology) for topology in topologies]
+        self.ours = [*(TOPOLOGIES[topology] for topology in topologies), "field"]
+        if simplifies:
+            self.by_distance.insert(0, isodiamonds(topologies[0]))
+            self.by_distance[0].SimplifyOn()
+            self.ours.insert(0, "Simplify")
         self.by_field = isodiamonds(topologies[0], by_field=True)
         contours = (*self.by_distance, self.by_field)
         runs = [first_run(c, image, isovalue) for c in contours]
         fulls = [extract(c, 0) for c in contours]
         self.full, self.milliseconds = fulls[0]
         self.builds = [run - full[1] for run, full in zip(runs, fulls)]
-        self.ours = [*(TOPOLOGIES[topology] for topology in topologies), "field"]
         self.methods = (*self.ours, "vtkQuadricDecimation", "meshopt_simplify")
         self.meshopt_simplify = load_meshoptimizer()
 

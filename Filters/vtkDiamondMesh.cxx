@@ -6,6 +6,7 @@
 #include "Private/Cells.h"
 #include "Private/State.h"
 #include "Private/Task.h"
+#include "Private/WorldQuery.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -44,8 +45,17 @@ void vtkDiamondMesh::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
+vtkIsodiamond::WorldQuery vtkDiamondMesh::GetQuery() const
+{
+  vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
+  query.Simplify = false;
+  return query;
+}
+
+//------------------------------------------------------------------------------
 void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
-  const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkDataObject* data)
+  const vtkIsodiamond::WorldQuery& /*query*/, const isodiamond::RefinedSet& refined,
+  vtkIsodiamond::Task& task, vtkDataObject* data)
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::SafeDownCast(data);
   task.Begin("Collecting tetrahedra", 0.0, 1.0);

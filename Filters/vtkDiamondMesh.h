@@ -28,8 +28,11 @@ protected:
   vtkDiamondMesh();
   ~vtkDiamondMesh() override = default;
 
-  void WriteMesh(const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined,
-    vtkIsodiamond::Task& task, vtkDataObject* output) override;
+  void WriteMesh(const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query,
+    const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task,
+    vtkDataObject* output) override;
+  /** Without simplification. */
+  vtkIsodiamond::WorldQuery GetQuery() const override;
   /** Tetrahedra need an unstructured grid. */
   bool GivesPolyData() const override { return false; }
 

@@ -50,6 +50,7 @@ void vtkIsodiamondContour::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ComputeNormals: " << (this->ComputeNormals ? "On" : "Off") << "\n";
   os << indent << "ComputeGradients: " << (this->ComputeGradients ? "On" : "Off") << "\n";
   os << indent << "ComputeScalars: " << (this->ComputeScalars ? "On" : "Off") << "\n";
+  os << indent << "Simplify: " << (this->Simplify ? "On" : "Off") << "\n";
   os << indent << "CloseBoundary: " << (this->CloseBoundary ? "On" : "Off") << "\n";
   os << indent << "ContourValues:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
@@ -72,6 +73,14 @@ int vtkIsodiamondContour::FillOutputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
   return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::WorldQuery vtkIsodiamondContour::GetQuery() const
+{
+  vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
+  query.Simplify = this->Simplify && !query.IsFull();
+  return query;
 }
 
 //------------------------------------------------------------------------------

@@ -86,6 +86,20 @@ public:
 
   ///@{
   /**
+   * Simplify the mesh: three tenths of the tolerance go to the hierarchy, the rest to the library
+   * meshoptimizer, whose result is measured, both ways and all of every triangle, and put back
+   * where it is too far away or its topology is another. So the tolerance stays what it is, with a
+   * fraction of the triangles, which take longer to make. Points are some of those that the
+   * surface would have had; the cell array `Level` is left out. Needs the distance metric, and
+   * to have been built with meshoptimizer; results depend on its version. Default: off.
+   */
+  vtkSetMacro(Simplify, bool);
+  vtkGetMacro(Simplify, bool);
+  vtkBooleanMacro(Simplify, bool);
+  ///@}
+
+  ///@{
+  /**
    * Close surfaces at the image's boundary, see vtkIsodiamondBuilder. Default: off.
    */
   vtkSetMacro(CloseBoundary, bool);
@@ -103,6 +117,7 @@ protected:
   ~vtkIsodiamondContour() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  vtkIsodiamond::WorldQuery GetQuery() const override;
   bool ClosesBoundary() const override { return this->CloseBoundary; }
   std::vector<isodiamond::Isoregion> GetRegions() const override;
   const char* GetNameOfCells() const override { return "Triangles"; }
@@ -113,6 +128,7 @@ protected:
   vtkTypeBool ComputeNormals = 1;
   vtkTypeBool ComputeGradients = 0;
   vtkTypeBool ComputeScalars = 1;
+  bool Simplify = false;
   bool CloseBoundary = false;
 
 private:

@@ -4,9 +4,11 @@
 #include "Private/Input.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
+#include "Private/Simplify.h"
 #include "Private/Target.h"
 #include "Private/WorldQuery.h"
 
+#include "vtkCellArray.h"
 #include "vtkDataObjectTypes.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkFieldData.h"
@@ -68,6 +70,7 @@ void vtkIsodiamondExtractor::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "UseIsorange: " << (this->UseIsorange ? "On" : "Off") << "\n";
   os << indent << "Isovalue: " << this->Isovalue << "\n";
   os << indent << "UseIsovalue: " << (this->UseIsovalue ? "On" : "Off") << "\n";
+  os << indent << "Simplify: " << (this->Simplify ? "On" : "Off") << "\n";
   os << indent << "PreserveTopology: " << (this->PreserveTopology ? "On" : "Off") << "\n";
 }
 
@@ -160,6 +163,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetQuery() const
     query.Isorange = { this->Isorange[0], this->Isorange[1] };
   }
   query.PreserveTopology = this->PreserveTopology;
+  query.Simplify = this->Simplify && !query.IsFull();
   return query;
 }
 
@@ -245,8 +249,7 @@ int vtkIsodiamondExtractor::RequestData(
     {
       vtkIsodiamond::RemoveState(output->GetFieldData());
       auto execution = std::make_unique<Execution>();
-      vtkIsodiamond::WorldQuery& query = execution->Query;
-      query = this->GetQuery();
+      vtkIsodiamond::WorldQuery query = this->GetQuery();
       task.Begin("Reading the hierarchy", 0.0, 0.2);
       execution->State =
         vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), query);
@@ -260,9 +263,11 @@ int vtkIsodiamondExtractor::RequestData(
       }
       task.Begin("Refining", 0.3, 0.5);
       vtkIsodiamond::Task writing = task.Part(0.5, 1.0);
-      vtkIsodiamond::RefineState(*execution->State, query, this->NumberOfThreads, task.For(),
+      execution->Query = this->GetExtracted(*execution->State, query);
+      vtkIsodiamond::RefineState(*execution->State, execution->Query, this->NumberOfThreads,
+        task.For(),
         [&](const isodiamond::RefinedSet& refined)
-        { this->WriteMesh(*execution->State, refined, writing, output); });
+        { this->WriteMesh(*execution->State, query, refined, writing, output); });
       vtkIsodiamond::KeepPiece(output, this->Piece);
       this->NoteTolerance(query.ErrorTolerance, aimed ? &*aimed : nullptr, output);
       this->Last = std::move(execution);
@@ -296,7 +301,8 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
 {
   const isodiamond::ParallelFor parallelFor = task.For();
   vtkIsodiamond::CountedTolerance found;
-  if (state.Isodiamonds && !query.Region && !query.View)
+  const bool isUniform = !query.Region && !query.View;
+  if (state.Isodiamonds && isUniform)
   {
     vtkIsodiamond::RunThreaded(this->NumberOfThreads,
       [&]
@@ -305,26 +311,80 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
           *state.Isodiamonds, parallelFor, query.InteriorTolerance);
         found = vtkIsodiamond::LeastTolerance({ &counts }, this->TargetNumberOfTriangles);
       });
+  }
+  if (state.Isodiamonds && isUniform && !query.Simplify)
+  {
     return found;
   }
   const isodiamond::ErrorCode& codes =
     state.Isodiamonds ? state.Isodiamonds->Codes() : state.Scalars->Codes();
   vtkIsodiamond::WorldQuery tried = query;
-  return vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles,
-    [&](double tolerance)
-    {
-      tried.ErrorTolerance = tolerance;
-      std::int64_t cells = 0;
-      vtkIsodiamond::RefineState(state, tried, this->NumberOfThreads, parallelFor,
-        [&](const isodiamond::RefinedSet& refined)
-        { cells = isodiamond::CountCells(refined, parallelFor); });
-      return cells;
-    });
+  vtkIsodiamond::Task counting = task.Part(1.0, 1.0);
+  const auto cellsAt = [&](double tolerance)
+  {
+    tried.ErrorTolerance = tolerance;
+    std::int64_t cells = 0;
+    vtkIsodiamond::RefineState(state, this->GetExtracted(state, tried), this->NumberOfThreads,
+      parallelFor,
+      [&](const isodiamond::RefinedSet& refined)
+      {
+        cells = query.Simplify
+          ? this->MakeMesh(state, tried, refined, counting).Cells->GetNumberOfCells()
+          : isodiamond::CountCells(refined, parallelFor);
+      });
+    return cells;
+  };
+  if (!query.Simplify)
+  {
+    return vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles, cellsAt);
+  }
+  const double guess = isUniform ? found.Tolerance : 0.01 * codes.Scale();
+  return vtkIsodiamond::LeastToleranceBelow(guess, this->TargetNumberOfTriangles, cellsAt);
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetExtracted(
+  const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query) const
+{
+  if (!query.Simplify)
+  {
+    return query;
+  }
+  const bool isVolume = query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
+  vtkIsodiamond::CheckSimplify(state.Metric, isVolume);
+  return vtkIsodiamond::BeforeSimplifying(
+    query, vtkIsodiamond::Measure(*state.Isodiamonds), state.World);
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::Mesh vtkIsodiamondExtractor::MakeMesh(const vtkIsodiamond::State& state,
+  const vtkIsodiamond::WorldQuery& query, const isodiamond::RefinedSet& refined,
+  vtkIsodiamond::Task& task) const
+{
+  const isodiamond::GridGeometry world = state.World;
+  vtkIsodiamond::MeshOptions options{ world, state.ArrayName };
+  // Nobody wants to see a surface in the colour of its isovalue.
+  options.ValuesAreScalars = refined.Hierarchy().Region().IsVolume();
+  options.PointsPrecision = this->OutputPointsPrecision;
+  if (state.Isodiamonds && !state.PointArrays.empty())
+  {
+    options.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
+  }
+  vtkIsodiamond::Task extracting = task.Part(0.0, query.Simplify ? 0.4 : 1.0);
+  vtkIsodiamond::Mesh mesh = vtkIsodiamond::ExtractMesh(refined, options, extracting);
+  if (query.Simplify)
+  {
+    task.Begin("Simplifying", 0.4, 1.0);
+    vtkIsodiamond::SimplifyMesh(
+      query, vtkIsodiamond::Measure(*state.Isodiamonds), world, task.For(), mesh);
+  }
+  return mesh;
 }
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
-  const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkDataObject* output)
+  const vtkIsodiamond::WorldQuery& query, const isodiamond::RefinedSet& refined,
+  vtkIsodiamond::Task& task, vtkDataObject* output)
 {
   const bool isVolume = refined.Hierarchy().Region().IsVolume();
   vtkPolyData* surface = vtkPolyData::SafeDownCast(output);
@@ -333,16 +393,7 @@ void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
     throw std::invalid_argument("Tetrahedra of an interval volume need an unstructured grid: poly "
                                 "data are for isosurfaces.");
   }
-  const isodiamond::GridGeometry world = state.World;
-  vtkIsodiamond::MeshOptions options{ world, state.ArrayName };
-  // Nobody wants to see a surface in the colour of its isovalue.
-  options.ValuesAreScalars = isVolume;
-  options.PointsPrecision = this->OutputPointsPrecision;
-  if (state.Isodiamonds && !state.PointArrays.empty())
-  {
-    options.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
-  }
-  const vtkIsodiamond::Mesh mesh = vtkIsodiamond::ExtractMesh(refined, options, task);
+  const vtkIsodiamond::Mesh mesh = this->MakeMesh(state, query, refined, task);
   if (surface)
   {
     mesh.Give(surface);

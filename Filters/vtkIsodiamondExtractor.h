@@ -41,6 +41,7 @@ class vtkPolyData;
 class vtkUnstructuredGrid;
 namespace vtkIsodiamond
 {
+struct Mesh;
 struct WorldQuery;
 struct State;
 class Task;
@@ -157,6 +158,21 @@ public:
   vtkBooleanMacro(PreserveTopology, bool);
   ///@}
 
+  ///@{
+  /**
+   * Simplify the mesh: three tenths of the tolerance go to the hierarchy, the rest to the library
+   * meshoptimizer, whose result is measured, both ways and all of every triangle, and put back
+   * where it is too far away or its topology is another. So the tolerance stays what it is, with a
+   * fraction of the triangles, which take longer to make. Points are some of those that the
+   * surface would have had; the cell array `Level` is left out. Needs the distance metric, an
+   * isosurface, and to have been built with meshoptimizer; results depend on its version. Default:
+   * off.
+   */
+  vtkSetMacro(Simplify, bool);
+  vtkGetMacro(Simplify, bool);
+  vtkBooleanMacro(Simplify, bool);
+  ///@}
+
   /** The mesh as unstructured grid, and as poly data; null if OutputType is the other one. */
   vtkUnstructuredGrid* GetOutput();
   vtkPolyData* GetPolyDataOutput();
@@ -174,8 +190,8 @@ protected:
     vtkInformationVector* outputVector) override;
 
   /** Makes the output of a query. */
-  virtual void WriteMesh(const vtkIsodiamond::State& state, const isodiamond::RefinedSet& refined,
-    vtkIsodiamond::Task& task, vtkDataObject* output);
+  virtual void WriteMesh(const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query,
+    const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkDataObject* output);
 
   /** Whether the output is poly data. */
   virtual bool GivesPolyData() const { return this->OutputType == POLY_DATA; }
@@ -191,6 +207,7 @@ protected:
   double Isovalue = 0.0;
   bool UseIsovalue = false;
   bool PreserveTopology = false;
+  bool Simplify = false;
   double InteriorToleranceRange[2] = { 0.0, VTK_DOUBLE_MAX };
 
 private:
@@ -200,6 +217,11 @@ private:
   vtkFieldData* FindHierarchy();
   vtkIsodiamond::CountedTolerance Aim(const vtkIsodiamond::State& state,
     const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task);
+  vtkIsodiamond::Mesh MakeMesh(const vtkIsodiamond::State& state,
+    const vtkIsodiamond::WorldQuery& query, const isodiamond::RefinedSet& refined,
+    vtkIsodiamond::Task& task) const;
+  vtkIsodiamond::WorldQuery GetExtracted(
+    const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query) const;
   void WarnOfUnusedValues(const vtkIsodiamond::State& state);
 
   /** The hierarchy, query and counts of the last execution. */

@@ -8,11 +8,13 @@
 #include "Private/Input.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
+#include "Private/Simplify.h"
 #include "Private/Target.h"
 #include "Private/Task.h"
 #include "Private/Threads.h"
 #include "Private/WorldQuery.h"
 
+#include "vtkCellArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -196,27 +198,34 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
     counts.push_back(
       &this->Hierarchies->Count(volume, regions[i], need, query.InteriorTolerance, part));
   }
-  if (hierarchies.empty() || !(query.Region || query.View))
+  const bool isUniform = !(query.Region || query.View);
+  if (hierarchies.empty() || (isUniform && !query.Simplify))
   {
     return vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles);
   }
-  task.Begin("Finding the tolerance", 1.0, 1.0);
-  const isodiamond::ParallelFor parallelFor = task.For();
+  vtkIsodiamond::MeshOptions options{ volume.Placement.World, volume.ArrayName };
+  options.WithValues = false;
+  options.PointsPrecision = this->OutputPointsPrecision;
+  options.Hidden = &volume.Hidden;
   vtkIsodiamond::WorldQuery tried = query;
-  return vtkIsodiamond::LeastTolerance(hierarchies.front()->Codes(), this->TargetNumberOfTriangles,
-    [&](double tolerance)
+  vtkIsodiamond::Task counting = task.Part(1.0, 1.0);
+  const auto cellsAt = [&](double tolerance)
+  {
+    tried.ErrorTolerance = tolerance;
+    std::int64_t cells = 0;
+    for (const isodiamond::IsodiamondHierarchy* hierarchy : hierarchies)
     {
-      tried.ErrorTolerance = tolerance;
-      std::int64_t cells = 0;
-      for (const isodiamond::IsodiamondHierarchy* hierarchy : hierarchies)
-      {
-        cells += isodiamond::CountCells(
-          isodiamond::RefinedSet(*hierarchy,
-            vtkIsodiamond::CoreQuery(tried, *hierarchy, volume.Placement.World), parallelFor),
-          parallelFor);
-      }
-      return cells;
-    });
+      cells += vtkIsodiamond::ExtractAsAsked(*hierarchy, tried, options, counting)
+                 .Cells->GetNumberOfCells();
+    }
+    return cells;
+  };
+  return query.Simplify
+    ? vtkIsodiamond::LeastToleranceBelow(
+        vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles).Tolerance,
+        this->TargetNumberOfTriangles, cellsAt)
+    : vtkIsodiamond::LeastTolerance(
+        hierarchies.front()->Codes(), this->TargetNumberOfTriangles, cellsAt);
 }
 
 //------------------------------------------------------------------------------
@@ -299,8 +308,5 @@ vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamon
     this->Hierarchies->Get(volume, region, NeedOf(query, volume), building);
   this->RemovedFromBlock += hierarchy.Header().RemovedPieces;
   vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
-  extracting.Begin("Refining", 0.0, 0.3);
-  const isodiamond::RefinedSet refined(hierarchy,
-    vtkIsodiamond::CoreQuery(query, hierarchy, volume.Placement.World), extracting.For());
-  return vtkIsodiamond::ExtractMesh(refined, options, extracting);
+  return vtkIsodiamond::ExtractAsAsked(hierarchy, query, options, extracting);
 }

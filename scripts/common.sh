@@ -5,7 +5,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
 
 # libxxhash: hashes by which the filters know content again.
-compile_packages="cmake ninja-build g++ libxxhash-dev"
+# libmeshoptimizer: for Simplify, which does without where it is not there.
+compile_packages="cmake ninja-build g++ libxxhash-dev libmeshoptimizer-dev"
 # Rendering without a screen.
 render_packages="xvfb xauth"
 # The MRI head of the demo.

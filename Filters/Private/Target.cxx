@@ -114,6 +114,48 @@ CountedTolerance LeastTolerance(const ErrorCode& codes, std::int64_t target,
   return found;
 }
 
+CountedTolerance LeastToleranceBelow(
+  double guess, std::int64_t target, const std::function<std::int64_t(double tolerance)>& cellsAt)
+{
+  constexpr double step = 4.0;
+  constexpr int steps = 4;
+  constexpr int bisections = 6;
+  const auto at = [&](double tolerance) {
+    return CountedTolerance{ tolerance, cellsAt(tolerance) };
+  };
+  CountedTolerance below = at(guess);
+  double above = guess / step;
+  for (int i = 0; i < steps && below.Cells > target; ++i)
+  {
+    above = below.Tolerance;
+    below = at(step * below.Tolerance);
+  }
+  if (guess == 0.0 || below.Cells > target)
+  {
+    return below;
+  }
+  CountedTolerance tried = at(above);
+  for (int i = 0; i < steps && tried.Cells <= target; ++i)
+  {
+    below = tried;
+    above /= step;
+    tried = at(above);
+  }
+  for (int i = 0; i < bisections; ++i)
+  {
+    tried = at(std::sqrt(above * below.Tolerance));
+    if (tried.Cells <= target)
+    {
+      below = tried;
+    }
+    else
+    {
+      above = tried.Tolerance;
+    }
+  }
+  return below;
+}
+
 void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64_t target)
 {
   if (found.Cells > target)

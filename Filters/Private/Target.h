@@ -38,6 +38,15 @@ CountedTolerance LeastTolerance(
 CountedTolerance LeastTolerance(const isodiamond::ErrorCode& codes, std::int64_t target,
   const std::function<std::int64_t(double tolerance)>& cellsAt);
 
+/**
+ * The same for meshes that are simplified, whose number of cells only a trial tells: to about 2 %
+ * of the tolerance.
+ *
+ * @param guess the tolerance that would be found without simplification; most likely more
+ */
+CountedTolerance LeastToleranceBelow(
+  double guess, std::int64_t target, const std::function<std::int64_t(double tolerance)>& cellsAt);
+
 /** Warns if even the coarsest mesh has more cells than the target. */
 void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64_t target);
 

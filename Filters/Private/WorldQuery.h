@@ -44,6 +44,7 @@ struct WorldQuery
   std::optional<double> Isovalue;
   std::optional<std::array<double, 2>> Isorange;
   bool PreserveTopology = false; ///< of an HD
+  bool Simplify = false;         ///< see Simplify.h
 
   /** Whether it is for full resolution, whatever errors are. */
   bool IsFull() const

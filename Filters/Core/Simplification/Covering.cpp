@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Simplification/Covering.h"
+
+namespace isodiamond
+{
+
+Covering::Covering(const TriangleMesh& mesh, const Connectivity& connectivity)
+  : Mesh(mesh)
+  , Links(connectivity)
+{
+  this->Normals.reserve(mesh.Triangles.size());
+  this->Distances.reserve(mesh.Triangles.size());
+  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
+  {
+    const Vector a = mesh.Corner(i, 0);
+    const Vector b = mesh.Corner(i, 1);
+    const Vector c = mesh.Corner(i, 2);
+    const Vector normal = Cross(b - a, c - a);
+    const double length = std::sqrt(Dot(normal, normal));
+    this->Normals.push_back(length > 0.0 ? (1.0 / length) * normal : Vector{});
+    this->Distances.emplace_back(a, b, c);
+  }
+}
+
+std::uint32_t Covering::NearestAt(std::uint32_t point, const Vector& place) const
+{
+  std::uint32_t nearest = *this->Links.begin(point);
+  double least = HUGE_VAL;
+  for (const std::uint32_t* i = this->Links.begin(point); i != this->Links.end(point); ++i)
+  {
+    const double squared = this->Distances[*i].Squared(place);
+    if (squared < least)
+    {
+      least = squared;
+      nearest = *i;
+    }
+  }
+  return nearest;
+}
+
+bool Covering::Split(
+  const Piece& piece, const Vector& at, const Vector& normal, Piece& inside, Piece& beyond)
+{
+  std::array<double, MostCorners> heights;
+  bool anyBeyond = false;
+  for (int i = 0; i < piece.Count; ++i)
+  {
+    heights[i] = Dot(piece.Corners[i] - at, normal);
+    anyBeyond = anyBeyond || heights[i] < 0.0;
+  }
+  if (!anyBeyond)
+  {
+    return false;
+  }
+  for (int i = 0; i < piece.Count; ++i)
+  {
+    const int next = i + 1 < piece.Count ? i + 1 : 0;
+    (heights[i] < 0.0 ? beyond : inside).Add(piece.Corners[i]);
+    if ((heights[i] < 0.0) != (heights[next] < 0.0))
+    {
+      const double part = heights[i] / (heights[i] - heights[next]);
+      const Vector cut = piece.Corners[i] + part * (piece.Corners[next] - piece.Corners[i]);
+      inside.Add(cut);
+      beyond.Add(cut);
+    }
+  }
+  return true;
+}
+
+}

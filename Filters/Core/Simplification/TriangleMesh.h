@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_TriangleMesh_h
+#define isodiamond_TriangleMesh_h
+
+#include "Field/Vector.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/** Triangles by the ids of their points, with one orientation. */
+struct TriangleMesh
+{
+  std::vector<Vector> Positions;
+  std::vector<Triangle> Triangles;
+
+  Vector Corner(std::size_t triangle, int i) const
+  {
+    return this->Positions[this->Triangles[triangle][i]];
+  }
+};
+
+/**
+ * Which triangles meet at the points and edges of a mesh.
+ *
+ * Edge k of a triangle leads from its point k to the next one. Orientation must be one: an edge has
+ * one triangle, or two that go along it in opposite directions.
+ */
+class Connectivity
+{
+public:
+  static constexpr std::uint32_t None = 0xffffffff;
+
+  explicit Connectivity(const TriangleMesh& mesh);
+
+  /** The points at which edges begin that more than two triangles have, or two in one direction.
+   *  Only if there are none the neighbours have a meaning. */
+  const std::vector<std::uint32_t>& FaultyPoints() const { return this->Faulty; }
+
+  /** The triangles at a point. */
+  const std::uint32_t* begin(std::uint32_t point) const
+  {
+    return this->Items.data() + this->First[point];
+  }
+  const std::uint32_t* end(std::uint32_t point) const
+  {
+    return this->Items.data() + this->First[point + 1];
+  }
+  bool IsUsed(std::uint32_t point) const { return this->First[point] < this->First[point + 1]; }
+
+  /** The triangle across an edge, None at the border. */
+  std::uint32_t Neighbour(std::uint32_t triangle, int edge) const
+  {
+    return this->Neighbours[triangle][edge];
+  }
+
+private:
+  std::vector<std::uint32_t> First; ///< by point, into the items
+  std::vector<std::uint32_t> Items;
+  std::vector<Triangle> Neighbours;
+  std::vector<std::uint32_t> Faulty;
+};
+
+}
+
+#endif

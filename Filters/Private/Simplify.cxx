@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Simplify.h"
+
+#include "Private/Cells.h"
+#include "Private/Tuples.h"
+#include "Simplification/MeshOptimizer.h"
+
+#include "vtkCellArray.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace vtkIsodiamond
+{
+namespace
+{
+
+/** Of a tolerance for the hierarchy. The more is left, the fewer triangles come out, and the longer
+ *  it takes. */
+constexpr double HierarchyPart = 0.3;
+
+/** What a query tolerates at a place of the world. */
+class PlacedTolerance
+{
+public:
+  PlacedTolerance(
+    const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
+    : Query(query)
+    , Outside(OutsideOf(query, measure, world))
+  {
+  }
+
+  /** The least in a triangle, or less. */
+  double In(const std::array<isodiamond::Vector, 3>& corners) const
+  {
+    isodiamond::Vector low = corners[0];
+    isodiamond::Vector high = corners[0];
+    for (const isodiamond::Vector& corner : corners)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        low[axis] = std::min(low[axis], corner[axis]);
+        high[axis] = std::max(high[axis], corner[axis]);
+      }
+    }
+    double tolerance = this->Query.ErrorTolerance;
+    if (this->Query.Region)
+    {
+      bool touches = true;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        touches = touches && low[axis] <= this->Query.Region->Maximum[axis] &&
+          high[axis] >= this->Query.Region->Minimum[axis];
+      }
+      tolerance = touches ? std::min(tolerance, this->Outside) : this->Outside;
+    }
+    if (this->Query.View)
+    {
+      const isodiamond::Vector& eye = this->Query.View->Position;
+      double squared = 0.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double away = std::max({ low[axis] - eye[axis], eye[axis] - high[axis], 0.0 });
+        squared += away * away;
+      }
+      tolerance = std::max(tolerance, this->Query.View->TolerancePerDistance * std::sqrt(squared));
+    }
+    return tolerance;
+  }
+
+private:
+  const WorldQuery& Query;
+  double Outside;
+};
+
+isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& tolerance)
+{
+  isodiamond::AllowedMesh result;
+  result.Mesh.Positions.resize(mesh.Points->GetNumberOfPoints());
+  for (std::size_t i = 0; i < result.Mesh.Positions.size(); ++i)
+  {
+    mesh.Points->GetPoint(static_cast<vtkIdType>(i), result.Mesh.Positions[i].data());
+  }
+  const vtkIdType count = mesh.Cells->GetNumberOfCells();
+  result.Mesh.Triangles.reserve(count);
+  result.Allowances.reserve(count);
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    mesh.Cells->GetCellAtId(cell, size, ids);
+    result.Mesh.Triangles.push_back({ static_cast<std::uint32_t>(ids[0]),
+      static_cast<std::uint32_t>(ids[1]), static_cast<std::uint32_t>(ids[2]) });
+    const double tolerated = tolerance.In(
+      { result.Mesh.Corner(cell, 0), result.Mesh.Corner(cell, 1), result.Mesh.Corner(cell, 2) });
+    result.Allowances.push_back((1.0 - HierarchyPart) * tolerated);
+  }
+  return result;
+}
+
+}
+
+void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume)
+{
+  if (!isodiamond::MeshOptimizer())
+  {
+    throw std::invalid_argument(
+      "Simplify needs the library meshoptimizer, which was not there when "
+      "this was built (Debian: libmeshoptimizer-dev).");
+  }
+  if (isVolume)
+  {
+    throw std::invalid_argument("Simplify is for isosurfaces, not for interval volumes.");
+  }
+  if (metric != isodiamond::ErrorMetric::Distance)
+  {
+    throw std::invalid_argument("Simplify needs the distance metric.");
+  }
+}
+
+WorldQuery BeforeSimplifying(
+  const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
+{
+  WorldQuery part = query;
+  part.ErrorTolerance *= HierarchyPart;
+  part.OutsideErrorTolerance = HierarchyPart * OutsideOf(query, measure, world);
+  if (part.View)
+  {
+    part.View->TolerancePerDistance *= HierarchyPart;
+  }
+  return part;
+}
+
+void SimplifyMesh(const WorldQuery& query, const Measure& measure,
+  const isodiamond::GridGeometry& world, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
+{
+  const isodiamond::AllowedMesh simple = isodiamond::Simplify(
+    ToCore(mesh, PlacedTolerance(query, measure, world)), isodiamond::MeshOptimizer(), parallelFor);
+  // Only the points that are left, in their order.
+  std::vector<vtkIdType> newIds(simple.Mesh.Positions.size(), -1);
+  for (const isodiamond::Triangle& triangle : simple.Mesh.Triangles)
+  {
+    for (const std::uint32_t point : triangle)
+    {
+      newIds[point] = 0;
+    }
+  }
+  std::vector<vtkIdType> kept;
+  for (std::size_t i = 0; i < newIds.size(); ++i)
+  {
+    if (newIds[i] == 0)
+    {
+      newIds[i] = static_cast<vtkIdType>(kept.size());
+      kept.push_back(static_cast<vtkIdType>(i));
+    }
+  }
+  mesh.Cells = WriteCells(static_cast<std::int64_t>(simple.Mesh.Triangles.size()), 3, parallelFor,
+    [&](auto* connectivity)
+    {
+      using Id = std::remove_pointer_t<decltype(connectivity)>;
+      for (const isodiamond::Triangle& triangle : simple.Mesh.Triangles)
+      {
+        connectivity = std::transform(triangle.begin(), triangle.end(), connectivity,
+          [&](std::uint32_t point) { return static_cast<Id>(newIds[point]); });
+      }
+    });
+  mesh.Points = PointsOf(mesh.Points, kept);
+  KeepTuples(mesh.PointData, kept);
+  mesh.CellData->Initialize();
+}
+
+Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const WorldQuery& query,
+  const MeshOptions& options, Task& task)
+{
+  const Measure measure(hierarchy);
+  WorldQuery extracted = query;
+  if (query.Simplify)
+  {
+    CheckSimplify(measure.Metric, hierarchy.Region().IsVolume());
+    extracted = BeforeSimplifying(query, measure, options.World);
+  }
+  task.Begin("Refining", 0.0, 0.3);
+  const isodiamond::RefinedSet refined(
+    hierarchy, CoreQuery(extracted, hierarchy, options.World), task.For());
+  Task extracting = task.Part(0.3, query.Simplify ? 0.5 : 1.0);
+  Mesh mesh = ExtractMesh(refined, options, extracting);
+  if (query.Simplify)
+  {
+    task.Begin("Simplifying", 0.5, 1.0);
+    SimplifyMesh(query, measure, options.World, task.For(), mesh);
+  }
+  return mesh;
+}
+
+}

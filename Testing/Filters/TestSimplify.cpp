@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Simplified surfaces: the tolerance of each place, topology, what points carry, and refusals.
+#include "FilterTestTools.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellLocator.h"
+#include "vtkFeatureEdges.h"
+#include "vtkFieldData.h"
+#include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondExtractor.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataConnectivityFilter.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace
+{
+
+vtkSmartPointer<vtkImageData> Image()
+{
+  return test::PhantomImage({ 32, 28, 30 }, 6.0);
+}
+
+vtkSmartPointer<vtkIsodiamondContour> MakeContour(vtkImageData* image)
+{
+  auto contour = vtkSmartPointer<vtkIsodiamondContour>::New();
+  contour->SetInputData(image);
+  contour->SetValue(0, 50.0);
+  return contour;
+}
+
+vtkSmartPointer<vtkPolyData> Update(vtkIsodiamondContour* contour)
+{
+  contour->Update();
+  auto copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->DeepCopy(contour->GetOutput());
+  return copy;
+}
+
+vtkSmartPointer<vtkPolyData> Full(vtkImageData* image)
+{
+  return Update(MakeContour(image));
+}
+
+/** Built without meshoptimizer there is nothing to test. */
+bool CanSimplify()
+{
+  const auto contour = MakeContour(test::BallImage({ 9, 9, 9 }));
+  contour->SimplifyOn();
+  contour->SetErrorTolerance(1.0);
+  auto messages = test::Watch(contour);
+  contour->Update();
+  return messages->Errors.find("libmeshoptimizer") == std::string::npos;
+}
+
+/** The greatest excess of distances of a mesh's points, and of points on its triangles, from
+ *  another mesh over what is tolerated there. */
+double Excess(
+  vtkPolyData* from, vtkPolyData* to, const std::function<double(const double[3])>& tolerance)
+{
+  vtkNew<vtkCellLocator> locator;
+  locator->SetDataSet(to);
+  locator->BuildLocator();
+  double worst = -std::numeric_limits<double>::infinity();
+  const auto look = [&](const double place[3])
+  {
+    double nearest[3];
+    vtkIdType cell = 0;
+    int sub = 0;
+    double squared = 0.0;
+    locator->FindClosestPoint(place, nearest, cell, sub, squared);
+    worst = std::max(worst, std::sqrt(squared) - tolerance(place));
+  };
+  vtkIdType size = 0;
+  const vtkIdType* ids = nullptr;
+  for (vtkIdType i = 0; i < from->GetNumberOfCells(); ++i)
+  {
+    from->GetPolys()->GetCellAtId(i, size, ids);
+    double corners[3][3];
+    for (int k = 0; k < 3; ++k)
+    {
+      from->GetPoint(ids[k], corners[k]);
+    }
+    constexpr int parts = 3;
+    for (int a = 0; a <= parts; ++a)
+    {
+      for (int b = 0; a + b <= parts; ++b)
+      {
+        double place[3];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          place[axis] =
+            (a * corners[0][axis] + b * corners[1][axis] + (parts - a - b) * corners[2][axis]) /
+            parts;
+        }
+        look(place);
+      }
+    }
+  }
+  return worst;
+}
+
+struct Shape
+{
+  int Pieces = 0;
+  vtkIdType Euler = 0;
+  vtkIdType BorderEdges = 0;
+  vtkIdType NonManifoldEdges = 0;
+
+  explicit Shape(vtkPolyData* mesh)
+  {
+    vtkNew<vtkPolyDataConnectivityFilter> pieces;
+    pieces->SetInputData(mesh);
+    pieces->SetExtractionModeToAllRegions();
+    pieces->Update();
+    this->Pieces = pieces->GetNumberOfExtractedRegions();
+    const auto edges = [&](bool border, bool nonManifold, bool manifold)
+    {
+      vtkNew<vtkFeatureEdges> filter;
+      filter->SetInputData(mesh);
+      filter->SetBoundaryEdges(border);
+      filter->SetNonManifoldEdges(nonManifold);
+      filter->SetManifoldEdges(manifold);
+      filter->FeatureEdgesOff();
+      filter->Update();
+      return filter->GetOutput()->GetNumberOfCells();
+    };
+    this->BorderEdges = edges(true, false, false);
+    this->NonManifoldEdges = edges(false, true, false);
+    this->Euler = mesh->GetNumberOfPoints() - edges(true, true, true) + mesh->GetNumberOfCells();
+  }
+};
+
+void ExpectSameShape(vtkPolyData* mesh, vtkPolyData* full)
+{
+  const Shape is(mesh);
+  const Shape was(full);
+  EXPECT_EQ(is.Pieces, was.Pieces);
+  EXPECT_EQ(is.Euler, was.Euler);
+  EXPECT_EQ(is.NonManifoldEdges, 0);
+}
+
+}
+
+TEST(Simplify, KeepsToleranceAndTopology)
+{
+  if (!CanSimplify())
+  {
+    GTEST_SKIP() << "built without meshoptimizer";
+  }
+  const auto image = Image();
+  image->SetSpacing(0.5, 0.5, 0.75);
+  const auto full = Full(image);
+  const auto contour = MakeContour(image);
+  for (const double tolerance : { 0.2, 0.5 })
+  {
+    SCOPED_TRACE(tolerance);
+    contour->SetErrorTolerance(tolerance);
+    contour->SimplifyOff();
+    const auto plain = Update(contour);
+    contour->SimplifyOn();
+    const auto simple = Update(contour);
+    EXPECT_LT(simple->GetNumberOfCells(), 0.6 * plain->GetNumberOfCells());
+    const auto everywhere = [&](const double[3]) { return tolerance * (1.0 + 1e-6); };
+    EXPECT_LE(Excess(full, simple, everywhere), 0.0);
+    EXPECT_LE(Excess(simple, full, everywhere), 0.0);
+    ExpectSameShape(simple, full);
+    // Points with their data, of the mesh at three tenths of the tolerance; no levels.
+    EXPECT_EQ(
+      simple->GetPointData()->GetNormals()->GetNumberOfTuples(), simple->GetNumberOfPoints());
+    EXPECT_EQ(simple->GetCellData()->GetNumberOfArrays(), 0);
+    contour->SimplifyOff();
+    contour->SetErrorTolerance(0.3 * tolerance);
+    const auto finer = Update(contour);
+    EXPECT_LE(simple->GetNumberOfPoints(), finer->GetNumberOfPoints());
+    EXPECT_LE(test::LargestDistance(simple, finer), 1e-6);
+  }
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
+}
+
+TEST(Simplify, ToleranceOfEachPlace)
+{
+  if (!CanSimplify())
+  {
+    GTEST_SKIP() << "built without meshoptimizer";
+  }
+  const auto image = Image();
+  const auto full = Full(image);
+  const auto contour = MakeContour(image);
+  contour->SetErrorTolerance(0.25);
+  contour->UseRegionOfInterestOn();
+  contour->SetRegionOfInterest(0, 14, 0, 28, 0, 15);
+  contour->SetOutsideErrorTolerance(1.5);
+  const auto plain = Update(contour);
+  contour->SimplifyOn();
+  const auto simple = Update(contour);
+  EXPECT_LT(simple->GetNumberOfCells(), 0.7 * plain->GetNumberOfCells());
+  const auto local = [](const double place[3])
+  { return (place[0] <= 14 && place[2] <= 15 ? 0.25 : 1.5) + 1e-6; };
+  EXPECT_LE(Excess(full, simple, local), 0.0);
+  EXPECT_LE(Excess(simple, full, local), 0.0);
+  ExpectSameShape(simple, full);
+  contour->UseRegionOfInterestOff();
+  contour->ViewDependentOn();
+  contour->SetViewPosition(-40, 14, 14);
+  contour->SetViewHeight(100);
+  contour->SetPixelTolerance(1.0);
+  const auto seen = Update(contour);
+  const double perDistance = 2.0 * std::tan(vtkMath::RadiansFromDegrees(15.0)) / 100;
+  const auto fromView = [&](const double place[3])
+  {
+    const double eye[3] = { -40, 14, 14 };
+    // A triangle has the tolerance of its nearest point.
+    const double distance = std::sqrt(vtkMath::Distance2BetweenPoints(place, eye));
+    return std::max(0.25, perDistance * distance) + 1e-6;
+  };
+  EXPECT_LE(Excess(full, seen, fromView), 0.0);
+  EXPECT_LE(Excess(seen, full, fromView), 0.0);
+}
+
+TEST(Simplify, SeveralIsovaluesHiddenCellsAndCaps)
+{
+  if (!CanSimplify())
+  {
+    GTEST_SKIP() << "built without meshoptimizer";
+  }
+  const auto image = Image();
+  image->AllocatePointGhostArray();
+  image->GetPointGhostArray()->SetValue(
+    image->GetNumberOfPoints() / 2, vtkDataSetAttributes::HIDDENPOINT);
+  const auto contour = MakeContour(image);
+  contour->SetValue(1, 30.0);
+  contour->CloseBoundaryOn();
+  const auto full = Update(contour);
+  contour->SetErrorTolerance(0.6);
+  const auto plain = Update(contour);
+  contour->SimplifyOn();
+  const auto simple = Update(contour);
+  EXPECT_LT(simple->GetNumberOfCells(), 0.6 * plain->GetNumberOfCells());
+  ExpectSameShape(simple, full);
+  EXPECT_EQ(Shape(simple).BorderEdges, Shape(plain).BorderEdges);
+  double range[2];
+  simple->GetPointData()->GetArray("density")->GetRange(range);
+  EXPECT_EQ(range[0], 30.0);
+  EXPECT_EQ(range[1], 50.0);
+}
+
+TEST(Simplify, HasATargetToo)
+{
+  if (!CanSimplify())
+  {
+    GTEST_SKIP() << "built without meshoptimizer";
+  }
+  const auto image = Image();
+  const auto full = Full(image);
+  const vtkIdType target = full->GetNumberOfCells() / 10;
+  const auto contour = MakeContour(image);
+  contour->SetTargetNumberOfTriangles(target);
+  contour->Update();
+  const double plain = contour->GetAchievedTolerance();
+  contour->SimplifyOn();
+  const auto simple = Update(contour);
+  EXPECT_LE(simple->GetNumberOfCells(), target);
+  EXPECT_GT(simple->GetNumberOfCells(), 0.9 * target);
+  const double achieved = contour->GetAchievedTolerance();
+  EXPECT_LT(achieved, 0.8 * plain);
+  const auto everywhere = [&](const double[3]) { return achieved * (1.0 + 1e-6); };
+  EXPECT_LE(Excess(full, simple, everywhere), 0.0);
+  EXPECT_LE(Excess(simple, full, everywhere), 0.0);
+  // In two steps the same.
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(image);
+  builder->SetIsovalue(50.0);
+  builder->SetErrorMetricToDistance();
+  builder->PreserveTopologyOn();
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(builder->GetOutputPort());
+  extractor->SetOutputTypeToPolyData();
+  extractor->SimplifyOn();
+  extractor->SetErrorTolerance(achieved);
+  extractor->Update();
+  EXPECT_EQ(test::SortedTriangles(extractor->GetPolyDataOutput()), test::SortedTriangles(simple));
+  extractor->SetTargetNumberOfTriangles(target);
+  extractor->Update();
+  EXPECT_EQ(extractor->GetAchievedTolerance(), achieved);
+}
+
+TEST(Simplify, SaysWhatItCannot)
+{
+  if (!CanSimplify())
+  {
+    GTEST_SKIP() << "built without meshoptimizer";
+  }
+  const auto image = test::BallImage({ 17, 17, 17 });
+  const auto contour = MakeContour(image);
+  contour->SetValue(0, 0.0);
+  contour->SimplifyOn();
+  auto messages = test::Watch(contour);
+  const auto full = Update(contour); // nothing to simplify at tolerance 0
+  EXPECT_EQ(messages->ErrorCount, 0);
+  contour->SimplifyOff();
+  EXPECT_EQ(test::SortedTriangles(full), test::SortedTriangles(Update(contour)));
+  contour->SimplifyOn();
+  contour->SetErrorTolerance(0.1);
+  contour->SetErrorMetricToField();
+  contour->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_NE(messages->Errors.find("distance metric"), std::string::npos);
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(image);
+  builder->SetErrorMetricToDistance();
+  builder->SetShapeToIntervalVolume();
+  builder->SetIsorange(-0.2, 0.2);
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(builder->GetOutputPort());
+  extractor->SetErrorTolerance(0.1);
+  extractor->SimplifyOn();
+  auto heard = test::Watch(extractor);
+  extractor->Update();
+  EXPECT_EQ(heard->ErrorCount, 1);
+  EXPECT_NE(heard->Errors.find("isosurfaces"), std::string::npos);
+}
