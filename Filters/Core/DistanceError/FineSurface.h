@@ -31,6 +31,15 @@ struct CellBox
     }
     return holds;
   }
+  bool Holds(const CellBox& box) const
+  {
+    return this->Holds(box.Low) && this->Holds(box.High + Point{ -1, -1, -1 });
+  }
+  std::int64_t Size() const
+  {
+    const Point size = this->High + -1 * this->Low;
+    return std::int64_t{ size[0] } * size[1] * size[2];
+  }
 };
 
 /**

@@ -6,6 +6,7 @@
 #include "DistanceError/DomainMap.h"
 #include "DistanceError/ErrorMaxima.h"
 #include "DistanceError/FineSurface.h"
+#include "DistanceError/NearbyTriangles.h"
 #include "DistanceError/SlabTest.h"
 #include "DistanceError/SpineNeighbourhood.h"
 #include "Patches/ConvexPolygon.h"
@@ -53,6 +54,7 @@ public:
     , Bounds(bounds)
     , Code(code)
     , Balls(lengths)
+    , Nearby(lengths)
     , Map(hierarchy, lengths, surface)
     , Least(lengths.TypicalStep() / 64.0)
   {
@@ -66,6 +68,7 @@ public:
     this->Bound = 0.0;
     this->Left = MostLooks;
     this->HasLast = false;
+    this->Nearby.Clear();
     this->HardCount = 0;
     this->Neighbourhood.ForEachTetrahedron(diamond, true,
       [&](int number, const HalfPlace& tetrahedron)
@@ -79,7 +82,12 @@ public:
       });
     const bool isMapped =
       this->HardCount > 0 && isWhole && diamond.Scale <= 1 && this->IsDomainMapped(diamond);
-    for (int i = 0; i < this->HardCount && !isMapped; ++i)
+    if (isMapped || this->HardCount == 0)
+    {
+      return std::max(error, this->Bound);
+    }
+    this->GatherNearby();
+    for (int i = 0; i < this->HardCount; ++i)
     {
       this->MeasureFrom(this->Hard[i]);
     }
@@ -102,6 +110,8 @@ private:
   /** How often pieces of one diamond are compared with what is nearest before bounds are taken as
    *  they are. Few diamonds need so many: where cells are a million times longer than wide. */
   static constexpr int MostLooks = 500;
+  /** How many cells are worth being gathered. */
+  static constexpr std::int64_t MostCells = 1000;
 
   Vector Corner(const HalfPlace& tetrahedron, int edge) const
   {
@@ -295,6 +305,9 @@ private:
       return;
     }
     this->Pieces.assign(1, whole.Polygon);
+    // Its corners lie on the surface, but for rounding: there is nothing to be found.
+    this->Seen.assign(
+      whole.Polygon.Corners.begin(), whole.Polygon.Corners.begin() + whole.Polygon.Count);
     while (!this->Pieces.empty())
     {
       const ConvexPolygon piece = this->Pieces.back();
@@ -306,6 +319,12 @@ private:
   /** Whether the surface passes a piece within what is known, all over it. */
   bool IsBetween(const FlatPiece& piece)
   {
+    // Where so much is near, other sheets pass, too, and the nearest triangles tell as soon.
+    const Vector middle = piece.Polygon.Middle();
+    if (4.0 * this->Known * this->Known > piece.Polygon.SquaredRadius(middle))
+    {
+      return false;
+    }
     const SlabTest<Lengths> test(piece.Polygon, piece.Normal, this->Known - piece.Bend,
       (1.0 + Precision) * this->Known - piece.Bend, this->Fine, this->InWorld, this->Balls);
     return test.IsBetween() && this->IsAccepted(test.Greatest() + piece.Bend);
@@ -314,9 +333,14 @@ private:
   /** A piece against the triangle that is nearest to its middle; what is not near enough is cut. */
   void CompareWithNearest(const ConvexPolygon& piece)
   {
+    if (this->HasLast && DistanceTo(this->Last.Triangle, piece) <= this->Known)
+    {
+      this->Bound = std::max(this->Bound, DistanceTo(this->Last.Triangle, piece));
+      return;
+    }
     const Vector middle = piece.Middle();
     const double radius = std::sqrt(piece.SquaredRadius(middle));
-    const Nearest nearest = this->FindNearest(middle, std::max(this->Known - radius, 0.0));
+    const NearestTriangle nearest = this->FindNearest(middle, std::max(this->Known - radius, 0.0));
     const double bound = std::sqrt(nearest.Squared) + radius;
     if ((bound <= this->Known || radius <= Precision / 2.0 * this->Known) &&
       this->IsAccepted(bound))
@@ -334,11 +358,16 @@ private:
     {
       return;
     }
-    this->FindNearest(farthest, this->Known);
-    if (!this->IsAccepted(distance))
+    if (std::find(this->Seen.begin(), this->Seen.end(), farthest) == this->Seen.end())
     {
-      this->CutUp(piece, nearest.Triangle);
+      this->Seen.push_back(farthest);
+      this->FindNearest(farthest, this->Known);
+      if (this->IsAccepted(distance))
+      {
+        return;
+      }
     }
+    this->CutUp(piece, nearest.Triangle);
   }
 
   static const Vector& FarthestCorner(const ConvexPolygon& piece, const TriangleDistance& triangle)
@@ -361,18 +390,50 @@ private:
       return;
     }
     const double sliver = Precision / 2.0 * this->Known;
-    for (int side = 0; side < 3; ++side)
+    ConvexPolygon rest = piece;
+    bool isCut = false;
+    for (int side = 0; side < 3 && rest.Count <= many; ++side)
     {
       const TriangleDistance::Wall wall = triangle.WallOf(side);
       const Vector outward = Unit(wall.Outward);
-      const auto [least, greatest] = piece.Sides(wall.Point, outward);
+      const auto [least, greatest] = rest.Sides(wall.Point, outward);
       if (least < -sliver && greatest > sliver)
       {
-        this->CutAt(piece, wall.Point, outward);
-        return;
+        isCut = true;
+        ConvexPolygon part;
+        KeepAbove(rest, wall.Point, outward, part);
+        this->Push(part);
+        KeepAbove(rest, wall.Point, -1.0 * outward, part);
+        rest = part;
       }
     }
-    this->Halve(piece);
+    if (!isCut)
+    {
+      this->Halve(rest);
+    }
+    else if (!this->IsAccepted(DistanceTo(triangle, rest)))
+    {
+      this->Push(rest);
+    }
+  }
+
+  /** How far a piece is from a triangle: nothing of it is farther than its corners. */
+  static double DistanceTo(const TriangleDistance& triangle, const ConvexPolygon& piece)
+  {
+    double squared = 0.0;
+    for (int i = 0; i < piece.Count; ++i)
+    {
+      squared = std::max(squared, triangle.Squared(piece.Corners[i]));
+    }
+    return std::sqrt(squared);
+  }
+
+  void Push(const ConvexPolygon& piece)
+  {
+    if (!piece.IsEmpty())
+    {
+      this->Pieces.push_back(piece);
+    }
   }
 
   void CutAt(const ConvexPolygon& piece, const Vector& point, const Vector& normal)
@@ -381,18 +442,9 @@ private:
     {
       ConvexPolygon part;
       KeepAbove(piece, point, side * normal, part);
-      if (!part.IsEmpty())
-      {
-        this->Pieces.push_back(part);
-      }
+      this->Push(part);
     }
   }
-
-  struct Nearest
-  {
-    double Squared = std::numeric_limits<double>::infinity();
-    TriangleDistance Triangle;
-  };
 
   /** How far other cells are, about. */
   double StepAt(const Vector& point) const
@@ -409,32 +461,74 @@ private:
     }
   }
 
+  /** Gathers what is near to the patches that are still to be measured, once for a diamond. */
+  void GatherNearby()
+  {
+    const double reach = 1.25 * this->Known;
+    std::array<Vector, 2> all = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL },
+      { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
+    for (int i = 0; i < this->HardCount; ++i)
+    {
+      const SurfacePatch& patch = this->Hard[i].Patch;
+      const std::array<Vector, 6> corners = this->CornersOf(this->Hard[i]);
+      for (int j = 0; j < patch.TriangleCount; ++j)
+      {
+        for (const std::uint8_t edge : patch.Triangles[j])
+        {
+          const std::array<Vector, 2> box = this->InWorld.IndexBox(corners[edge], reach);
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            all[0][axis] = std::min(all[0][axis], box[0][axis]);
+            all[1][axis] = std::max(all[1][axis], box[1][axis]);
+          }
+        }
+      }
+    }
+    const CellBox cells = CellsIn(all, this->Fine.Whole());
+    if (cells.Size() <= MostCells)
+    {
+      this->Nearby.Gather(this->Fine, cells);
+    }
+  }
+
   /** The nearest triangle of the surface, or some that is near enough: what is known rises to its
    *  distance. */
-  Nearest FindNearest(const Vector& point, double enough)
+  NearestTriangle FindNearest(const Vector& point, double enough)
   {
     // The last one is a good guess: pieces lie side by side.
-    Nearest nearest = this->Last;
+    NearestTriangle nearest = this->Last;
     nearest.Squared =
       this->HasLast ? nearest.Triangle.Squared(point) : std::numeric_limits<double>::infinity();
-    double radius = std::min(0.5 * this->StepAt(point), std::sqrt(nearest.Squared));
-    CellBox done;
-    bool isWhole = false;
-    while (nearest.Squared > std::max(enough * enough, radius * radius / 4.0) && !isWhole)
+    const double squaredEnough = enough * enough;
+    if (nearest.Squared > squaredEnough)
     {
-      const CellBox box = CellsIn(this->InWorld.IndexBox(point, radius), this->Fine.Whole());
-      this->Fine.ForEachCell(box,
-        [&](const Point& cell, const auto& triangles)
-        {
-          if (!done.Holds(cell) && this->MayBeNearer(cell, point, nearest))
+      this->Nearby.FindNearer(point, squaredEnough, nearest);
+    }
+    // Farther and farther away, and at last where something may be nearer than what was found.
+    CellBox done = this->Nearby.Cells();
+    double radius = 0.5 * this->StepAt(point);
+    bool isAll = false;
+    while (nearest.Squared > squaredEnough && !isAll)
+    {
+      const double found = std::sqrt(nearest.Squared);
+      isAll = found <= 2.0 * radius;
+      const CellBox box =
+        CellsIn(this->InWorld.IndexBox(point, isAll ? found : radius), this->Fine.Whole());
+      isAll = isAll || (box.Low == this->Fine.Whole().Low && box.High == this->Fine.Whole().High);
+      if (!done.Holds(box))
+      {
+        this->Fine.ForEachCell(box,
+          [&](const Point& cell, const auto& triangles)
           {
-            triangles([&](const FineSurface::Triangle& corners)
-              { this->Compare(point, corners, nearest); });
-          }
-          return nearest.Squared > enough * enough;
-        });
-      isWhole = box.Low == this->Fine.Whole().Low && box.High == this->Fine.Whole().High;
-      done = box;
+            if (!done.Holds(cell) && this->MayBeNearer(cell, point, nearest))
+            {
+              triangles([&](const FineSurface::Triangle& corners)
+                { this->Compare(point, corners, nearest); });
+            }
+            return nearest.Squared > squaredEnough;
+          });
+        done = box;
+      }
       radius *= 2.0;
     }
     this->Known = std::max(this->Known, std::sqrt(nearest.Squared));
@@ -443,7 +537,7 @@ private:
     return nearest;
   }
 
-  bool MayBeNearer(const Point& cell, const Vector& point, const Nearest& nearest) const
+  bool MayBeNearer(const Point& cell, const Vector& point, const NearestTriangle& nearest) const
   {
     const Ball ball = this->Balls(cell);
     const Vector to = ball.Middle - point;
@@ -452,7 +546,8 @@ private:
     return beyond < 0.0 || beyond * beyond < 4.0 * ball.Radius * ball.Radius * nearest.Squared;
   }
 
-  void Compare(const Vector& point, const FineSurface::Triangle& corners, Nearest& nearest) const
+  void Compare(
+    const Vector& point, const FineSurface::Triangle& corners, NearestTriangle& nearest) const
   {
     const Vector a = this->InWorld(corners[0]);
     const Vector b = this->InWorld(corners[1]);
@@ -499,16 +594,18 @@ private:
   const MapBounds* Bounds;
   ErrorCode Code;
   CellBalls<Lengths> Balls;
+  NearbyTriangles<Lengths> Nearby; ///< to the diamond
   DomainMap<Lengths> Map;
   double Least;       ///< what is less is no error
   double Known = 0.0; ///< the error is not less: that so far, or a distance that was found
   double Bound = 0.0; ///< nothing that was looked at is farther
   int Left = 0;       ///< how many more looks are worth it
   bool HasLast = false;
-  Nearest Last; ///< that was found
+  NearestTriangle Last; ///< that was found
   int HardCount = 0;
   std::array<HardPatch, 8> Hard;
   std::vector<ConvexPolygon> Pieces;
+  std::vector<Vector> Seen; ///< corners of pieces that were looked at
 };
 
 /** Raises the errors of all diamonds to the way back. */

@@ -68,6 +68,9 @@ public:
     return squared;
   }
 
+  /** Normal to the triangle, of some length; nothing if it has no area. */
+  const Vector& Across() const { return this->Normal; }
+
   /** The nearest point of the triangle, but for rounding. */
   Vector Nearest(const Vector& point) const
   {
