@@ -67,7 +67,8 @@ public:
     this->Known = std::max(error, this->Least);
     this->Bound = 0.0;
     this->Left = MostLooks;
-    this->HasLast = false;
+    this->FoundCount = 0;
+    this->HasNearby = false;
     this->Nearby.Clear();
     this->HardCount = 0;
     this->Neighbourhood.ForEachTetrahedron(diamond, true,
@@ -86,7 +87,6 @@ public:
     {
       return std::max(error, this->Bound);
     }
-    this->GatherNearby();
     for (int i = 0; i < this->HardCount; ++i)
     {
       this->MeasureFrom(this->Hard[i]);
@@ -110,6 +110,8 @@ private:
   /** How often pieces of one diamond are compared with what is nearest before bounds are taken as
    *  they are. Few diamonds need so many: where cells are a million times longer than wide. */
   static constexpr int MostLooks = 500;
+  /** How many triangles that were found are kept. */
+  static constexpr int MostFound = 4;
   /** How many cells are worth being gathered. */
   static constexpr std::int64_t MostCells = 1000;
 
@@ -304,6 +306,7 @@ private:
     {
       return;
     }
+    this->GatherNearby();
     this->Pieces.assign(1, whole.Polygon);
     // Its corners lie on the surface, but for rounding: there is nothing to be found.
     this->Seen.assign(
@@ -333,9 +336,8 @@ private:
   /** A piece against the triangle that is nearest to its middle; what is not near enough is cut. */
   void CompareWithNearest(const ConvexPolygon& piece)
   {
-    if (this->HasLast && DistanceTo(this->Last.Triangle, piece) <= this->Known)
+    if (this->IsNearToFound(piece))
     {
-      this->Bound = std::max(this->Bound, DistanceTo(this->Last.Triangle, piece));
       return;
     }
     const Vector middle = piece.Middle();
@@ -368,6 +370,27 @@ private:
       }
     }
     this->CutUp(piece, nearest.Triangle);
+  }
+
+  /** Whether all of a piece is within what is known of a triangle that was found: of pieces side by
+   *  side often that of another one. */
+  bool IsNearToFound(const ConvexPolygon& piece)
+  {
+    const double enough = this->Known * this->Known;
+    for (int i = 0; i < std::min(this->FoundCount, MostFound); ++i)
+    {
+      double squared = 0.0;
+      for (int j = 0; j < piece.Count && squared <= enough; ++j)
+      {
+        squared = std::max(squared, this->Found[i].Squared(piece.Corners[j]));
+      }
+      if (squared <= enough)
+      {
+        this->Bound = std::max(this->Bound, std::sqrt(squared));
+        return true;
+      }
+    }
+    return false;
   }
 
   static const Vector& FarthestCorner(const ConvexPolygon& piece, const TriangleDistance& triangle)
@@ -464,6 +487,11 @@ private:
   /** Gathers what is near to the patches that are still to be measured, once for a diamond. */
   void GatherNearby()
   {
+    if (this->HasNearby)
+    {
+      return;
+    }
+    this->HasNearby = true;
     const double reach = 1.25 * this->Known;
     std::array<Vector, 2> all = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL },
       { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
@@ -495,10 +523,23 @@ private:
    *  distance. */
   NearestTriangle FindNearest(const Vector& point, double enough)
   {
-    // The last one is a good guess: pieces lie side by side.
-    NearestTriangle nearest = this->Last;
-    nearest.Squared =
-      this->HasLast ? nearest.Triangle.Squared(point) : std::numeric_limits<double>::infinity();
+    // Those that were found are good guesses: pieces lie side by side.
+    double guess = std::numeric_limits<double>::infinity();
+    const TriangleDistance* guessed = nullptr;
+    for (int i = 0; i < std::min(this->FoundCount, MostFound); ++i)
+    {
+      const double squared = this->Found[i].Squared(point);
+      if (squared < guess)
+      {
+        guess = squared;
+        guessed = &this->Found[i];
+      }
+    }
+    NearestTriangle nearest;
+    if (guessed != nullptr)
+    {
+      nearest = { guess, *guessed };
+    }
     const double squaredEnough = enough * enough;
     if (nearest.Squared > squaredEnough)
     {
@@ -532,8 +573,10 @@ private:
       radius *= 2.0;
     }
     this->Known = std::max(this->Known, std::sqrt(nearest.Squared));
-    this->Last = nearest;
-    this->HasLast = true;
+    if (nearest.Squared < guess)
+    {
+      this->Found[this->FoundCount++ % MostFound] = nearest.Triangle;
+    }
     return nearest;
   }
 
@@ -600,8 +643,9 @@ private:
   double Known = 0.0; ///< the error is not less: that so far, or a distance that was found
   double Bound = 0.0; ///< nothing that was looked at is farther
   int Left = 0;       ///< how many more looks are worth it
-  bool HasLast = false;
-  NearestTriangle Last; ///< that was found
+  int FoundCount = 0;
+  std::array<TriangleDistance, MostFound> Found; ///< the last ones, of the diamond
+  bool HasNearby = false;                        ///< of the diamond
   int HardCount = 0;
   std::array<HardPatch, 8> Hard;
   std::vector<ConvexPolygon> Pieces;
