@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace isodiamond
@@ -133,12 +134,16 @@ private:
   {
     this->Isovertices.clear();
     const Point centre = Centre(diamond);
-    const BrickWindow window(this->Hierarchy.Diamonds().Level(0), centre);
+    if (const Point brick = BrickOf(centre); !this->Window || brick != this->WindowBrick)
+    {
+      this->WindowBrick = brick;
+      this->Window.emplace(this->Hierarchy.Diamonds().Level(0), centre);
+    }
     for (std::size_t i = 0; i < this->Domain->Owners.size(); ++i)
     {
       const FineDomain::Owner& owner = this->Domain->Owners[i];
       const Place place{ 0, centre + owner.Offset };
-      this->Ranks[i] = window.Rank(place.Position);
+      this->Ranks[i] = this->Window->Rank(place.Position);
       if (this->Ranks[i] == DiamondSet::None)
       {
         continue;
@@ -146,21 +151,25 @@ private:
       const auto rank = static_cast<std::uint32_t>(this->Ranks[i]);
       const std::uint32_t crossed = owner.EdgeMask &
         (this->Surface == 0 ? this->Hierarchy.Edges(rank) : this->Hierarchy.UpperEdges(rank));
-      for (const FineDomain::Edge& edge : owner.Edges)
-      {
-        const std::uint32_t holders = edge.Tetrahedra & this->There;
-        if (((crossed >> edge.OwnerEdge) & 1U) != 0 && holders != 0)
+      bool isTaken = true;
+      ForEachBit(crossed,
+        [&](int ownerEdge)
         {
-          this->Indices[i][edge.OwnerEdge] = static_cast<std::uint16_t>(this->Isovertices.size());
-          Isovertex& isovertex = this->Isovertices.emplace_back();
-          isovertex.Position =
-            this->InWorld(IsovertexAt(this->Hierarchy, place, rank, edge.OwnerEdge, this->Surface));
-          const Image image = this->ImageOf(edge.Around, holders, isNear, isovertex);
-          if (!this->IsTaken(image, mayMove))
+          const FineDomain::Edge& edge = owner.Edges[ownerEdge];
+          const std::uint32_t holders = edge.Tetrahedra & this->There;
+          if (holders != 0 && isTaken)
           {
-            return false;
+            this->Indices[i][ownerEdge] = static_cast<std::uint16_t>(this->Isovertices.size());
+            Isovertex& isovertex = this->Isovertices.emplace_back();
+            isovertex.Position =
+              this->InWorld(IsovertexAt(this->Hierarchy, place, rank, ownerEdge, this->Surface));
+            isTaken =
+              this->IsTaken(this->ImageOf(edge.Around, holders, isNear, isovertex), mayMove);
           }
-        }
+        });
+      if (!isTaken)
+      {
+        return false;
       }
     }
     return true;
@@ -359,6 +368,8 @@ private:
   int Count = 0;
   std::array<PatchTriangle, 16> Triangles;
   const FineDomain* Domain = nullptr;
+  Point WindowBrick{};
+  std::optional<BrickWindow> Window; ///< of the bricks of scale 0 around that one
   static constexpr int MostOwners = 125; ///< of scale 1
   std::array<std::int64_t, MostOwners> Ranks{};
   std::array<std::array<std::uint16_t, MaximumVertices>, MostOwners> Indices{}; ///< crossed edges'

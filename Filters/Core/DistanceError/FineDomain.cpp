@@ -99,7 +99,7 @@ FineDomain::Owner MakeOwner(
       ForEachBit(EdgesBetween(tetrahedra[holder].CornersAround(middle)),
         [&](int i) { around |= 1U << SpineEdgesOf(diamond.Position).OfTetrahedron[holder][i]; });
       owner.EdgeMask |= 1U << edge;
-      owner.Edges.push_back({ edge, holders, around });
+      owner.Edges[edge] = { holders, around };
     }
   }
   owner.IsOlder = diamond.Scale == 0 && shape.DiamondClass < ShapeOf(diamond.Position).DiamondClass;

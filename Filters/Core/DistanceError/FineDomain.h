@@ -21,7 +21,6 @@ struct FineDomain
   /** An edge, and the diamond's tetrahedra that hold it. */
   struct Edge
   {
-    std::uint8_t OwnerEdge = 0;   ///< of the owner's subdivision edges
     std::uint16_t Tetrahedra = 0; ///< mask of their numbers
     /** The edge of the tetrahedra that it lies on, or those of the triangle, as SpineEdges counts;
      *  none if it lies inside of a tetrahedron. */
@@ -32,7 +31,7 @@ struct FineDomain
   {
     Point Offset{};             ///< from the diamond, in samples
     std::uint32_t EdgeMask = 0; ///< of its subdivision edges, those in the domain
-    std::vector<Edge> Edges;    ///< by OwnerEdge
+    std::array<Edge, MaximumVertices> Edges{}; ///< those of the mask
     /** At scale 0, whether its edges are edges of the tetrahedra: their isovertices are corners of
      *  patches. */
     bool IsOlder = false;

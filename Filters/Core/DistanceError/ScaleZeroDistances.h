@@ -94,14 +94,15 @@ private:
     const std::uint32_t crossed = owner.EdgeMask &
       (this->Clusters.Surface() == 0 ? this->Hierarchy.Edges(rank)
                                      : this->Hierarchy.UpperEdges(rank));
-    for (const FineDomain::Edge& edge : owner.Edges)
-    {
-      if (((crossed >> edge.OwnerEdge) & 1U) != 0 && this->Clusters.IsWanted(place, edge.OwnerEdge))
+    ForEachBit(crossed,
+      [&](int edge)
       {
-        this->Located.push_back({ &edge,
-          IsovertexAt(this->Hierarchy, place, rank, edge.OwnerEdge, this->Clusters.Surface()) });
-      }
-    }
+        if (this->Clusters.IsWanted(place, edge))
+        {
+          this->Located.push_back({ &owner.Edges[edge],
+            IsovertexAt(this->Hierarchy, place, rank, edge, this->Clusters.Surface()) });
+        }
+      });
   }
 
   void Measure(const Place& diamond, std::uint32_t rank)
