@@ -139,6 +139,7 @@ public:
     fine.ForEachCell(cells,
       [&](const Point& /*cell*/, const auto& triangles)
       {
+        this->AddGroup();
         triangles([&](const FineSurface::Triangle& triangle) { this->Add(triangle); });
         return true;
       });
@@ -272,17 +273,22 @@ private:
     return static_cast<float>(4.00004 * squared * this->PerUnit * this->PerUnit);
   }
 
+  void AddGroup()
+  {
+    if (this->GroupCount == this->Groups.size())
+    {
+      this->Groups.resize(this->GroupCount + 64);
+    }
+    Group& next = this->Groups[this->GroupCount++];
+    next.Count = 0;
+    next.HasPlanes = false;
+  }
+
   void Add(const FineSurface::Triangle& triangle)
   {
-    if (this->GroupCount == 0 || this->Groups[this->GroupCount - 1].Count == 8)
+    if (this->Groups[this->GroupCount - 1].Count == 8)
     {
-      if (this->GroupCount == this->Groups.size())
-      {
-        this->Groups.resize(this->GroupCount + 64);
-      }
-      Group& next = this->Groups[this->GroupCount++];
-      next.Count = 0;
-      next.HasPlanes = false;
+      this->AddGroup();
     }
     Group& group = this->Groups[this->GroupCount - 1];
     group.Corners[group.Count++] = { this->InWorld(triangle[0]), this->InWorld(triangle[1]),

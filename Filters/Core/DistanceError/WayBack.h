@@ -492,7 +492,7 @@ private:
       return;
     }
     this->HasNearby = true;
-    const double reach = 1.25 * this->Known;
+    const double reach = std::min(1.25 * this->Known, 0.5 * this->InWorld.TypicalStep());
     std::array<Vector, 2> all = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL },
       { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
     for (int i = 0; i < this->HardCount; ++i)
