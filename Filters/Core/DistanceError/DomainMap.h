@@ -369,7 +369,7 @@ private:
   std::array<PatchTriangle, 16> Triangles;
   const FineDomain* Domain = nullptr;
   Point WindowBrick{};
-  std::optional<BrickWindow> Window; ///< of the bricks of scale 0 around that one
+  std::optional<BrickWindow> Window;     ///< of the bricks of scale 0 around that one
   static constexpr int MostOwners = 125; ///< of scale 1
   std::array<std::int64_t, MostOwners> Ranks{};
   std::array<std::array<std::uint16_t, MaximumVertices>, MostOwners> Indices{}; ///< crossed edges'

@@ -29,8 +29,8 @@ struct FineDomain
 
   struct Owner
   {
-    Point Offset{};             ///< from the diamond, in samples
-    std::uint32_t EdgeMask = 0; ///< of its subdivision edges, those in the domain
+    Point Offset{};                            ///< from the diamond, in samples
+    std::uint32_t EdgeMask = 0;                ///< of its subdivision edges, those in the domain
     std::array<Edge, MaximumVertices> Edges{}; ///< those of the mask
     /** At scale 0, whether its edges are edges of the tetrahedra: their isovertices are corners of
      *  patches. */

@@ -153,6 +153,10 @@ public:
    *  enough. */
   void FindNearer(const Vector& point, double squaredEnough, NearestTriangle& nearest)
   {
+    if (this->GroupCount == 0)
+    {
+      return;
+    }
     const Place from = this->InUnits(point);
     const float slack =
       1e-6F * (this->Extent + std::abs(from[0]) + std::abs(from[1]) + std::abs(from[2]));
@@ -168,15 +172,12 @@ public:
         least = std::min(least, away[j - i]);
       }
     }
-    if (this->GroupCount == 0)
-    {
-      return;
-    }
-    Search search{ point, from, slack, this->InUnits(nearest.Squared), nearest.Squared, nullptr };
+    Search search{ point, from, slack, this->SquaredInUnits(nearest.Squared), nearest.Squared,
+      nullptr };
     this->LookAt(first, search);
     for (std::size_t i = 0; i < this->GroupCount && search.Squared > squaredEnough; ++i)
     {
-      if (this->Away[i] <= search.Limit && i != first)
+      if (!(this->Away[i] > search.Limit) && i != first)
       {
         this->LookAt(i, search);
       }
@@ -195,7 +196,7 @@ private:
     const Vector& Point;
     Place From;
     float Slack;
-    float Limit; ///< what is more is farther
+    float Limit; ///< what is more is farther, but not what is not a number
     double Squared;
     const TriangleDistance* Found;
   };
@@ -218,13 +219,13 @@ private:
     const Eight away = group.Planes.Away(search.From, search.Slack);
     for (int i = 0; i < group.Count; ++i)
     {
-      if (away[i] <= search.Limit)
+      if (!(away[i] > search.Limit))
       {
         const double squared = group.Distances[i].Squared(search.Point);
         if (squared < search.Squared)
         {
           search.Squared = squared;
-          search.Limit = this->InUnits(squared);
+          search.Limit = this->SquaredInUnits(squared);
           search.Found = &group.Distances[i];
         }
       }
@@ -267,8 +268,8 @@ private:
     return { static_cast<float>(offset[0]), static_cast<float>(offset[1]),
       static_cast<float>(offset[2]) };
   }
-  /** Four times a squared length, as that of boxes. */
-  float InUnits(double squared) const
+  /** Four times a squared length, as the bounds are; and a little more. */
+  float SquaredInUnits(double squared) const
   {
     return static_cast<float>(4.00004 * squared * this->PerUnit * this->PerUnit);
   }
