@@ -6,7 +6,6 @@
 
 #include <cassert>
 #include <map>
-#include <utility>
 
 namespace isodiamond
 {
@@ -121,10 +120,10 @@ FineDomain MakeDomain(const Place& diamond)
     {
       for (offset[0] = -h; offset[0] <= h; ++offset[0])
       {
-        FineDomain::Owner owner = MakeOwner(diamond, tetrahedra, offset);
+        const FineDomain::Owner owner = MakeOwner(diamond, tetrahedra, offset);
         if (owner.EdgeMask != 0)
         {
-          domain.Owners.push_back(std::move(owner));
+          domain.Owners.push_back(owner);
         }
       }
     }

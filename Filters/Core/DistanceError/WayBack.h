@@ -324,7 +324,7 @@ private:
   {
     // Where so much is near, other sheets pass, too, and the nearest triangles tell as soon.
     const Vector middle = piece.Polygon.Middle();
-    if (4.0 * this->Known * this->Known > piece.Polygon.SquaredRadius(middle))
+    if (this->Known * this->Known > piece.Polygon.SquaredRadius(middle))
     {
       return false;
     }
