@@ -342,6 +342,73 @@ TEST(Simplification, CatchesSabotage)
   }
 }
 
+TEST(Simplification, MakesNoEdgeInTwoBlocks)
+{
+  // Needles that are cut in two in the middle, at a ring of four points. Both halves would like to
+  // be two triangles on these, with the same diagonal.
+  constexpr std::uint32_t needles = 40;
+  AllowedMesh before;
+  for (std::uint32_t i = 0; i < needles; ++i)
+  {
+    const double y = 10.0 * i;
+    const std::vector<Vector> points = { { 0, y - 1, 0 }, { 0, y, -1 }, { 0, y + 1, 0 },
+      { 0, y, 1 }, { -1000, y, 0 }, { 1000, y, 0 } };
+    before.Mesh.Positions.insert(before.Mesh.Positions.end(), points.begin(), points.end());
+    for (std::uint32_t k = 0; k < 4; ++k)
+    {
+      const std::uint32_t first = 6 * i;
+      const std::uint32_t here = first + k;
+      const std::uint32_t next = first + (k + 1) % 4;
+      before.Mesh.Triangles.push_back({ here, next, first + 4 });
+      before.Mesh.Triangles.push_back({ next, here, first + 5 });
+    }
+  }
+  before.Allowances.assign(before.Mesh.Triangles.size(), 1e5);
+  const Decimation flatten = [](const TriangleMesh& mesh, double)
+  {
+    std::vector<Triangle> triangles = mesh.Triangles;
+    if (triangles.size() > 4 * needles)
+    {
+      triangles.push_back(
+        { triangles[0][0], triangles[0][0], triangles[0][1] }); // to be cut in two
+      return triangles;
+    }
+    std::map<std::uint32_t, std::vector<Triangle>> halves; // by their point at the end
+    for (Triangle t : triangles)
+    {
+      while (std::abs(mesh.Positions[t[2]][0]) < 1.0)
+      {
+        std::rotate(t.begin(), t.begin() + 1, t.end());
+      }
+      halves[t[2]].push_back(t);
+    }
+    triangles.clear();
+    for (auto& [end, half] : halves)
+    {
+      if (half.size() != 4)
+      {
+        triangles.insert(triangles.end(), half.begin(), half.end());
+        continue;
+      }
+      // The ring from its lowest point on, in the half's own direction.
+      std::map<std::uint32_t, std::uint32_t> next;
+      for (const Triangle& t : half)
+      {
+        next[t[0]] = t[1];
+      }
+      const std::uint32_t a = next.begin()->first;
+      const std::uint32_t b = next[a];
+      const std::uint32_t c = next[b];
+      triangles.push_back({ a, b, c });
+      triangles.push_back({ a, c, next[c] });
+    }
+    return triangles;
+  };
+  const AllowedMesh after = Simplify(before, flatten, SerialFor);
+  EXPECT_TRUE(BorderOf(after.Mesh).empty());
+  EXPECT_EQ(test::TopologyOf(IdsOf(after.Mesh)), test::TopologyOf(IdsOf(before.Mesh)));
+}
+
 TEST(Simplification, FoldsNothingOver)
 {
   // Of a ball: every triangle faces away from its middle, whatever decimation does.

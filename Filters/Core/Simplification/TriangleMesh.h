@@ -23,6 +23,15 @@ struct TriangleMesh
   {
     return this->Positions[this->Triangles[triangle][i]];
   }
+  std::array<Vector, 3> Corners(std::size_t triangle) const
+  {
+    return { this->Corner(triangle, 0), this->Corner(triangle, 1), this->Corner(triangle, 2) };
+  }
+  Vector Middle(std::size_t triangle) const
+  {
+    const auto [a, b, c] = this->Corners(triangle);
+    return (1.0 / 3.0) * (a + b + c);
+  }
 };
 
 /**
