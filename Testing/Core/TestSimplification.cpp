@@ -440,6 +440,9 @@ TEST(Simplification, LeavesWhatHasNoAllowance)
   const AllowedMesh before = MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 0.0);
   const AllowedMesh after = Simplify(before, Reckless(1, 4), SerialFor);
   EXPECT_EQ(after.Mesh.Triangles.size(), before.Mesh.Triangles.size());
+  AllowedMesh hardly = before;
+  hardly.Allowances.assign(hardly.Allowances.size(), 1e-300);
+  EXPECT_TRUE(Simplify(hardly, Reckless(1, 4), SerialFor).Mesh.Triangles == before.Mesh.Triangles);
   EXPECT_TRUE(Simplify({}, Reckless(1, 4), SerialFor).Mesh.Triangles.empty());
 }
 

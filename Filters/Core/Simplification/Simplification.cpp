@@ -20,6 +20,12 @@ constexpr std::array<double, 4> Parts = { 0.25, 0.5, 0.75, 1.0 };
 /** Of what is allowed at most: where less is, a triangle is not given away at once. */
 constexpr double LeastPart = 0.25;
 
+/** Blocks have about so many triangles on average. */
+constexpr double TrianglesOfBlock = 16000.0;
+
+/** Allowances of less than this part of a triangle's length are none. */
+constexpr double LeastOfTypical = 1e-3;
+
 /** Larger blocks than this, in triangles, are cut in two where all trials were in vain. */
 constexpr std::size_t SmallestBlock = 250;
 
@@ -130,10 +136,9 @@ AllowedMesh SimplifyBlocks(const AllowedMesh& mesh, const Decimation& decimate, 
   return result;
 }
 
-/** The size of blocks that have about so many triangles on average. */
-double BlockSize(const TriangleMesh& mesh)
+/** The root of a triangle's mean area. */
+double TypicalLength(const TriangleMesh& mesh)
 {
-  constexpr double triangles = 16000.0;
   double area = 0.0;
   for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
   {
@@ -141,8 +146,7 @@ double BlockSize(const TriangleMesh& mesh)
       Cross(mesh.Corner(i, 1) - mesh.Corner(i, 0), mesh.Corner(i, 2) - mesh.Corner(i, 0));
     area += 0.5 * std::sqrt(Dot(normal, normal));
   }
-  // A surface that goes through a cube once has about its face's area there.
-  return std::sqrt(area * triangles / static_cast<double>(mesh.Triangles.size()));
+  return std::sqrt(area / static_cast<double>(mesh.Triangles.size()));
 }
 
 }
@@ -163,7 +167,13 @@ AllowedMesh Simplify(
   };
   constexpr std::array<Pass, 3> passes = { { { 1.0, 0.0, LeastAndMost }, { 1.0, 0.5, Most },
     { 1.6, 0.3, Most } } };
-  const double size = BlockSize(mesh.Mesh);
+  // A surface that goes through a cube once has about its face's area there.
+  const double typical = TypicalLength(mesh.Mesh);
+  const double size = std::sqrt(TrianglesOfBlock) * typical;
+  if (!(Most(mesh.Allowances).front() > LeastOfTypical * typical))
+  {
+    return mesh; // nothing to be saved, but much to be tried
+  }
   AllowedMesh result = mesh;
   for (const Pass& pass : passes)
   {
