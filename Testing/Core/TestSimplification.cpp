@@ -229,10 +229,10 @@ TEST(Simplification, DoesNotDependOnThreads)
 TEST(Simplification, HoldsTheAllowanceOfEachPlace)
 {
   const auto decimate = MeshOptimizer() ? MeshOptimizer() : Reckless(1, 10);
-  AllowedMesh before = MeshOf(test::WaveField({ 33, 33, 33 }), 0.0, 1.0);
+  AllowedMesh before = MeshOf(test::WaveField({ 21, 21, 21 }), 0.0, 1.0);
   for (std::size_t i = 0; i < before.Allowances.size(); ++i)
   {
-    before.Allowances[i] = before.Mesh.Corner(i, 0)[0] < 16.0 ? 0.05 : 1.0;
+    before.Allowances[i] = before.Mesh.Corner(i, 0)[0] < 10.0 ? 0.05 : 1.0;
   }
   const AllowedMesh after = Simplify(before, decimate, SerialFor);
   ExpectPromise(before, after, 1.0);
