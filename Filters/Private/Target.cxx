@@ -35,9 +35,9 @@ double RoundTolerance(double largest, int i)
   constexpr double digits[] = { 5.0, 2.0, 1.0 };
   double power = std::pow(10.0, std::floor(std::log10(largest)));
   int digit = 0;
-  while (digits[digit] * power > largest * (1.0 + 1e-9))
+  while (digit < 2 && digits[digit] * power > largest * (1.0 + 1e-9))
   {
-    ++digit; // 1 is never more than the largest
+    ++digit;
   }
   for (digit += i; digit >= 3; digit -= 3)
   {
