@@ -116,7 +116,7 @@ def points():
 
 def diamond_mesh():
     mesh = DiamondMesh(built())
-    mesh.ErrorTolerance = 60
+    mesh.ErrorTolerance = 1
     show(mesh)
 
 

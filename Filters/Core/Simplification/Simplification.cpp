@@ -66,19 +66,25 @@ void Append(const AllowedMesh& part, AllowedMesh& mesh)
   mesh.Allowances.insert(mesh.Allowances.end(), part.Allowances.begin(), part.Allowances.end());
 }
 
-/** The same in parts: where much goes wrong, less of it is tried again then. */
-AllowedMesh SimplifyInParts(const AllowedMesh& original, const Decimation& decimate, Choose choose)
+/** Simplifies the blocks of a mesh, each on its own. */
+AllowedMesh SimplifyEach(const AllowedMesh& mesh, const MeshBlocks& blocks,
+  const Decimation& decimate, Choose choose, const ParallelFor& parallelFor)
 {
+  std::vector<AllowedMesh> made(blocks.Count());
+  ForEachIndex(parallelFor, made.size(), 1,
+    [&](std::int64_t number)
+    {
+      std::vector<std::uint32_t> points;
+      const AllowedMesh block = TakeBlock(mesh, blocks, number, points);
+      made[number] = SimplifyBlock(block, decimate, choose);
+      made[number].Mesh.Positions.clear();
+      Rename(made[number].Mesh, points);
+    });
   AllowedMesh result;
-  result.Mesh.Positions = original.Mesh.Positions;
-  const MeshBlocks parts = CutInTwo(original.Mesh);
-  for (std::size_t i = 0; i < parts.Count(); ++i)
+  result.Mesh.Positions = mesh.Mesh.Positions;
+  for (const AllowedMesh& block : made)
   {
-    std::vector<std::uint32_t> points;
-    const AllowedMesh part = TakeBlock(original, parts, i, points);
-    AllowedMesh made = SimplifyBlock(part, decimate, choose);
-    Rename(made.Mesh, points);
-    Append(made, result);
+    Append(block, result);
   }
   return result;
 }
@@ -102,38 +108,16 @@ AllowedMesh SimplifyBlock(const AllowedMesh& original, const Decimation& decimat
       }
       if (allowed > 0.0 && !block.Decimate(decimate, part * allowed, std::move(kept)))
       {
-        return block.Result().Mesh.Triangles.size() > SmallestBlock
-          ? SimplifyInParts(block.Result(), decimate, part == Parts[0] ? choose : Most)
-          : block.Result();
+        // Where much goes wrong, less of it is tried again.
+        const AllowedMesh& rest = block.Result();
+        return rest.Mesh.Triangles.size() > SmallestBlock
+          ? SimplifyEach(
+              rest, CutInTwo(rest.Mesh), decimate, part == Parts[0] ? choose : Most, SerialFor)
+          : rest;
       }
     }
   }
   return block.Result();
-}
-
-/** One pass over all blocks. */
-AllowedMesh SimplifyBlocks(const AllowedMesh& mesh, const Decimation& decimate, double size,
-  double shift, Choose choose, const ParallelFor& parallelFor)
-{
-  const MeshBlocks blocks = CutIntoBlocks(mesh.Mesh, size, shift);
-  const std::size_t count = blocks.Count();
-  std::vector<AllowedMesh> made(count);
-  ForEachIndex(parallelFor, count, 1,
-    [&](std::int64_t number)
-    {
-      std::vector<std::uint32_t> points;
-      const AllowedMesh block = TakeBlock(mesh, blocks, number, points);
-      made[number] = SimplifyBlock(block, decimate, choose);
-      made[number].Mesh.Positions.clear();
-      Rename(made[number].Mesh, points);
-    });
-  AllowedMesh result;
-  result.Mesh.Positions = mesh.Mesh.Positions;
-  for (const AllowedMesh& block : made)
-  {
-    Append(block, result);
-  }
-  return result;
 }
 
 /** The root of a triangle's mean area. */
@@ -177,8 +161,8 @@ AllowedMesh Simplify(
   AllowedMesh result = mesh;
   for (const Pass& pass : passes)
   {
-    result = SimplifyBlocks(
-      result, decimate, pass.Size * size, pass.Shift, pass.ChooseAllowances, parallelFor);
+    const MeshBlocks blocks = CutIntoBlocks(result.Mesh, pass.Size * size, pass.Shift);
+    result = SimplifyEach(result, blocks, decimate, pass.ChooseAllowances, parallelFor);
   }
   return result;
 }
