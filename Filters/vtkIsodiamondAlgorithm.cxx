@@ -2,6 +2,7 @@
 #include "vtkIsodiamondAlgorithm.h"
 
 #include "Private/Format.h"
+#include "Private/Mesh.h"
 #include "Private/Piece.h"
 #include "Private/Target.h"
 #include "Private/WorldQuery.h"
@@ -14,6 +15,8 @@
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
 
 //------------------------------------------------------------------------------
 vtkIsodiamondAlgorithm::vtkIsodiamondAlgorithm()
@@ -28,6 +31,9 @@ void vtkIsodiamondAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
   os << indent << "TargetNumberOfTriangles: " << this->TargetNumberOfTriangles << "\n";
+  os << indent << "SimulationQuality: " << (this->SimulationQuality ? "On" : "Off") << "\n";
+  os << indent << "SmallestDihedralAngle: " << this->SmallestDihedralAngle << "\n";
+  os << indent << "LargestDihedralAngle: " << this->LargestDihedralAngle << "\n";
   os << indent << "AchievedTolerance: " << this->AchievedTolerance << "\n";
   os << indent << "UseRegionOfInterest: " << (this->UseRegionOfInterest ? "On" : "Off") << "\n";
   os << indent << "RegionOfInterest:";
@@ -82,6 +88,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
   vtkIsodiamond::WorldQuery query;
   query.ErrorTolerance = this->ErrorTolerance;
   query.HasTarget = this->TargetNumberOfTriangles > 0;
+  query.SimulationQuality = this->SimulationQuality;
   query.OutsideErrorTolerance = this->OutsideErrorTolerance;
   if (this->UseRegionOfInterest)
   {
@@ -121,6 +128,30 @@ void vtkIsodiamondAlgorithm::NoteTolerance(
 }
 
 //------------------------------------------------------------------------------
+void vtkIsodiamondAlgorithm::NoteDihedralAngles(
+  const vtkIsodiamond::Mesh& mesh, vtkDataObject* output)
+{
+  if (!mesh.DihedralAngles)
+  {
+    return;
+  }
+  const auto [smallest, largest] = *mesh.DihedralAngles;
+  const bool isFirst = this->LargestDihedralAngle == 0.0;
+  this->SmallestDihedralAngle =
+    isFirst ? smallest : std::min(this->SmallestDihedralAngle, smallest);
+  this->LargestDihedralAngle = std::max(this->LargestDihedralAngle, largest);
+  const auto add = [&](const char* name, double angle)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->InsertNextValue(angle);
+    output->GetFieldData()->AddArray(array);
+  };
+  add(vtkIsodiamond::format::SmallestDihedralAngle, smallest);
+  add(vtkIsodiamond::format::LargestDihedralAngle, largest);
+}
+
+//------------------------------------------------------------------------------
 vtkTypeBool vtkIsodiamondAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -139,6 +170,11 @@ vtkTypeBool vtkIsodiamondAlgorithm::ProcessRequest(
 int vtkIsodiamondAlgorithm::ModifyRequest(vtkInformation* request, int when)
 {
   vtkIsodiamond::NotePiece(this, request, when, this->Piece);
+  if (when == vtkExecutive::BeforeForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    this->SmallestDihedralAngle = 0.0;
+    this->LargestDihedralAngle = 0.0;
+  }
   return this->Superclass::ModifyRequest(request, when);
 }
 

@@ -20,6 +20,7 @@ class vtkDataObject;
 namespace vtkIsodiamond
 {
 struct CountedTolerance;
+struct Mesh;
 struct WorldQuery;
 }
 
@@ -55,6 +56,29 @@ public:
   /** The tolerance of the last mesh: ErrorTolerance, or what TargetNumberOfTriangles led to, which
    *  the mesh then has in its field data, too. 0 before the first one and after an error. */
   vtkGetMacro(AchievedTolerance, double);
+
+  ///@{
+  /**
+   * Tetrahedra for simulations, of an interval volume: vertices that are near to a surface move
+   * onto it before anything is cut, and what is still bad is improved, so that dihedral angles lie
+   * between 15 and 165 degrees wherever possible. There are fewer of them, too. Points on surfaces
+   * are points that the mesh would have had; its pieces, holes and tunnels stay, positive and
+   * conforming as it is. Surfaces move by up to half a cell where cells are of full resolution.
+   * With spacings that differ between the axes angles are worse. Making it takes much longer than
+   * the mesh alone. For isosurfaces an error. Default: off.
+   */
+  vtkSetMacro(SimulationQuality, bool);
+  vtkGetMacro(SimulationQuality, bool);
+  vtkBooleanMacro(SimulationQuality, bool);
+  ///@}
+
+  ///@{
+  /** The smallest and the largest dihedral angle of the last mesh with SimulationQuality, in
+   * degrees; of composite inputs of all blocks. Each mesh has its own in the field data, under
+   * these names. 0 without one. */
+  vtkGetMacro(SmallestDihedralAngle, double);
+  vtkGetMacro(LargestDihedralAngle, double);
+  ///@}
 
   ///@{
   /**
@@ -177,7 +201,13 @@ protected:
   void NoteTolerance(
     double tolerance, const vtkIsodiamond::CountedTolerance* aimed, vtkDataObject* output);
 
+  /** Puts the angles of a mesh for simulations where users can see them. */
+  void NoteDihedralAngles(const vtkIsodiamond::Mesh& mesh, vtkDataObject* output);
+
   double ErrorTolerance = 0.0;
+  bool SimulationQuality = false;
+  double SmallestDihedralAngle = 0.0;
+  double LargestDihedralAngle = 0.0;
   vtkIdType TargetNumberOfTriangles = 0;
   bool UseRegionOfInterest = false;
   double RegionOfInterest[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };

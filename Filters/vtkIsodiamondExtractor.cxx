@@ -366,6 +366,12 @@ vtkIsodiamond::Mesh vtkIsodiamondExtractor::MakeMesh(const vtkIsodiamond::State&
   // Nobody wants to see a surface in the colour of its isovalue.
   options.ValuesAreScalars = refined.Hierarchy().Region().IsVolume();
   options.PointsPrecision = this->OutputPointsPrecision;
+  if (query.SimulationQuality)
+  {
+    vtkIsodiamond::CheckSimulationQuality(refined.Hierarchy().Region().IsVolume());
+    vtkIsodiamond::SetSimulationQuality(
+      query, vtkIsodiamond::Measure(refined.Hierarchy()), options);
+  }
   if (state.Isodiamonds && !state.PointArrays.empty())
   {
     options.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
@@ -394,6 +400,7 @@ void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
                                 "data are for isosurfaces.");
   }
   const vtkIsodiamond::Mesh mesh = this->MakeMesh(state, query, refined, task);
+  this->NoteDihedralAngles(mesh, output);
   if (surface)
   {
     mesh.Give(surface);

@@ -97,6 +97,8 @@ void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   options.Hidden = &volume.Hidden;
   options.MorePointData = vtkIsodiamond::FromVolume(
     volume, { false, this->ComputeGradients != 0, this->InterpolateAttributes != 0 });
-  this->ExtractMesh(volume, this->GetRegions().front(), query, options, task)
-    .Give(vtkUnstructuredGrid::SafeDownCast(output), true);
+  const vtkIsodiamond::Mesh mesh =
+    this->ExtractMesh(volume, this->GetRegions().front(), query, options, task);
+  mesh.Give(vtkUnstructuredGrid::SafeDownCast(output), true);
+  this->NoteDihedralAngles(mesh, output);
 }

@@ -46,6 +46,8 @@ inline constexpr const char* StorageSize = "StorageSize";
 
 /** The same beside a mesh. */
 inline constexpr const char* AchievedTolerance = "AchievedTolerance";
+inline constexpr const char* SmallestDihedralAngle = "SmallestDihedralAngle";
+inline constexpr const char* LargestDihedralAngle = "LargestDihedralAngle";
 
 }
 

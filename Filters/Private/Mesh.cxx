@@ -5,6 +5,7 @@
 #include "Mesh/SurfaceExtraction.h"
 #include "Private/Arrays.h"
 #include "Private/Cells.h"
+#include "Private/Stuff.h"
 #include "Private/Tuples.h"
 
 #include "vtkCellArray.h"
@@ -191,6 +192,12 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
   else
   {
     AddValues<vtkFloatArray>(extraction, options.ArrayName, mesh);
+  }
+  if (options.ForSimulation)
+  {
+    AddMorePointData(extraction, options, mesh);
+    StuffMesh(extraction, refined.Hierarchy().SampleGrid(), options, parallelFor, mesh);
+    return;
   }
   Complete(extraction, options, mesh);
 }

@@ -12,6 +12,8 @@
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 
+#include <array>
+#include <optional>
 #include <string>
 
 class vtkCellArray;
@@ -29,6 +31,8 @@ struct Mesh
   vtkSmartPointer<vtkCellArray> Cells; ///< 32-bit storage where ids fit and all are kept
   vtkNew<vtkPointData> PointData;
   vtkNew<vtkCellData> CellData; ///< "Level"
+  /** The smallest and the largest, in degrees, of tetrahedra for simulations. */
+  std::optional<std::array<double, 2>> DihedralAngles;
 
   /** Hands it to a data set. */
   void Give(vtkPolyData* triangles) const;
@@ -47,6 +51,8 @@ struct MeshOptions
   int PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;
   PointDataMaker MorePointData = nullptr;
   const isodiamond::HiddenCells* Hidden = nullptr; ///< what lies in them is left out
+  bool ForSimulation = false;                      ///< see Stuff.h; of an interval volume
+  double DistanceTolerance = 0.0; ///< how far its surfaces may be from where they were
 };
 
 /** Extracts a mesh. Runs in the calling thread's vtkSMPTools scope. */

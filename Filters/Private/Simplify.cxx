@@ -120,6 +120,21 @@ void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume)
   }
 }
 
+void CheckSimulationQuality(bool isVolume)
+{
+  if (!isVolume)
+  {
+    throw std::invalid_argument("SimulationQuality is for interval volumes, not for isosurfaces.");
+  }
+}
+
+void SetSimulationQuality(const WorldQuery& query, const Measure& measure, MeshOptions& options)
+{
+  options.ForSimulation = query.SimulationQuality;
+  options.DistanceTolerance =
+    measure.Metric == isodiamond::ErrorMetric::Distance ? query.ErrorTolerance : 0.0;
+}
+
 WorldQuery BeforeSimplifying(
   const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
 {
@@ -181,11 +196,17 @@ Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const Worl
     CheckSimplify(measure.Metric, hierarchy.Region().IsVolume());
     extracted = BeforeSimplifying(query, measure, options.World);
   }
+  MeshOptions asked = options;
+  if (query.SimulationQuality)
+  {
+    CheckSimulationQuality(hierarchy.Region().IsVolume());
+    SetSimulationQuality(query, measure, asked);
+  }
   task.Begin("Refining", 0.0, 0.3);
   const isodiamond::RefinedSet refined(
     hierarchy, CoreQuery(extracted, hierarchy, options.World), task.For());
   Task extracting = task.Part(0.3, query.Simplify ? 0.5 : 1.0);
-  Mesh mesh = ExtractMesh(refined, options, extracting);
+  Mesh mesh = ExtractMesh(refined, asked, extracting);
   if (query.Simplify)
   {
     task.Begin("Simplifying", 0.5, 1.0);

@@ -43,8 +43,9 @@ struct WorldQuery
   std::optional<isodiamond::Shape> Shape;
   std::optional<double> Isovalue;
   std::optional<std::array<double, 2>> Isorange;
-  bool PreserveTopology = false; ///< of an HD
-  bool Simplify = false;         ///< see Simplify.h
+  bool PreserveTopology = false;  ///< of an HD
+  bool Simplify = false;          ///< see Simplify.h
+  bool SimulationQuality = false; ///< see Stuff.h
 
   /** Whether it is for full resolution, whatever errors are. */
   bool IsFull() const

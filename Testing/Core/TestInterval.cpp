@@ -21,6 +21,18 @@ PatchSigns SignsOf(int code)
   return { code % 3, code / 3 % 3, code / 9 % 3, code / 27 };
 }
 
+PatchStates MovedStatesOf(int code)
+{
+  return { code % 5, code / 5 % 5, code / 25 % 5, code / 125 };
+}
+
+/** Whether nothing, or nothing that has a volume, is in range. */
+bool IsFlat(const PatchStates& states)
+{
+  return *std::max_element(states.begin(), states.end()) <= OnLower ||
+    *std::min_element(states.begin(), states.end()) >= OnUpper;
+}
+
 }
 
 TEST(IntervalPatches, HaveTheNumbersOfTetrahedraThatTheSearchPromises)
@@ -72,14 +84,25 @@ TEST(IntervalPatches, CasesByWordsAreThoseOneByOne)
 
 // Random places of the isovertices, random tetrahedra: all volumes positive, their sum that of the
 // part in range, which is what two planar cuts leave when the isovertices are linear.
+TEST(IntervalPatches, AreThoseOfVerticesThatDidNotMove)
+{
+  for (int code = 0; code < 81; ++code)
+  {
+    const auto& patches = MovedPatches()[MovedCase(StatesOf(SignsOf(code)))];
+    EXPECT_EQ(
+      IntervalPatches()[code], patches.empty() ? std::vector<PatchTetrahedron>{} : patches.front());
+  }
+}
+
 TEST(IntervalPatches, FillWhatIsInRangeWithPositiveTetrahedra)
 {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (int code = 0; code < 81; ++code)
+  for (int code = 0; code < 625; ++code)
   {
-    const PatchSigns signs = SignsOf(code);
-    for (int trial = 0; trial < 200; ++trial)
+    const PatchStates signs = MovedStatesOf(code);
+    EXPECT_EQ(MovedPatches()[code].empty(), IsFlat(signs)) << code;
+    for (int trial = 0; trial < 60; ++trial)
     {
       // Coefficients from the younger end; close to the ends in a part of the trials.
       std::map<int, double> along;
@@ -112,52 +135,69 @@ TEST(IntervalPatches, FillWhatIsInRangeWithPositiveTetrahedra)
         }
         return position;
       };
-      for (const PatchTetrahedron& tetrahedron : IntervalPatches()[code])
+      for (const std::vector<PatchTetrahedron>& patch : MovedPatches()[code])
       {
-        test::Volume one;
-        for (const PatchPoint& point : tetrahedron)
+        for (const PatchTetrahedron& tetrahedron : patch)
         {
-          one.Points.push_back(place(point));
+          test::Volume one;
+          for (const PatchPoint& point : tetrahedron)
+          {
+            one.Points.push_back(place(point));
+          }
+          ASSERT_GT(test::Determinant(one, { 0, 1, 2, 3 }), 0.0) << "case " << code;
         }
-        ASSERT_GT(test::Determinant(one, { 0, 1, 2, 3 }), 0.0) << "case " << code;
       }
     }
   }
 }
 
-TEST(IntervalPatches, MeetTheFansOfTheFaces)
+namespace
 {
-  for (int code = 0; code < 81; ++code)
+
+/** How often each triangle is a face of a patch's tetrahedra. */
+std::map<std::array<PatchPoint, 3>, int> CountFaces(const std::vector<PatchTetrahedron>& patch)
+{
+  std::map<std::array<PatchPoint, 3>, int> faces;
+  for (const PatchTetrahedron& tetrahedron : patch)
   {
-    const PatchSigns signs = SignsOf(code);
-    std::map<std::array<PatchPoint, 3>, int> faces;
-    for (const PatchTetrahedron& tetrahedron : IntervalPatches()[code])
-    {
-      for (int opposite = 0; opposite < 4; ++opposite)
-      {
-        std::array<PatchPoint, 3> face{};
-        std::copy_if(tetrahedron.begin(), tetrahedron.end(), face.begin(),
-          [&](const PatchPoint& point) { return !(point == tetrahedron[opposite]); });
-        std::sort(face.begin(), face.end());
-        ++faces[face];
-      }
-    }
     for (int opposite = 0; opposite < 4; ++opposite)
     {
-      std::vector<PatchPoint> polygon = FacePolygon(signs, opposite);
-      if (polygon.empty())
+      std::array<PatchPoint, 3> face{};
+      std::copy_if(tetrahedron.begin(), tetrahedron.end(), face.begin(),
+        [&](const PatchPoint& point) { return !(point == tetrahedron[opposite]); });
+      std::sort(face.begin(), face.end());
+      ++faces[face];
+    }
+  }
+  return faces;
+}
+
+}
+
+TEST(IntervalPatches, MeetTheFansOfTheFaces)
+{
+  for (int code = 0; code < 625; ++code)
+  {
+    for (const std::vector<PatchTetrahedron>& patch : MovedPatches()[code])
+    {
+      std::map<std::array<PatchPoint, 3>, int> faces = CountFaces(patch);
+      for (int opposite = 0; opposite < 4; ++opposite)
       {
-        continue;
-      }
-      const PatchPoint smallest = *std::min_element(polygon.begin(), polygon.end());
-      for (std::size_t i = 0; i < polygon.size(); ++i)
-      {
-        std::array<PatchPoint, 3> face = { smallest, polygon[i],
-          polygon[(i + 1) % polygon.size()] };
-        if (!(face[1] == smallest) && !(face[2] == smallest))
+        const std::vector<PatchPoint> polygon = FacePolygon(MovedStatesOf(code), opposite);
+        if (polygon.empty())
         {
-          std::sort(face.begin(), face.end());
-          EXPECT_EQ(faces[face], 1) << "case " << code;
+          continue;
+        }
+        const PatchPoint smallest = *std::min_element(polygon.begin(), polygon.end());
+        for (std::size_t i = 0; i < polygon.size(); ++i)
+        {
+          std::array<PatchPoint, 3> face = { smallest, polygon[i],
+            polygon[(i + 1) % polygon.size()] };
+          if (!(face[1] == smallest) && !(face[2] == smallest))
+          {
+            std::sort(face.begin(), face.end());
+            EXPECT_EQ(faces[face], 1) << "case " << code;
+          }
         }
       }
     }

@@ -92,6 +92,8 @@ public:
   /** Points and cells of all bricks. */
   const Counts& Total() const { return this->First.back(); }
 
+  std::int64_t BrickCount() const { return static_cast<std::int64_t>(this->Bricks.size()); }
+
   bool HasPoints(std::int64_t brick) const
   {
     return this->First[brick + 1].Points > this->First[brick].Points;

@@ -3,6 +3,7 @@
 #define isodiamond_IntervalExtraction_h
 
 #include "Field/AffineMap.h"
+#include "Mesh/CutMesh.h"
 #include "Mesh/ExtractionPasses.h"
 #include "Mesh/MeshPoints.h"
 
@@ -65,6 +66,9 @@ public:
    */
   template <typename Id>
   void WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const;
+
+  /** The leaves before they are cut. @param hidden cells, or null */
+  CutMesh Leaves(const HiddenCells* hidden) const { return MakeCutMesh(this->Passes, hidden); }
 
 private:
   ExtractionPasses Passes;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Patches/IntervalPatches.h"
 
-#include "Field/Isoregion.h"
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -32,15 +30,16 @@ int PermutationSign(const std::array<int, 4>& vertices)
 }
 
 /** Appends the isovertices on the way from one vertex to another. */
-void AddCrossings(const PatchSigns& signs, int from, int to, std::vector<PatchPoint>& points)
+void AddCrossings(const PatchStates& states, int from, int to, std::vector<PatchPoint>& points)
 {
-  for (int surface = signs[from]; surface < signs[to]; ++surface)
+  const bool rises = states[from] < states[to];
+  for (const int surface : { rises ? 0 : 1, rises ? 1 : 0 })
   {
-    points.push_back(PatchPoint::Isovertex(from, to, surface));
-  }
-  for (int surface = signs[from] - 1; surface >= signs[to]; --surface)
-  {
-    points.push_back(PatchPoint::Isovertex(from, to, surface));
+    const int on = StateOn(surface);
+    if ((states[from] < on && states[to] > on) || (states[from] > on && states[to] < on))
+    {
+      points.push_back(PatchPoint::Isovertex(from, to, surface));
+    }
   }
 }
 
@@ -58,31 +57,39 @@ void AddFan(std::vector<PatchPoint> polygon, std::vector<Triangle>& triangles)
   }
 }
 
-/** The polygon on a surface: its edges are the ends of the faces' polygons, turned round. */
-std::vector<PatchPoint> SurfacePolygon(const PatchSigns& signs, int surface)
+/** The polygon on a surface: the edges there that only one face's polygon has, turned round. */
+std::vector<PatchPoint> SurfacePolygon(const PatchStates& states, int surface)
 {
-  std::vector<std::array<PatchPoint, 2>> edges;
-  const auto isOnSurface = [surface](const PatchPoint& point)
-  { return !point.IsVertex() && point.Surface() == surface; };
+  using Edge = std::array<PatchPoint, 2>;
+  std::vector<Edge> all;
   for (int opposite = 0; opposite < 4; ++opposite)
   {
-    const std::vector<PatchPoint> face = FacePolygon(signs, opposite);
+    const std::vector<PatchPoint> face = FacePolygon(states, opposite);
     for (std::size_t i = 0; i < face.size(); ++i)
     {
-      const PatchPoint& next = face[(i + 1) % face.size()];
-      const bool sameEdge = face[i].Younger() == next.Younger() && face[i].Older() == next.Older();
-      if (isOnSurface(face[i]) && isOnSurface(next) && !sameEdge)
-      {
-        edges.push_back({ next, face[i] });
-      }
+      all.push_back({ face[i], face[(i + 1) % face.size()] });
+    }
+  }
+  const auto isOnSurface = [&](const PatchPoint& point)
+  {
+    return point.IsVertex() ? states[point.Younger()] == StateOn(surface)
+                            : point.Surface() == surface;
+  };
+  std::vector<Edge> edges;
+  for (const Edge& edge : all)
+  {
+    const bool isShared = std::find(all.begin(), all.end(), Edge{ edge[1], edge[0] }) != all.end();
+    if (!isShared && isOnSurface(edge[0]) && isOnSurface(edge[1]))
+    {
+      edges.push_back({ edge[1], edge[0] });
     }
   }
   std::vector<PatchPoint> polygon;
   while (!edges.empty() && polygon.size() < edges.size())
   {
     const PatchPoint last = polygon.empty() ? edges[0][0] : polygon.back();
-    const auto edge = std::find_if(edges.begin(), edges.end(),
-      [&](const std::array<PatchPoint, 2>& candidate) { return candidate[0] == last; });
+    const auto edge = std::find_if(
+      edges.begin(), edges.end(), [&](const Edge& candidate) { return candidate[0] == last; });
     polygon.push_back((*edge)[1]);
   }
   return polygon;
@@ -92,8 +99,8 @@ std::vector<PatchPoint> SurfacePolygon(const PatchSigns& signs, int surface)
 class PatchSearch
 {
 public:
-  PatchSearch(const PatchSigns& signs, const std::vector<Triangle>& boundary)
-    : Signs(signs)
+  PatchSearch(const PatchStates& states, const std::vector<Triangle>& boundary)
+    : States(states)
     , Front(boundary)
   {
     for (const Triangle& triangle : boundary)
@@ -126,7 +133,7 @@ private:
     {
       // Triangles of the front point outward, so the tetrahedron lies on the other side.
       const PatchTetrahedron tetrahedron = { base[0], base[2], base[1], apex };
-      if (SafeOrientation(this->Signs, tetrahedron) == 1)
+      if (SafeOrientation(this->States, tetrahedron) == 1)
       {
         this->Front = front;
         this->Remove(base, apex);
@@ -176,53 +183,73 @@ private:
     return false;
   }
 
-  const PatchSigns& Signs;
+  const PatchStates& States;
   std::vector<PatchPoint> Points;
   std::vector<Triangle> Front;
   std::vector<PatchTetrahedron> Tetrahedra;
 };
 
-/** The fewest safe tetrahedra, over both diagonals of every quadrilateral on a surface. */
-std::vector<PatchTetrahedron> FindPatch(const PatchSigns& signs)
+/** The faces, and the polygons on the surfaces as fans from their first or second points. */
+std::vector<Triangle> BoundaryOf(const PatchStates& states, int diagonals)
 {
-  std::vector<Triangle> faces;
+  std::vector<Triangle> boundary;
   for (int opposite = 0; opposite < 4; ++opposite)
   {
-    AddFan(FacePolygon(signs, opposite), faces);
+    AddFan(FacePolygon(states, opposite), boundary);
   }
-  if (faces.empty())
+  for (int surface = 0; surface < 2; ++surface)
   {
-    return {};
+    const std::vector<PatchPoint> polygon = SurfacePolygon(states, surface);
+    const int first = (diagonals >> surface) & 1;
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    {
+      boundary.push_back({ polygon[first], polygon[(first + i) % polygon.size()],
+        polygon[(first + i + 1) % polygon.size()] });
+    }
+  }
+  return boundary;
+}
+
+/** Whether there is a choice of diagonals on a surface. */
+bool HasDiagonals(const PatchStates& states, int surface)
+{
+  return SurfacePolygon(states, surface).size() > 3;
+}
+
+/** The fewest safe tetrahedra, over both diagonals of every quadrilateral on a surface: all choices
+ *  that get by with so few, the first one first. */
+std::vector<std::vector<PatchTetrahedron>> FindPatches(const PatchStates& states)
+{
+  const auto [low, high] = std::minmax_element(states.begin(), states.end());
+  if (*low >= OnUpper || *high <= OnLower)
+  {
+    return {}; // nothing, or flat
   }
   constexpr int most = 6;
-  for (int size = 1; size <= most; ++size)
+  std::vector<std::vector<PatchTetrahedron>> found;
+  for (int size = 1; size <= most && found.empty(); ++size)
   {
     for (int diagonals = 0; diagonals < 4; ++diagonals)
     {
-      std::vector<Triangle> boundary = faces;
-      for (int surface = 0; surface < 2; ++surface)
+      const bool isAnother = ((diagonals & 1) == 0 || HasDiagonals(states, 0)) &&
+        ((diagonals & 2) == 0 || HasDiagonals(states, 1));
+      PatchSearch search(states, BoundaryOf(states, diagonals));
+      if (isAnother && search.Run(size))
       {
-        const std::vector<PatchPoint> polygon = SurfacePolygon(signs, surface);
-        const int first = (diagonals >> surface) & 1;
-        for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-        {
-          boundary.push_back({ polygon[first], polygon[(first + i) % polygon.size()],
-            polygon[(first + i + 1) % polygon.size()] });
-        }
-      }
-      PatchSearch search(signs, boundary);
-      if (search.Run(size))
-      {
-        return search.Result();
+        found.push_back(search.Result());
       }
     }
   }
-  throw std::logic_error("an interval patch has no safe triangulation");
+  if (found.empty())
+  {
+    throw std::logic_error("an interval patch has no safe triangulation");
+  }
+  return found;
 }
 
 }
 
-int SafeOrientation(const PatchSigns& signs, const PatchTetrahedron& points)
+int SafeOrientation(const PatchStates& states, const PatchTetrahedron& points)
 {
   // The orientation is linear in the place of every isovertex on its edge, so its sign is constant
   // if it is at all combinations of the edges' ends, where the points are vertices again and it is
@@ -244,8 +271,8 @@ int SafeOrientation(const PatchSigns& signs, const PatchTetrahedron& points)
         if (!point.IsVertex() && point.Younger() == other.Younger() &&
           point.Older() == other.Older() && point.Surface() < other.Surface())
         {
-          // The lower isovertex at the end with the lower sign, the upper one at the other.
-          const bool oldIsLower = signs[point.Older()] < signs[point.Younger()];
+          // The lower isovertex at the end that lies lower, the upper one at the other.
+          const bool oldIsLower = states[point.Older()] < states[point.Younger()];
           valid = valid && old == oldIsLower && (((ends >> j) & 1) != 0) == !oldIsLower;
         }
       }
@@ -260,7 +287,7 @@ int SafeOrientation(const PatchSigns& signs, const PatchTetrahedron& points)
   return orientation;
 }
 
-std::vector<PatchPoint> FacePolygon(const PatchSigns& signs, int opposite)
+std::vector<PatchPoint> FacePolygon(const PatchStates& states, int opposite)
 {
   // Anticlockwise from outside of a positive tetrahedron.
   constexpr std::array<std::array<int, 3>, 4> faces = { { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 },
@@ -270,13 +297,14 @@ std::vector<PatchPoint> FacePolygon(const PatchSigns& signs, int opposite)
   {
     const int from = faces[opposite][i];
     const int to = faces[opposite][(i + 1) % 3];
-    if (signs[from] == InsideSign)
+    if (IsInRange(states[from]))
     {
       polygon.push_back(PatchPoint::Vertex(from));
     }
-    AddCrossings(signs, from, to, polygon);
+    AddCrossings(states, from, to, polygon);
   }
-  return polygon;
+  // Vertices on a surface alone make no polygon.
+  return polygon.size() < 3 ? std::vector<PatchPoint>{} : polygon;
 }
 
 const std::array<std::vector<PatchTetrahedron>, 81>& IntervalPatches()
@@ -286,7 +314,25 @@ const std::array<std::vector<PatchTetrahedron>, 81>& IntervalPatches()
     std::array<std::vector<PatchTetrahedron>, 81> all;
     for (int code = 0; code < 81; ++code)
     {
-      all[code] = FindPatch({ code % 3, code / 3 % 3, code / 9 % 3, code / 27 });
+      const auto found = FindPatches(StatesOf({ code % 3, code / 3 % 3, code / 9 % 3, code / 27 }));
+      if (!found.empty())
+      {
+        all[code] = found.front();
+      }
+    }
+    return all;
+  }();
+  return patches;
+}
+
+const std::array<std::vector<std::vector<PatchTetrahedron>>, 625>& MovedPatches()
+{
+  static const std::array<std::vector<std::vector<PatchTetrahedron>>, 625> patches = []
+  {
+    std::array<std::vector<std::vector<PatchTetrahedron>>, 625> all;
+    for (int code = 0; code < 625; ++code)
+    {
+      all[code] = FindPatches({ code % 5, code / 5 % 5, code / 25 % 5, code / 125 });
     }
     return all;
   }();

@@ -71,6 +71,35 @@ using PatchTetrahedron = std::array<PatchPoint, 4>;
 /** Signs of the vertices 0 to 3, as Isoregion::SignOf gives them for an isorange. */
 using PatchSigns = std::array<int, 4>;
 
+/** Where a vertex is: twice its sign, or between two, on a surface, if it has been moved there. */
+enum VertexState : int
+{
+  BelowLower = 0,
+  OnLower = 1,
+  BetweenSurfaces = 2,
+  OnUpper = 3,
+  AboveUpper = 4
+};
+
+/** The state of being on a surface. */
+inline constexpr int StateOn(int surface)
+{
+  return 1 + 2 * surface;
+}
+
+inline constexpr bool IsInRange(int state)
+{
+  return state != BelowLower && state != AboveUpper;
+}
+
+/** States of the vertices 0 to 3. */
+using PatchStates = std::array<int, 4>;
+
+inline constexpr PatchStates StatesOf(const PatchSigns& signs)
+{
+  return { 2 * signs[0], 2 * signs[1], 2 * signs[2], 2 * signs[3] };
+}
+
 inline constexpr int PatchCase(const PatchSigns& signs)
 {
   return signs[0] + 3 * (signs[1] + 3 * (signs[2] + 3 * signs[3]));
@@ -79,13 +108,26 @@ inline constexpr int PatchCase(const PatchSigns& signs)
 /** The tetrahedra of all 81 cases; found once, by the search. */
 const std::array<std::vector<PatchTetrahedron>, 81>& IntervalPatches();
 
+inline constexpr int MovedCase(const PatchStates& states)
+{
+  return states[0] + 5 * (states[1] + 5 * (states[2] + 5 * states[3]));
+}
+
+/**
+ * The same where vertices may be on surfaces, for all 625 cases of states: points of the surface
+ * that they are on, which has no isovertices on their edges then. Safe as long as a moved vertex
+ * leaves the tetrahedron positive, and isovertices on the straight lines between the vertices.
+ * Where a diagonal on a surface can be chosen there is a tetrahedralization for each.
+ */
+const std::array<std::vector<std::vector<PatchTetrahedron>>, 625>& MovedPatches();
+
 /** The orientation of a tetrahedron of points, relative to (0, 1, 2, 3), if it is the same wherever
  *  the isovertices are: 1 or -1; 0 if it is not. */
-int SafeOrientation(const PatchSigns& signs, const PatchTetrahedron& points);
+int SafeOrientation(const PatchStates& states, const PatchTetrahedron& points);
 
 /** The polygon in range on the face that lies opposite to a vertex, seen from outside of a positive
  *  tetrahedron anticlockwise; empty if nothing is. */
-std::vector<PatchPoint> FacePolygon(const PatchSigns& signs, int opposite);
+std::vector<PatchPoint> FacePolygon(const PatchStates& states, int opposite);
 
 }
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_CutMesh_h
+#define isodiamond_CutMesh_h
+
+#include "Field/HiddenCells.h"
+#include "Mesh/ExtractionPasses.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The leaves of an interval volume before they are cut: for whoever cuts them otherwise.
+ *
+ * Points are those of the interval volume's mesh (see IntervalExtraction): its vertices inside, and
+ * its isovertices, where surfaces cut edges.
+ */
+struct CutMesh
+{
+  static constexpr std::uint32_t None = 0xffffffff;
+
+  struct Vertex
+  {
+    Point Position{};           ///< in index space
+    std::int8_t Sign = 0;       ///< 0, 1, 2: below, inside, above
+    bool IsHidden = false;      ///< whether it is a corner of a hidden cell
+    std::uint32_t PointId = None; ///< in the mesh; only of vertices inside
+  };
+
+  struct Tetrahedron
+  {
+    std::array<std::uint32_t, 4> Vertices{}; ///< from the youngest to the oldest
+    /** On the edges in the order of EdgeByAge(): the isovertices on the lower and the upper
+     *  surface, points of the mesh or None. */
+    std::array<std::array<std::uint32_t, 2>, 6> Cuts{};
+    bool IsOdd = false; ///< whether it is negative in index space, in the order of its vertices
+    std::int8_t Level = 0;
+  };
+
+  std::vector<Vertex> Vertices;
+  std::vector<Tetrahedron> Tetrahedra;
+};
+
+/** The index in CutMesh::Tetrahedron::Cuts of the edge between two vertices. */
+inline constexpr int CutEdge(int younger, int older)
+{
+  return younger + older - (younger == 0 ? 1 : 0);
+}
+
+/** Collects the leaves of a volume's passes that carry something and are not hidden. */
+CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden);
+
+}
+
+#endif

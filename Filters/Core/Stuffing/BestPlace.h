@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_BestPlace_h
+#define isodiamond_BestPlace_h
+
+#include "Stuffing/TetrahedronMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** The faces opposite to a point in its tetrahedra. */
+class PointStar
+{
+public:
+  /** Adds a tetrahedron that has the point in the place of one of its corners. */
+  void Add(const TetrahedronMesh& mesh, const Corners& corners, std::uint32_t point)
+  {
+    const auto own = std::find(corners.begin(), corners.end(), point) - corners.begin();
+    // Even permutations bring it to the front.
+    static constexpr std::array<std::array<int, 3>, 4> others = { { { 1, 2, 3 }, { 0, 3, 2 },
+      { 0, 1, 3 }, { 0, 2, 1 } } };
+    const std::array<int, 3>& face = others[own];
+    this->Faces.push_back({ mesh.Positions[corners[face[0]]], mesh.Positions[corners[face[1]]],
+      mesh.Positions[corners[face[2]]] });
+  }
+
+  /** The smallest sine of the tetrahedra with the point at a place; any that is small enough, if
+   *  it is not more than what is of interest. */
+  double WorstAt(const Vector& place, double interesting)
+  {
+    double worst = 1.0;
+    for (std::array<Vector, 3>& face : this->Faces)
+    {
+      worst = std::min(worst, SmallestSine(place, face[0], face[1], face[2]));
+      if (worst <= interesting)
+      {
+        std::swap(face, this->Faces.front()); // the next place most likely fails there, too
+        return worst;
+      }
+    }
+    return worst;
+  }
+
+  Vector Mean() const
+  {
+    Vector sum{};
+    for (const std::array<Vector, 3>& face : this->Faces)
+    {
+      sum = sum + face[0] + face[1] + face[2];
+    }
+    return (1.0 / (3.0 * static_cast<double>(this->Faces.size()))) * sum;
+  }
+
+  /** The distance of the nearest corner. */
+  double Radius(const Vector& place) const
+  {
+    double squared = HUGE_VAL;
+    for (const std::array<Vector, 3>& face : this->Faces)
+    {
+      for (const Vector& corner : face)
+      {
+        squared = std::min(squared, Dot(corner - place, corner - place));
+      }
+    }
+    return std::sqrt(squared);
+  }
+
+private:
+  std::vector<std::array<Vector, 3>> Faces;
+};
+
+/** A place for a point, and the smallest sine around it there. */
+struct PlacedPoint
+{
+  Vector Place{};
+  double Sine = 0.0;
+};
+
+/** Looks for a better place for a point, until all around it is as wanted: first in the middle of
+ *  its star, then in steps that get smaller. @param walls that it stays on */
+PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
+  const std::array<Vector, 3>& axes, double wanted);
+
+}
+
+#endif

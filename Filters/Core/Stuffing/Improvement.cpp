@@ -1,0 +1,585 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/Improvement.h"
+
+#include "Patches/PatchDistance.h"
+#include "Stuffing/BestPlace.h"
+#include "Stuffing/LocalMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** Passes over what is bad; most is done in two. */
+constexpr int MostPasses = 10;
+/** Less is no improvement. */
+constexpr double LeastGain = 1e-3;
+/** A new point has to be worth it. */
+constexpr double LeastGainOfPoint = 0.01;
+/** Edges with more tetrahedra around them stay. */
+constexpr std::size_t MostAround = 7;
+/** The least cosine between the normals of a surface's triangles whose common edge is turned. */
+constexpr double LeastCosine = 0.5;
+
+/** A change that has been tried. */
+struct Change
+{
+  enum Kinds
+  {
+    None,
+    Move,     ///< of Point to Place
+    Collapse, ///< of the edge from Point to Other into Other
+    Replace,  ///< of Old by Fresh
+    Split     ///< as Replace, with Fresh around a new point, written as NewPoint, at Place
+  };
+  static constexpr std::uint32_t NewPoint = LocalMesh::None;
+
+  Kinds Kind = None;
+  double Sine = -1.0; ///< the smallest of what it makes
+  std::uint32_t Point = 0;
+  std::uint32_t Other = 0;
+  Vector Place{};
+  Walls::Type OnWalls = 0;
+  std::vector<std::uint32_t> Old;
+  std::vector<Corners> Fresh;
+};
+
+class Improver
+{
+public:
+  Improver(TetrahedronMesh mesh, const ImprovementOptions& options)
+    : Mesh(std::move(mesh))
+    , Options(options)
+    , Wanted(std::sin(options.WantedAngle / 57.29577951308232))
+  {
+  }
+
+  void Run()
+  {
+    std::vector<std::uint32_t> bad(this->Mesh.Mesh().Tetrahedra.size());
+    std::iota(bad.begin(), bad.end(), 0U);
+    for (int pass = 0; pass < MostPasses && !bad.empty(); ++pass)
+    {
+      bad = this->WorstFirst(bad);
+      std::vector<std::uint32_t> changed;
+      for (const std::uint32_t tetrahedron : bad)
+      {
+        if (this->IsBad(tetrahedron) && this->IsWorthATry(tetrahedron))
+        {
+          const std::size_t before = changed.size();
+          this->ImproveAt(tetrahedron, changed);
+          this->NoteChange(tetrahedron, changed.data() + before, changed.data() + changed.size());
+        }
+      }
+      if (changed.empty())
+      {
+        return;
+      }
+      bad.insert(bad.end(), changed.begin(), changed.end());
+    }
+  }
+
+  TetrahedronMesh Take() { return this->Mesh.Take(); }
+
+private:
+  bool IsBad(std::uint32_t tetrahedron) const
+  {
+    return this->Mesh.IsAlive(tetrahedron) && this->Mesh.SineOf(tetrahedron) < this->Wanted;
+  }
+
+  /** Whether anything has changed around a tetrahedron since it was tried. */
+  bool IsWorthATry(std::uint32_t tetrahedron) const
+  {
+    const auto tried = this->Tried.find(tetrahedron);
+    const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+    return tried == this->Tried.end() ||
+      std::any_of(corners.begin(), corners.end(),
+        [&](std::uint32_t point)
+        {
+          const auto touched = this->Touched.find(point);
+          return touched != this->Touched.end() && touched->second > tried->second;
+        });
+  }
+
+  void NoteChange(std::uint32_t tetrahedron, const std::uint32_t* first, const std::uint32_t* last)
+  {
+    this->Tried[tetrahedron] = this->Changes;
+    if (first != last)
+    {
+      ++this->Changes;
+      for (; first != last; ++first)
+      {
+        for (const std::uint32_t point : this->Mesh.CornersOf(*first))
+        {
+          this->Touched[point] = this->Changes;
+        }
+      }
+    }
+  }
+
+  std::vector<std::uint32_t> WorstFirst(const std::vector<std::uint32_t>& all) const
+  {
+    std::vector<std::uint32_t> bad;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(bad),
+      [&](std::uint32_t tetrahedron) { return this->IsBad(tetrahedron); });
+    std::sort(bad.begin(), bad.end());
+    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+    std::stable_sort(bad.begin(), bad.end(),
+      [&](std::uint32_t a, std::uint32_t b)
+      { return this->Mesh.SineOf(a) < this->Mesh.SineOf(b); });
+    return bad;
+  }
+
+  /** Does the best change that there is. */
+  void ImproveAt(std::uint32_t tetrahedron, std::vector<std::uint32_t>& changed)
+  {
+    const Corners corners = this->Mesh.CornersOf(tetrahedron);
+    this->Best = Change();
+    this->Least = this->Mesh.SineOf(tetrahedron) + LeastGain;
+    for (const std::uint32_t point : corners)
+    {
+      this->TryToMove(point);
+    }
+    this->ForEachEdge(corners,
+      [&](std::uint32_t a, std::uint32_t b)
+      {
+        this->TryToCollapse(a, b);
+        this->TryToCollapse(b, a);
+      });
+    this->ForEachEdge(
+      corners, [&](std::uint32_t a, std::uint32_t b) { this->TryToRemoveEdge(a, b); });
+    for (const std::uint32_t point : corners)
+    {
+      this->TryToRemoveFace(tetrahedron, point);
+    }
+    if (this->Best.Kind == Change::None)
+    {
+      this->ForEachEdge(corners, [&](std::uint32_t a, std::uint32_t b) { this->TryToSplit(a, b); });
+    }
+    this->Do(this->Best, changed);
+  }
+
+  template <typename Body>
+  static void ForEachEdge(const Corners& corners, Body&& body)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = i + 1; j < 4; ++j)
+      {
+        body(corners[i], corners[j]);
+      }
+    }
+  }
+
+  void Do(const Change& change, std::vector<std::uint32_t>& changed)
+  {
+    switch (change.Kind)
+    {
+      case Change::None:
+        break;
+      case Change::Move:
+        this->Mesh.Move(change.Point, change.Place);
+        changed.insert(changed.end(), this->Mesh.StarOf(change.Point).begin(),
+          this->Mesh.StarOf(change.Point).end());
+        break;
+      case Change::Collapse:
+        this->Mesh.Collapse(change.Point, change.Other, changed);
+        break;
+      case Change::Replace:
+        this->Mesh.Replace(change.Old, change.Fresh, changed);
+        break;
+      case Change::Split:
+        this->Split(change, changed);
+        break;
+    }
+  }
+
+  void Split(const Change& change, std::vector<std::uint32_t>& changed)
+  {
+    const std::uint32_t point =
+      this->Mesh.AddPoint(0.5 * (this->Mesh.At(change.Point) + this->Mesh.At(change.Other)),
+        change.OnWalls, { { change.Point, 0.5 }, { change.Other, 0.5 } });
+    std::vector<Corners> fresh = change.Fresh;
+    for (Corners& corners : fresh)
+    {
+      std::replace(corners.begin(), corners.end(), Change::NewPoint, point);
+    }
+    this->Mesh.Replace(change.Old, fresh, changed);
+    this->Mesh.Move(point, change.Place);
+  }
+
+  /** Whether a change of what was worst at a sine would be the best one so far. Beyond what is
+   *  wanted it need not get better than it was. */
+  bool IsBetter(double sine, double before, double gain = LeastGain) const
+  {
+    return sine > this->Least && sine > this->Best.Sine &&
+      sine > std::min(before + gain, this->Wanted);
+  }
+
+  //--- Moves ------------------------------------------------------------------
+
+  void TryToMove(std::uint32_t point)
+  {
+    if (this->Mesh.Mesh().Surfaces[point] != 0)
+    {
+      return;
+    }
+    PointStar star;
+    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
+    {
+      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
+    }
+    const double before = this->Mesh.WorstAround(point);
+    const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
+      this->Options.Axes, this->Wanted);
+    if (this->IsBetter(best.Sine, before) && best.Sine > before + LeastGain)
+    {
+      this->Best = Change();
+      this->Best.Kind = Change::Move;
+      this->Best.Sine = best.Sine;
+      this->Best.Point = point;
+      this->Best.Place = best.Place;
+    }
+  }
+
+  //--- Edges that shrink ------------------------------------------------------
+
+  void TryToCollapse(std::uint32_t from, std::uint32_t to)
+  {
+    double sine = 1.0;
+    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(from))
+    {
+      Corners corners = this->Mesh.CornersOf(tetrahedron);
+      if (!LocalMesh::Has(corners, to))
+      {
+        std::replace(corners.begin(), corners.end(), from, to);
+        sine = std::min(sine, this->Mesh.SineOf(corners));
+        if (sine <= std::max(this->Least, this->Best.Sine))
+        {
+          return;
+        }
+      }
+    }
+    if (this->IsBetter(sine, this->Mesh.WorstAround(from)) && this->Mesh.CanCollapse(from, to) &&
+      this->StaysNear(from, to))
+    {
+      this->Best = Change();
+      this->Best.Kind = Change::Collapse;
+      this->Best.Sine = sine;
+      this->Best.Point = from;
+      this->Best.Other = to;
+    }
+  }
+
+  /** Whether a surface stays near to where it was, and is not folded, when a point on it goes. */
+  bool StaysNear(std::uint32_t from, std::uint32_t to) const
+  {
+    if (this->Mesh.Mesh().Surfaces[from] == 0)
+    {
+      return true;
+    }
+    using Sides = std::array<Vector, 3>;
+    std::vector<Sides> before;
+    std::vector<Sides> after;
+    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(from))
+    {
+      const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+      for (const std::uint32_t apex : corners)
+      {
+        std::vector<std::uint32_t> face;
+        std::copy_if(corners.begin(), corners.end(), std::back_inserter(face),
+          [&](std::uint32_t corner) { return corner != apex; });
+        if (apex == from || this->Mesh.PlaceOfFace(face[0], face[1], face[2]) < Walls::Fixed ||
+          this->Mesh.CountAt(face[0], face[1], face[2]) != 1)
+        {
+          continue;
+        }
+        const bool stays = std::find(face.begin(), face.end(), to) == face.end();
+        before.push_back(
+          { this->Mesh.At(face[0]), this->Mesh.At(face[1]), this->Mesh.At(face[2]) });
+        std::replace(face.begin(), face.end(), from, to);
+        if (stays)
+        {
+          after.push_back(
+            { this->Mesh.At(face[0]), this->Mesh.At(face[1]), this->Mesh.At(face[2]) });
+          if (Dot(NormalOf(before.back()), NormalOf(after.back())) <= 0.0)
+          {
+            return false;
+          }
+        }
+      }
+    }
+    const auto isNear = [&](const Vector& point, const std::vector<Sides>& triangles)
+    {
+      return std::any_of(triangles.begin(), triangles.end(),
+        [&](const Sides& corners)
+        {
+          return TriangleDistance(corners[0], corners[1], corners[2]).Squared(point) <=
+            this->Options.SurfaceMove * this->Options.SurfaceMove;
+        });
+    };
+    return isNear(this->Mesh.At(from), after) &&
+      std::all_of(after.begin(), after.end(),
+        [&](const Sides& corners)
+        { return isNear((1.0 / 3.0) * (corners[0] + corners[1] + corners[2]), before); });
+  }
+
+  static Vector NormalOf(const std::array<Vector, 3>& corners)
+  {
+    return Cross(corners[1] - corners[0], corners[2] - corners[0]);
+  }
+
+  //--- Edges and faces that go ------------------------------------------------
+
+  void TryToRemoveEdge(std::uint32_t a, std::uint32_t b)
+  {
+    LocalMesh::Ring ring;
+    if (!this->Mesh.FindRing(a, b, MostAround, ring) || ring.Points.size() < 3 ||
+      (!ring.IsClosed && !this->CanTurn(a, b, ring)))
+    {
+      return;
+    }
+    double before = 1.0;
+    for (const std::uint32_t tetrahedron : ring.Tetrahedra)
+    {
+      before = std::min(before, this->Mesh.SineOf(tetrahedron));
+    }
+    std::vector<Corners> fresh;
+    const double sine = this->FillRing(a, b, ring.Points, fresh);
+    if (this->IsBetter(sine, before) && sine > before + LeastGain && this->AreNew(ring, fresh))
+    {
+      this->TakeReplacement(sine, ring.Tetrahedra, std::move(fresh));
+    }
+  }
+
+  /** Whether an edge of the boundary can be replaced by the one across, near and on the same. */
+  bool CanTurn(std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring) const
+  {
+    const std::uint32_t c = ring.Points.front();
+    const std::uint32_t d = ring.Points.back();
+    const int place = this->Mesh.PlaceOfFace(a, b, c);
+    if (place == 0 || (place & Walls::Fixed) != 0 || place != this->Mesh.PlaceOfFace(a, b, d) ||
+      place != this->Mesh.PlaceOfFace(a, c, d) || place != this->Mesh.PlaceOfFace(b, c, d))
+    {
+      return false;
+    }
+    if (place < Walls::Fixed)
+    {
+      return true;
+    }
+    const Vector first = NormalOf({ this->Mesh.At(a), this->Mesh.At(b), this->Mesh.At(c) });
+    const Vector second = NormalOf({ this->Mesh.At(b), this->Mesh.At(a), this->Mesh.At(d) });
+    const Vector across =
+      Cross(this->Mesh.At(b) - this->Mesh.At(a), this->Mesh.At(d) - this->Mesh.At(c));
+    const double height =
+      std::abs(Dot(across, this->Mesh.At(c) - this->Mesh.At(a))) / std::sqrt(Dot(across, across));
+    return height <= this->Options.SurfaceMove &&
+      Dot(first, second) > LeastCosine * std::sqrt(Dot(first, first) * Dot(second, second));
+  }
+
+  /** The best way to fill what is around an edge without it: triangles between the points around,
+   *  each with both ends (Klincsek's dynamic programme). @return the smallest sine */
+  double FillRing(std::uint32_t a, std::uint32_t b, const std::vector<std::uint32_t>& ring,
+    std::vector<Corners>& fresh) const
+  {
+    constexpr std::size_t most = MostAround + 1;
+    const int count = static_cast<int>(ring.size());
+    std::array<std::array<double, most>, most> sines{};
+    std::array<std::array<int, most>, most> middles{};
+    for (int i = 0; i + 1 < count; ++i)
+    {
+      sines[i][i + 1] = 1.0;
+    }
+    for (int length = 2; length < count; ++length)
+    {
+      for (int i = 0; i + length < count; ++i)
+      {
+        const int k = i + length;
+        sines[i][k] = -HUGE_VAL;
+        for (int j = i + 1; j < k; ++j)
+        {
+          const double sine = std::min(
+            { sines[i][j], sines[j][k], this->Mesh.SineOf(Corners{ ring[i], ring[j], ring[k], b }),
+              this->Mesh.SineOf(Corners{ ring[i], ring[k], ring[j], a }) });
+          if (sine > sines[i][k])
+          {
+            sines[i][k] = sine;
+            middles[i][k] = j;
+          }
+        }
+      }
+    }
+    std::vector<std::pair<int, int>> open = { { 0, count - 1 } };
+    while (!open.empty())
+    {
+      const auto [i, k] = open.back();
+      open.pop_back();
+      if (k - i < 2)
+      {
+        continue;
+      }
+      const int j = middles[i][k];
+      fresh.push_back({ ring[i], ring[j], ring[k], b });
+      fresh.push_back({ ring[i], ring[k], ring[j], a });
+      open.emplace_back(i, j);
+      open.emplace_back(j, k);
+    }
+    return sines[0][count - 1];
+  }
+
+  /** Whether edges, and a lone triangle, between points around an edge are not in the mesh yet, and
+   *  everybody can tell what is on a surface. */
+  bool AreNew(const LocalMesh::Ring& ring, const std::vector<Corners>& fresh) const
+  {
+    const std::vector<std::uint32_t>& points = ring.Points;
+    if (std::any_of(fresh.begin(), fresh.end(),
+          [&](const Corners& corners) { return this->Mesh.IsAmbiguous(corners); }))
+    {
+      return false;
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      for (std::size_t j = i + 2; j < points.size(); ++j)
+      {
+        const bool isSide = ring.IsClosed && i == 0 && j + 1 == points.size();
+        const bool isUsed = std::any_of(fresh.begin(), fresh.end(),
+          [&](const Corners& corners)
+          { return LocalMesh::Has(corners, points[i]) && LocalMesh::Has(corners, points[j]); });
+        if (!isSide && isUsed && this->Mesh.HasEdge(points[i], points[j]))
+        {
+          return false;
+        }
+      }
+    }
+    return points.size() > 3 || this->Mesh.CountAt(points[0], points[1], points[2]) == 0;
+  }
+
+  /** Two tetrahedra on both sides of the face opposite to a point become three. */
+  void TryToRemoveFace(std::uint32_t tetrahedron, std::uint32_t apex)
+  {
+    const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+    std::array<std::uint32_t, 3> face{};
+    std::copy_if(corners.begin(), corners.end(), face.begin(),
+      [&](std::uint32_t corner) { return corner != apex; });
+    const LocalMesh::Star star = this->Mesh.StarOf(face[0]);
+    const auto other = std::find_if(star.begin(), star.end(),
+      [&](std::uint32_t candidate)
+      {
+        const Corners& points = this->Mesh.CornersOf(candidate);
+        return candidate != tetrahedron && LocalMesh::Has(points, face[1]) &&
+          LocalMesh::Has(points, face[2]);
+      });
+    if (other == star.end())
+    {
+      return;
+    }
+    const Corners& beyond = this->Mesh.CornersOf(*other);
+    const std::uint32_t far = *std::find_if(beyond.begin(), beyond.end(),
+      [&](std::uint32_t corner)
+      { return std::find(face.begin(), face.end(), corner) == face.end(); });
+    if (SixVolumes(this->Mesh.At(face[0]), this->Mesh.At(face[1]), this->Mesh.At(face[2]),
+          this->Mesh.At(apex)) < 0.0)
+    {
+      std::swap(face[1], face[2]);
+    }
+    double sine = 1.0;
+    std::vector<Corners> fresh;
+    for (int i = 0; i < 3; ++i)
+    {
+      fresh.push_back({ far, apex, face[(i + 1) % 3], face[i] });
+      sine = std::min(sine, this->Mesh.SineOf(fresh.back()));
+    }
+    const double before = std::min(this->Mesh.SineOf(tetrahedron), this->Mesh.SineOf(*other));
+    if (this->IsBetter(sine, before) && sine > before + LeastGain && !this->Mesh.HasEdge(apex, far))
+    {
+      this->TakeReplacement(sine, { tetrahedron, *other }, std::move(fresh));
+    }
+  }
+
+  void TakeReplacement(double sine, std::vector<std::uint32_t> old, std::vector<Corners> fresh)
+  {
+    this->Best = Change();
+    this->Best.Kind = Change::Replace;
+    this->Best.Sine = sine;
+    this->Best.Old = std::move(old);
+    this->Best.Fresh = std::move(fresh);
+  }
+
+  //--- New points -------------------------------------------------------------
+
+  /** Puts a point into the middle of an edge, inside or in a wall, and moves it. */
+  void TryToSplit(std::uint32_t a, std::uint32_t b)
+  {
+    LocalMesh::Ring ring;
+    if (!this->Mesh.FindRing(a, b, MostAround, ring))
+    {
+      return;
+    }
+    int place = 0;
+    if (!ring.IsClosed)
+    {
+      place = this->Mesh.PlaceOfFace(a, b, ring.Points.front());
+      if (place == 0 || place >= Walls::Fixed ||
+        place != this->Mesh.PlaceOfFace(a, b, ring.Points.back()))
+      {
+        return;
+      }
+    }
+    double before = 1.0;
+    PointStar star;
+    Change split;
+    for (const std::uint32_t tetrahedron : ring.Tetrahedra)
+    {
+      before = std::min(before, this->Mesh.SineOf(tetrahedron));
+      for (const std::uint32_t end : { a, b })
+      {
+        Corners corners = this->Mesh.CornersOf(tetrahedron);
+        star.Add(this->Mesh.Mesh(), corners, end);
+        std::replace(corners.begin(), corners.end(), end, Change::NewPoint);
+        split.Fresh.push_back(corners);
+      }
+    }
+    const auto walls = static_cast<Walls::Type>(place);
+    const PlacedPoint best = BestPlace(
+      star, 0.5 * (this->Mesh.At(a) + this->Mesh.At(b)), walls, this->Options.Axes, this->Wanted);
+    if (this->IsBetter(best.Sine, before, LeastGainOfPoint) &&
+      best.Sine > before + LeastGainOfPoint)
+    {
+      split.Kind = Change::Split;
+      split.Sine = best.Sine;
+      split.Point = a;
+      split.Other = b;
+      split.Place = best.Place;
+      split.OnWalls = walls;
+      split.Old = ring.Tetrahedra;
+      this->Best = std::move(split);
+    }
+  }
+
+  LocalMesh Mesh;
+  const ImprovementOptions& Options;
+  double Wanted; ///< sine
+  Change Best;
+  double Least = 0.0; ///< that a change has to exceed
+  int Changes = 0;
+  /** How many changes there were when a tetrahedron was tried last, and a point touched. */
+  std::unordered_map<std::uint32_t, int> Tried, Touched;
+};
+
+}
+
+TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options)
+{
+  Improver improver(std::move(mesh), options);
+  improver.Run();
+  return improver.Take();
+}
+
+}

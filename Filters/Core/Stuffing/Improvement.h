@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Improvement_h
+#define isodiamond_Improvement_h
+
+#include "Stuffing/TetrahedronMesh.h"
+
+namespace isodiamond
+{
+
+/** What an improvement may do. */
+struct ImprovementOptions
+{
+  /** The dihedral angle in degrees that all shall have, and by which they shall be less than 180.
+   */
+  double WantedAngle = 15.0;
+  /** How far a surface may get from where it was, at one change. */
+  double SurfaceMove = 0.0;
+  /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
+  std::array<Vector, 3> Axes{};
+};
+
+/**
+ * Improves the worst tetrahedra of a mesh, by changes of their neighbourhood.
+ *
+ * For a tetrahedron with a bad angle all of these are tried, and what makes the worst of the
+ * tetrahedra that it touches best is done: a point moves, inside or on a wall; an edge shrinks into
+ * one of its ends; an edge goes, and what is around it is filled without; two tetrahedra become
+ * three around an edge through their common face; and, if none of these helps, an edge gets a point
+ * in its middle, which is moved. Nothing is done unless that worst one gets better. Points on
+ * surfaces stay where they are, or go.
+ *
+ * The worst come first; order and result do not depend on anything but the mesh. Topology is that
+ * of before (LocalMesh.h). Klingner & Shewchuk, "Aggressive tetrahedral mesh improvement" (2007),
+ * do the same with more of it.
+ */
+TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options);
+
+}
+
+#endif

@@ -1,0 +1,491 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/LocalMesh.h"
+
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace isodiamond
+{
+namespace
+{
+
+using Edge = std::array<std::uint32_t, 2>;
+using Face = std::array<std::uint32_t, 3>;
+
+/** Sorts, and leaves each once. */
+template <typename Item>
+void MakeSet(std::vector<Item>& items)
+{
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+template <typename Item>
+std::vector<Item> Common(const std::vector<Item>& a, const std::vector<Item>& b)
+{
+  std::vector<Item> common;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+  return common;
+}
+
+Edge MakeEdge(std::uint32_t a, std::uint32_t b)
+{
+  return { std::min(a, b), std::max(a, b) };
+}
+
+/** The face opposite to a corner, sorted. */
+Face Opposite(const Corners& corners, std::uint32_t point)
+{
+  Face face{};
+  std::copy_if(corners.begin(), corners.end(), face.begin(),
+    [&](std::uint32_t corner) { return corner != point; });
+  std::sort(face.begin(), face.end());
+  return face;
+}
+
+/** The link of a point: vertices, edges and triangles. */
+struct Link
+{
+  std::vector<std::uint32_t> Points;
+  std::vector<Edge> Edges;
+  std::vector<Face> Faces;
+
+  Link(const LocalMesh& mesh, std::uint32_t point)
+  {
+    for (const std::uint32_t tetrahedron : mesh.StarOf(point))
+    {
+      const Face face = Opposite(mesh.CornersOf(tetrahedron), point);
+      this->Faces.push_back(face);
+      for (int i = 0; i < 3; ++i)
+      {
+        this->Points.push_back(face[i]);
+        this->Edges.push_back(MakeEdge(face[i], face[(i + 1) % 3]));
+      }
+    }
+    MakeSet(this->Points);
+    MakeSet(this->Edges);
+    MakeSet(this->Faces);
+  }
+};
+
+/** The edges opposite to a point of the triangles of the boundary there. */
+std::vector<Edge> BoundaryLink(const LocalMesh& mesh, std::uint32_t point)
+{
+  std::vector<Edge> edges;
+  for (const std::uint32_t tetrahedron : mesh.StarOf(point))
+  {
+    const Face face = Opposite(mesh.CornersOf(tetrahedron), point);
+    for (int i = 0; i < 3; ++i)
+    {
+      if (mesh.CountAt(point, face[i], face[(i + 1) % 3]) == 1)
+      {
+        edges.push_back(MakeEdge(face[i], face[(i + 1) % 3]));
+      }
+    }
+  }
+  return edges;
+}
+
+std::vector<std::uint32_t> EndsOf(const std::vector<Edge>& edges)
+{
+  std::vector<std::uint32_t> ends;
+  for (const Edge& edge : edges)
+  {
+    ends.insert(ends.end(), edge.begin(), edge.end());
+  }
+  MakeSet(ends);
+  return ends;
+}
+
+/** What of the boundary a point's triangles lie on. */
+int PlacesAround(const LocalMesh& mesh, std::uint32_t point, const std::vector<Edge>& link)
+{
+  int places = 0;
+  for (const Edge& edge : link)
+  {
+    places |= mesh.PlaceOfFace(point, edge[0], edge[1]);
+  }
+  return places;
+}
+
+/** The link condition of the boundary: an edge of it, whose ends have no other neighbours in common
+ *  there, and which lies on everything that the point lies on that goes. */
+bool CanCollapseOnBoundary(const LocalMesh& mesh, std::uint32_t from, std::uint32_t to)
+{
+  const std::vector<Edge> link = BoundaryLink(mesh, from);
+  if (link.empty())
+  {
+    return true;
+  }
+  std::vector<std::uint32_t> across; // the third points of the edge's triangles
+  for (const Edge& edge : link)
+  {
+    if (edge[0] == to || edge[1] == to)
+    {
+      across.push_back(edge[0] == to ? edge[1] : edge[0]);
+    }
+  }
+  MakeSet(across);
+  if (across.size() != 2 || Common(EndsOf(link), EndsOf(BoundaryLink(mesh, to))) != across)
+  {
+    return false;
+  }
+  return PlacesAround(mesh, from, link) ==
+    (mesh.PlaceOfFace(from, to, across[0]) | mesh.PlaceOfFace(from, to, across[1]));
+}
+
+}
+
+LocalMesh::LocalMesh(TetrahedronMesh mesh)
+  : TheMesh(std::move(mesh))
+  , First(TheMesh.Positions.size() + 1)
+  , Stars(4 * TheMesh.Tetrahedra.size())
+  , Changed(TheMesh.Positions.size(), None)
+  , BlendOf(TheMesh.Positions.size(), None)
+{
+  this->Sines.reserve(this->TheMesh.Tetrahedra.size());
+  for (const Corners& corners : this->TheMesh.Tetrahedra)
+  {
+    this->Sines.push_back(this->SineOf(corners));
+    for (const std::uint32_t point : corners)
+    {
+      ++this->First[point + 1];
+    }
+  }
+  for (std::size_t i = 1; i < this->First.size(); ++i)
+  {
+    this->First[i] += this->First[i - 1];
+  }
+  std::vector<std::uint32_t> next(this->First.begin(), this->First.end() - 1);
+  for (std::uint32_t i = 0; i < this->TheMesh.Tetrahedra.size(); ++i)
+  {
+    for (const std::uint32_t point : this->TheMesh.Tetrahedra[i])
+    {
+      this->Stars[next[point]++] = i;
+    }
+  }
+}
+
+LocalMesh::Star LocalMesh::StarOf(std::uint32_t point) const
+{
+  if (this->Changed[point] != None)
+  {
+    const std::vector<std::uint32_t>& star = this->ChangedStars[this->Changed[point]];
+    return { star.data(), star.data() + star.size() };
+  }
+  return { this->Stars.data() + this->First[point], this->Stars.data() + this->First[point + 1] };
+}
+
+std::vector<std::uint32_t>& LocalMesh::OwnStarOf(std::uint32_t point)
+{
+  if (this->Changed[point] == None)
+  {
+    const Star star = this->StarOf(point);
+    this->Changed[point] = static_cast<std::uint32_t>(this->ChangedStars.size());
+    this->ChangedStars.emplace_back(star.begin(), star.end());
+  }
+  return this->ChangedStars[this->Changed[point]];
+}
+
+double LocalMesh::WorstAround(std::uint32_t point) const
+{
+  double worst = 1.0;
+  for (const std::uint32_t tetrahedron : this->StarOf(point))
+  {
+    worst = std::min(worst, this->Sines[tetrahedron]);
+  }
+  return worst;
+}
+
+bool LocalMesh::HasEdge(std::uint32_t a, std::uint32_t b) const
+{
+  const Star star = this->StarOf(a);
+  return std::any_of(star.begin(), star.end(),
+    [&](std::uint32_t tetrahedron) { return Has(this->CornersOf(tetrahedron), b); });
+}
+
+int LocalMesh::CountAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
+{
+  const Star star = this->StarOf(a);
+  return static_cast<int>(std::count_if(star.begin(), star.end(),
+    [&](std::uint32_t tetrahedron)
+    { return Has(this->CornersOf(tetrahedron), b) && Has(this->CornersOf(tetrahedron), c); }));
+}
+
+int LocalMesh::PlaceOfFace(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
+{
+  const std::vector<Walls::Type>& walls = this->TheMesh.OnWalls;
+  const std::vector<std::int8_t>& surfaces = this->TheMesh.Surfaces;
+  const int common = walls[a] & walls[b] & walls[c];
+  if (common == 0 && surfaces[a] != 0 && surfaces[a] == surfaces[b] && surfaces[b] == surfaces[c])
+  {
+    return surfaces[a] < 0 ? LowerSurface : UpperSurface;
+  }
+  return common;
+}
+
+bool LocalMesh::IsAmbiguous(const Corners& corners) const
+{
+  for (const std::uint32_t apex : corners)
+  {
+    const Face face = Opposite(corners, apex);
+    const std::int8_t surface = this->TheMesh.Surfaces[face[0]];
+    if (surface != 0 && surface == this->TheMesh.Surfaces[face[1]] &&
+      surface == this->TheMesh.Surfaces[face[2]] &&
+      (this->TheMesh.OnWalls[face[0]] & this->TheMesh.OnWalls[face[1]] &
+        this->TheMesh.OnWalls[face[2]]) != 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool LocalMesh::CanCollapse(std::uint32_t from, std::uint32_t to) const
+{
+  const Walls::Type walls = this->TheMesh.OnWalls[from];
+  const std::int8_t surface = this->TheMesh.Surfaces[from];
+  if ((walls & Walls::Fixed) != 0 || (walls & ~this->TheMesh.OnWalls[to]) != 0 ||
+    (surface != 0 && surface != this->TheMesh.Surfaces[to]))
+  {
+    return false;
+  }
+  // What the links have in common must be the link of the edge.
+  std::vector<Edge> edges;
+  for (const std::uint32_t tetrahedron : this->StarOf(from))
+  {
+    const Corners& corners = this->CornersOf(tetrahedron);
+    if (Has(corners, to))
+    {
+      const Face face = Opposite(corners, from);
+      Edge edge{};
+      std::copy_if(
+        face.begin(), face.end(), edge.begin(), [&](std::uint32_t corner) { return corner != to; });
+      edges.push_back(edge);
+      continue;
+    }
+    Corners fresh = corners;
+    std::replace(fresh.begin(), fresh.end(), from, to);
+    if (this->IsAmbiguous(fresh))
+    {
+      return false;
+    }
+  }
+  MakeSet(edges);
+  const Link ofFrom(*this, from);
+  const Link ofTo(*this, to);
+  return !edges.empty() && Common(ofFrom.Points, ofTo.Points) == EndsOf(edges) &&
+    Common(ofFrom.Edges, ofTo.Edges) == edges && Common(ofFrom.Faces, ofTo.Faces).empty() &&
+    CanCollapseOnBoundary(*this, from, to);
+}
+
+bool LocalMesh::FindRing(std::uint32_t a, std::uint32_t b, std::size_t most, Ring& ring) const
+{
+  ring.Points.clear();
+  ring.Tetrahedra.clear();
+  std::vector<Edge> steps;
+  for (const std::uint32_t tetrahedron : this->StarOf(a))
+  {
+    const Corners& corners = this->CornersOf(tetrahedron);
+    if (Has(corners, b))
+    {
+      Edge step{};
+      std::copy_if(corners.begin(), corners.end(), step.begin(),
+        [&](std::uint32_t corner) { return corner != a && corner != b; });
+      if (SixVolumes(this->At(a), this->At(b), this->At(step[0]), this->At(step[1])) < 0.0)
+      {
+        std::swap(step[0], step[1]);
+      }
+      ring.Tetrahedra.push_back(tetrahedron);
+      steps.push_back(step);
+    }
+  }
+  if (steps.empty() || steps.size() > most)
+  {
+    return false;
+  }
+  const auto stepTo = [&](std::uint32_t point)
+  {
+    return std::find_if(
+      steps.begin(), steps.end(), [&](const Edge& step) { return step[1] == point; });
+  };
+  const auto stepFrom = [&](std::uint32_t point)
+  {
+    return std::find_if(
+      steps.begin(), steps.end(), [&](const Edge& step) { return step[0] == point; });
+  };
+  std::uint32_t at = steps[0][0];
+  for (std::size_t i = 0; i < steps.size() && stepTo(at) != steps.end(); ++i)
+  {
+    at = (*stepTo(at))[0];
+  }
+  ring.IsClosed = stepTo(at) != steps.end();
+  ring.Points = { at };
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    const auto step = stepFrom(at);
+    if (step == steps.end())
+    {
+      return false; // several paths
+    }
+    at = (*step)[1];
+    ring.Points.push_back(at);
+  }
+  if (ring.IsClosed)
+  {
+    ring.Points.pop_back();
+    return at == ring.Points.front();
+  }
+  return true;
+}
+
+/** What a point is made of. */
+std::vector<Share> LocalMesh::SharesOf(std::uint32_t point) const
+{
+  return this->BlendOf[point] == None ? std::vector<Share>{ { point, 1.0 } }
+                                      : this->TheMesh.Blended[this->BlendOf[point]].Shares;
+}
+
+void LocalMesh::NoteShares(std::uint32_t point, const std::vector<Share>& shares)
+{
+  std::vector<Share> all;
+  for (const Share& share : shares)
+  {
+    for (const Share& part : this->SharesOf(share.Point))
+    {
+      const auto same = std::find_if(
+        all.begin(), all.end(), [&](const Share& known) { return known.Point == part.Point; });
+      if (same != all.end())
+      {
+        same->Part += share.Part * part.Part;
+      }
+      else
+      {
+        all.push_back({ part.Point, share.Part * part.Part });
+      }
+    }
+  }
+  if (this->BlendOf[point] == None)
+  {
+    this->BlendOf[point] = static_cast<std::uint32_t>(this->TheMesh.Blended.size());
+    this->TheMesh.Blended.push_back({ point, {} });
+  }
+  this->TheMesh.Blended[this->BlendOf[point]].Shares = std::move(all);
+}
+
+void LocalMesh::Move(std::uint32_t point, const Vector& to)
+{
+  // Attributes are those that the tetrahedra around it have there now.
+  double best = -HUGE_VAL;
+  std::vector<Share> shares;
+  for (const std::uint32_t tetrahedron : this->StarOf(point))
+  {
+    const Corners& corners = this->CornersOf(tetrahedron);
+    std::array<Vector, 4> at{};
+    std::transform(corners.begin(), corners.end(), at.begin(),
+      [&](std::uint32_t corner) { return this->At(corner); });
+    const double whole = SixVolumes(at[0], at[1], at[2], at[3]);
+    std::vector<Share> parts;
+    double least = HUGE_VAL;
+    for (int i = 0; i < 4; ++i)
+    {
+      std::array<Vector, 4> moved = at;
+      moved[i] = to;
+      parts.push_back({ corners[i], SixVolumes(moved[0], moved[1], moved[2], moved[3]) / whole });
+      least = std::min(least, parts.back().Part);
+    }
+    if (least > best)
+    {
+      best = least;
+      shares = std::move(parts);
+    }
+  }
+  this->NoteShares(point, shares);
+  this->TheMesh.Positions[point] = to;
+  for (const std::uint32_t tetrahedron : this->StarOf(point))
+  {
+    this->Sines[tetrahedron] = this->SineOf(this->CornersOf(tetrahedron));
+  }
+}
+
+void LocalMesh::Add(
+  const Corners& corners, std::uint32_t origin, std::vector<std::uint32_t>& changed)
+{
+  const auto id = static_cast<std::uint32_t>(this->TheMesh.Tetrahedra.size());
+  this->TheMesh.Tetrahedra.push_back(corners);
+  this->TheMesh.Origins.push_back(origin);
+  this->Sines.push_back(this->SineOf(corners));
+  for (const std::uint32_t point : corners)
+  {
+    this->OwnStarOf(point).push_back(id);
+  }
+  changed.push_back(id);
+}
+
+void LocalMesh::Remove(std::uint32_t tetrahedron)
+{
+  for (const std::uint32_t point : this->CornersOf(tetrahedron))
+  {
+    std::vector<std::uint32_t>& star = this->OwnStarOf(point);
+    star.erase(std::find(star.begin(), star.end(), tetrahedron));
+  }
+  this->Sines[tetrahedron] = Dead;
+}
+
+void LocalMesh::Collapse(std::uint32_t from, std::uint32_t to, std::vector<std::uint32_t>& changed)
+{
+  const std::vector<std::uint32_t> star(this->StarOf(from).begin(), this->StarOf(from).end());
+  for (const std::uint32_t tetrahedron : star)
+  {
+    Corners corners = this->CornersOf(tetrahedron);
+    this->Remove(tetrahedron);
+    if (!Has(corners, to))
+    {
+      std::replace(corners.begin(), corners.end(), from, to);
+      this->Add(corners, this->TheMesh.Origins[tetrahedron], changed);
+    }
+  }
+}
+
+void LocalMesh::Replace(const std::vector<std::uint32_t>& old, const std::vector<Corners>& fresh,
+  std::vector<std::uint32_t>& changed)
+{
+  const std::uint32_t origin = this->TheMesh.Origins[old.front()];
+  std::for_each(
+    old.begin(), old.end(), [&](std::uint32_t tetrahedron) { this->Remove(tetrahedron); });
+  std::for_each(fresh.begin(), fresh.end(),
+    [&](const Corners& corners) { this->Add(corners, origin, changed); });
+}
+
+std::uint32_t LocalMesh::AddPoint(const Vector& at, Walls::Type walls, std::vector<Share> shares)
+{
+  const auto point = static_cast<std::uint32_t>(this->TheMesh.Positions.size());
+  this->TheMesh.Positions.push_back(at);
+  this->TheMesh.Surfaces.push_back(0);
+  this->TheMesh.OnWalls.push_back(walls);
+  this->Changed.push_back(static_cast<std::uint32_t>(this->ChangedStars.size()));
+  this->ChangedStars.emplace_back();
+  this->BlendOf.push_back(None);
+  this->NoteShares(point, shares);
+  return point;
+}
+
+TetrahedronMesh LocalMesh::Take()
+{
+  TetrahedronMesh mesh = std::move(this->TheMesh);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.Tetrahedra.size(); ++i)
+  {
+    if (this->Sines[i] != Dead)
+    {
+      mesh.Tetrahedra[kept] = mesh.Tetrahedra[i];
+      mesh.Origins[kept++] = mesh.Origins[i];
+    }
+  }
+  mesh.Tetrahedra.resize(kept);
+  mesh.Origins.resize(kept);
+  return mesh;
+}
+
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_LocalMesh_h
+#define isodiamond_LocalMesh_h
+
+#include "Stuffing/TetrahedronMesh.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * A tetrahedral mesh that is changed here and there: tetrahedra go, others come, points move.
+ *
+ * What it can tell of a change is whether the mesh stays one of the same topology, with the same
+ * surfaces and walls; whether it gets better, and stays near, is for the caller to see.
+ */
+class LocalMesh
+{
+public:
+  static constexpr std::uint32_t None = 0xffffffff;
+
+  explicit LocalMesh(TetrahedronMesh mesh);
+
+  const TetrahedronMesh& Mesh() const { return this->TheMesh; }
+  const Vector& At(std::uint32_t point) const { return this->TheMesh.Positions[point]; }
+  const Corners& CornersOf(std::uint32_t tetrahedron) const
+  {
+    return this->TheMesh.Tetrahedra[tetrahedron];
+  }
+  bool IsAlive(std::uint32_t tetrahedron) const { return this->Sines[tetrahedron] != Dead; }
+  /** The smallest sine of a tetrahedron that is alive. */
+  double SineOf(std::uint32_t tetrahedron) const { return this->Sines[tetrahedron]; }
+  double SineOf(const Corners& corners) const { return SmallestSine(this->TheMesh, corners); }
+
+  /** The tetrahedra at a point. */
+  struct Star
+  {
+    const std::uint32_t* First;
+    const std::uint32_t* Last;
+    const std::uint32_t* begin() const { return this->First; }
+    const std::uint32_t* end() const { return this->Last; }
+  };
+  Star StarOf(std::uint32_t point) const;
+  double WorstAround(std::uint32_t point) const;
+
+  static bool Has(const Corners& corners, std::uint32_t point)
+  {
+    return std::find(corners.begin(), corners.end(), point) != corners.end();
+  }
+  bool HasEdge(std::uint32_t a, std::uint32_t b) const;
+  /** How many tetrahedra have a triangle. */
+  int CountAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+
+  /** What a triangle of the boundary lies on: walls, as bits, or one of these. */
+  static constexpr int LowerSurface = 128;
+  static constexpr int UpperSurface = 256;
+  int PlaceOfFace(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  /** Whether a tetrahedron has a face on a wall with all points on one surface, of which nobody
+   *  could tell by the points what it is. */
+  bool IsAmbiguous(const Corners& corners) const;
+
+  /** Whether an edge can shrink into one of its ends: the link condition, also of the boundary, and
+   *  of the curves where a surface meets a wall. */
+  bool CanCollapse(std::uint32_t from, std::uint32_t to) const;
+
+  /** The points around an edge, so that (a, b, each, the next) are its tetrahedra. */
+  struct Ring
+  {
+    std::vector<std::uint32_t> Points;
+    std::vector<std::uint32_t> Tetrahedra;
+    bool IsClosed = false; ///< else it is a path, at the boundary
+  };
+  /** @return whether there is one of at most so many tetrahedra */
+  bool FindRing(std::uint32_t a, std::uint32_t b, std::size_t most, Ring& ring) const;
+
+  ///@{
+  /** Changes. */
+  void Move(std::uint32_t point, const Vector& to);
+  void Collapse(std::uint32_t from, std::uint32_t to, std::vector<std::uint32_t>& changed);
+  /** Puts tetrahedra in the place of others. */
+  void Replace(const std::vector<std::uint32_t>& old, const std::vector<Corners>& fresh,
+    std::vector<std::uint32_t>& changed);
+  /** Adds a point inside, or on walls. @return its id */
+  std::uint32_t AddPoint(const Vector& at, Walls::Type walls, std::vector<Share> shares);
+  ///@}
+
+  /** What is alive. The LocalMesh is empty then. */
+  TetrahedronMesh Take();
+
+private:
+  static constexpr double Dead = -4.0;
+
+  std::vector<std::uint32_t>& OwnStarOf(std::uint32_t point);
+  void Add(const Corners& corners, std::uint32_t origin, std::vector<std::uint32_t>& changed);
+  void Remove(std::uint32_t tetrahedron);
+  std::vector<Share> SharesOf(std::uint32_t point) const;
+  void NoteShares(std::uint32_t point, const std::vector<Share>& shares);
+
+  TetrahedronMesh TheMesh;
+  std::vector<double> Sines;               ///< by tetrahedron
+  std::vector<std::uint32_t> First, Stars; ///< as it was at first
+  std::vector<std::uint32_t> Changed;      ///< by point: into ChangedStars, or None
+  std::vector<std::vector<std::uint32_t>> ChangedStars;
+  std::vector<std::uint32_t> BlendOf; ///< by point: into Blended, or None
+};
+
+}
+
+#endif

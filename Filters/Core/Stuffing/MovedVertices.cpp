@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/MovedVertices.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** An isovertex is near to a vertex within this part of their edge. The larger it is, the fewer
+ *  tetrahedra; from 0.3 on more of them are bad. */
+constexpr double NearPart = 0.25;
+
+/** The least sine of a dihedral angle that a move may leave in a whole tetrahedron. */
+constexpr double LeastSine = 0.1;
+
+/** The walls that an edge lies in. */
+Walls::Type Common(Walls::Type a, Walls::Type b)
+{
+  return static_cast<Walls::Type>(a & b);
+}
+
+}
+
+MovedVertices::MovedVertices(const Background& background)
+  : Mesh(background)
+  , TheStates(background.VertexCount())
+  , Goals(background.VertexCount(), CutMesh::None)
+  , Links(background, TheStates)
+{
+  std::vector<Goal> goals;
+  this->Positions.reserve(background.VertexCount());
+  for (std::uint32_t vertex = 0; vertex < background.VertexCount(); ++vertex)
+  {
+    this->TheStates[vertex] =
+      static_cast<std::uint8_t>(2 * background.Leaves().Vertices[vertex].Sign);
+    this->Positions.push_back(background.PositionOf(vertex));
+  }
+  for (std::uint32_t vertex = 0; vertex < background.VertexCount(); ++vertex)
+  {
+    if (const Goal goal = this->NearestTo(vertex); goal.Distance < NearPart)
+    {
+      goals.push_back(goal);
+    }
+  }
+  std::sort(goals.begin(), goals.end(),
+    [](const Goal& a, const Goal& b)
+    { return a.Distance != b.Distance ? a.Distance < b.Distance : a.Vertex < b.Vertex; });
+  for (const Goal& before : goals)
+  {
+    // Moves of others took isovertices away.
+    if (const Goal goal = this->NearestTo(before.Vertex); goal.Distance < NearPart)
+    {
+      this->TryToMove(goal);
+    }
+  }
+}
+
+/** Whether a surface still crosses an edge of a leaf between its vertices. */
+bool MovedVertices::IsCut(std::uint32_t tetrahedron, int younger, int older, int surface) const
+{
+  const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+  const int a = this->TheStates[corners[younger]];
+  const int b = this->TheStates[corners[older]];
+  const int on = StateOn(surface);
+  return (a < on && b > on) || (a > on && b < on);
+}
+
+/** The nearest isovertex on a vertex's edges that it can reach without passing another surface. */
+MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
+{
+  Goal nearest;
+  nearest.Vertex = vertex;
+  nearest.Distance = HUGE_VAL;
+  const int state = this->TheStates[vertex];
+  const Walls::Type walls = this->Mesh.WallsOf(vertex);
+  if (state % 2 != 0 || (walls & Walls::Fixed) != 0)
+  {
+    return nearest;
+  }
+  const Vector& at = this->Mesh.PositionOf(vertex);
+  this->Mesh.ForEachAt(vertex,
+    [&](std::uint32_t tetrahedron)
+    {
+      const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+      const int own =
+        static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+      for (int other = 0; other < 4; ++other)
+      {
+        const int younger = std::min(own, other);
+        const int older = std::max(own, other);
+        const Vector edge = this->Mesh.PositionOf(corners[other]) - at;
+        for (int surface = 0; surface < 2 && other != own; ++surface)
+        {
+          const bool isBehind =
+            (state == BelowLower && surface == 1) || (state == AboveUpper && surface == 0);
+          if (isBehind || !this->IsCut(tetrahedron, younger, older, surface))
+          {
+            continue;
+          }
+          const std::uint32_t point =
+            this->Mesh.Leaves().Tetrahedra[tetrahedron].Cuts[CutEdge(younger, older)][surface];
+          const Vector way = this->Mesh.PointAt(point) - at;
+          const double distance = std::sqrt(Dot(way, way) / Dot(edge, edge));
+          if (distance < nearest.Distance ||
+            (distance == nearest.Distance && point < nearest.Point))
+          {
+            nearest.Distance = distance;
+            nearest.Point = point;
+            nearest.Surface = surface;
+            nearest.OnWalls = Common(walls, this->Mesh.WallsOf(corners[other]));
+          }
+        }
+      }
+    });
+  return nearest;
+}
+
+/** Whether all tetrahedra around a vertex are round enough, and the pieces of those that a surface
+ *  cuts on a line that is not straight any more positive. */
+bool MovedVertices::AreAllRound(std::uint32_t vertex) const
+{
+  return this->Mesh.AllAt(vertex,
+    [&](std::uint32_t tetrahedron)
+    {
+      const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+      const double sine = SmallestSine(this->Positions[corners[0]], this->Positions[corners[1]],
+        this->Positions[corners[2]], this->Positions[corners[3]]);
+      return (this->Mesh.IsNegative(tetrahedron) ? -sine : sine) > LeastSine &&
+        this->ArePiecesPositive(tetrahedron);
+    });
+}
+
+bool MovedVertices::ArePiecesPositive(std::uint32_t tetrahedron) const
+{
+  const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+  bool isBent = false;
+  for (int younger = 0; younger < 3; ++younger)
+  {
+    for (int older = younger + 1; older < 4; ++older)
+    {
+      const bool isMoved =
+        this->TheStates[corners[younger]] % 2 != 0 || this->TheStates[corners[older]] % 2 != 0;
+      isBent = isBent ||
+        (isMoved &&
+          (this->IsCut(tetrahedron, younger, older, 0) ||
+            this->IsCut(tetrahedron, younger, older, 1)));
+    }
+  }
+  const auto arePositive = [&](const std::vector<PatchTetrahedron>& pieces)
+  {
+    return std::all_of(pieces.begin(), pieces.end(),
+      [&](const PatchTetrahedron& piece)
+      {
+        const Corners points = this->CornersOf(tetrahedron, piece);
+        return SmallestSine(this->Mesh.PointAt(points[0]), this->Mesh.PointAt(points[1]),
+                 this->Mesh.PointAt(points[2]), this->Mesh.PointAt(points[3])) > 0.0;
+      });
+  };
+  const std::vector<std::vector<PatchTetrahedron>>& patches = this->PatchesOf(tetrahedron);
+  return !isBent || patches.empty() || std::any_of(patches.begin(), patches.end(), arePositive);
+}
+
+bool MovedVertices::TryToMove(const Goal& goal)
+{
+  const std::uint32_t vertex = goal.Vertex;
+  if (goal.OnWalls != this->Mesh.WallsOf(vertex))
+  {
+    return false; // it would leave a wall
+  }
+  const std::uint8_t state = this->TheStates[vertex];
+  const Vector position = this->Positions[vertex];
+  this->TheStates[vertex] = static_cast<std::uint8_t>(StateOn(goal.Surface));
+  this->Goals[vertex] = goal.Point;
+  this->Positions[vertex] = this->Mesh.PointAt(goal.Point);
+  if (this->AreAllRound(vertex) &&
+    this->Links.CanBeOn(vertex, goal.Surface, state == BetweenSurfaces))
+  {
+    return true;
+  }
+  this->TheStates[vertex] = state;
+  this->Goals[vertex] = CutMesh::None;
+  this->Positions[vertex] = position;
+  return false;
+}
+
+const std::vector<std::vector<PatchTetrahedron>>& MovedVertices::PatchesOf(
+  std::uint32_t tetrahedron) const
+{
+  const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+  return MovedPatches()[MovedCase({ this->TheStates[corners[0]], this->TheStates[corners[1]],
+    this->TheStates[corners[2]], this->TheStates[corners[3]] })];
+}
+
+/** The point of the mesh at a vertex in range. */
+std::uint32_t MovedVertices::PointAt(std::uint32_t vertex) const
+{
+  return this->Goals[vertex] != CutMesh::None ? this->Goals[vertex]
+                                              : this->Mesh.Leaves().Vertices[vertex].PointId;
+}
+
+std::uint32_t MovedVertices::PointOf(std::uint32_t tetrahedron, const PatchPoint& point) const
+{
+  const CutMesh::Tetrahedron& leaf = this->Mesh.Leaves().Tetrahedra[tetrahedron];
+  return point.IsVertex() ? this->PointAt(leaf.Vertices[point.Younger()])
+                          : leaf.Cuts[CutEdge(point.Younger(), point.Older())][point.Surface()];
+}
+
+Corners MovedVertices::CornersOf(std::uint32_t tetrahedron, const PatchTetrahedron& piece) const
+{
+  const bool flip = this->Mesh.IsNegative(tetrahedron);
+  return { this->PointOf(tetrahedron, piece[0]), this->PointOf(tetrahedron, piece[1]),
+    this->PointOf(tetrahedron, piece[flip ? 3 : 2]),
+    this->PointOf(tetrahedron, piece[flip ? 2 : 3]) };
+}
+
+TetrahedronMesh MovedVertices::Cut() const
+{
+  TetrahedronMesh mesh;
+  mesh.Positions = this->Mesh.AllPoints();
+  mesh.Surfaces.assign(mesh.Positions.size(), 0);
+  mesh.OnWalls.assign(mesh.Positions.size(), 0);
+  for (std::uint32_t vertex = 0; vertex < this->Mesh.VertexCount(); ++vertex)
+  {
+    const std::uint32_t point = this->Mesh.Leaves().Vertices[vertex].PointId;
+    if (point != CutMesh::None)
+    {
+      mesh.OnWalls[point] = this->Mesh.WallsOf(vertex);
+    }
+  }
+  const auto count = static_cast<std::uint32_t>(this->Mesh.Leaves().Tetrahedra.size());
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const CutMesh::Tetrahedron& leaf = this->Mesh.Leaves().Tetrahedra[i];
+    for (int younger = 0; younger < 3; ++younger)
+    {
+      for (int older = younger + 1; older < 4; ++older)
+      {
+        for (int surface = 0; surface < 2; ++surface)
+        {
+          const std::uint32_t point = leaf.Cuts[CutEdge(younger, older)][surface];
+          if (point != CutMesh::None)
+          {
+            mesh.Surfaces[point] = static_cast<std::int8_t>(2 * surface - 1);
+            mesh.OnWalls[point] = Common(
+              this->Mesh.WallsOf(leaf.Vertices[younger]), this->Mesh.WallsOf(leaf.Vertices[older]));
+          }
+        }
+      }
+    }
+    // Of several ways to cut it the one whose worst piece is best.
+    double best = -HUGE_VAL;
+    std::vector<Corners> pieces;
+    for (const std::vector<PatchTetrahedron>& patch : this->PatchesOf(i))
+    {
+      double worst = HUGE_VAL;
+      std::vector<Corners> tried;
+      for (const PatchTetrahedron& piece : patch)
+      {
+        tried.push_back(this->CornersOf(i, piece));
+        worst = std::min(worst, SmallestSine(mesh, tried.back()));
+      }
+      if (worst > best)
+      {
+        best = worst;
+        pieces = std::move(tried);
+      }
+    }
+    mesh.Tetrahedra.insert(mesh.Tetrahedra.end(), pieces.begin(), pieces.end());
+    mesh.Origins.insert(mesh.Origins.end(), pieces.size(), i);
+  }
+  return mesh;
+}
+
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_MovedVertices_h
+#define isodiamond_MovedVertices_h
+
+#include "Patches/IntervalPatches.h"
+#include "Stuffing/Background.h"
+#include "Stuffing/SurfaceLinks.h"
+
+namespace isodiamond
+{
+
+/**
+ * The vertices of a background mesh, some of which have been moved onto a surface.
+ *
+ * An isovertex near to the end of its edge makes thin tetrahedra. So a vertex that has one nearby
+ * moves there, and all others on its edges are gone, for the surface passes through it now
+ * (Labelle & Shewchuk, "Isosurface stuffing", SIGGRAPH 2007). The nearest go first; a vertex stays
+ * where it is if a tetrahedron around it would get too flat, or the topology would be another
+ * (SurfaceLinks.h).
+ */
+class MovedVertices
+{
+public:
+  /** @param background must outlive it */
+  explicit MovedVertices(const Background& background);
+
+  /** By vertex, see VertexState. */
+  const std::vector<std::uint8_t>& States() const { return this->TheStates; }
+
+  /** What is in range, as tetrahedra of points. */
+  TetrahedronMesh Cut() const;
+
+private:
+  /** An isovertex that a vertex could move to. */
+  struct Goal
+  {
+    double Distance = 0.0; ///< as a part of the edge
+    std::uint32_t Vertex = 0;
+    std::uint32_t Point = CutMesh::None;
+    int Surface = 0;
+    isodiamond::Walls::Type OnWalls = 0; ///< that the isovertex is on
+  };
+
+  Goal NearestTo(std::uint32_t vertex) const;
+  bool TryToMove(const Goal& goal);
+  bool AreAllRound(std::uint32_t vertex) const;
+  bool ArePiecesPositive(std::uint32_t tetrahedron) const;
+  std::uint32_t PointOf(std::uint32_t tetrahedron, const PatchPoint& point) const;
+  std::uint32_t PointAt(std::uint32_t vertex) const;
+  Corners CornersOf(std::uint32_t tetrahedron, const PatchTetrahedron& piece) const;
+  const std::vector<std::vector<PatchTetrahedron>>& PatchesOf(std::uint32_t tetrahedron) const;
+  bool IsCut(std::uint32_t tetrahedron, int younger, int older, int surface) const;
+
+  const Background& Mesh;
+  std::vector<std::uint8_t> TheStates;
+  std::vector<std::uint32_t> Goals; ///< by vertex: the point that it was moved to, or None
+  std::vector<Vector> Positions;
+  SurfaceLinks Links;
+};
+
+}
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/Stuffing.h"
+
+#include "Stuffing/Background.h"
+#include "Stuffing/Improvement.h"
+#include "Stuffing/MovedVertices.h"
+
+#include <cmath>
+#include <utility>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** In degrees; a little more than what is promised to be tried, for coordinates get rounded. */
+constexpr double WantedAngle = 15.5;
+
+Walls::Type WallsOf(const CutMesh::Vertex& vertex, const Grid& grid)
+{
+  int walls = vertex.IsHidden ? Walls::Fixed : 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    walls |= vertex.Position[axis] == 0 ? 1 << (2 * axis) : 0;
+    walls |= vertex.Position[axis] == grid.Last(axis) ? 2 << (2 * axis) : 0;
+  }
+  return static_cast<Walls::Type>(walls);
+}
+
+/** The directions of the grid's axes, where they are the same everywhere. */
+std::array<Vector, 3> AxesOf(const GridGeometry& world)
+{
+  std::array<Vector, 3> axes{};
+  if (const AffineMap* map = world.Affine())
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Vector along = { map->Rows[0][axis], map->Rows[1][axis], map->Rows[2][axis] };
+      axes[axis] = (1.0 / std::sqrt(Dot(along, along))) * along;
+    }
+  }
+  else if (world.Axes() != nullptr)
+  {
+    axes = { Vector{ 1.0, 0.0, 0.0 }, Vector{ 0.0, 1.0, 0.0 }, Vector{ 0.0, 0.0, 1.0 } };
+  }
+  return axes;
+}
+
+}
+
+TetrahedronMesh Stuff(const StuffingInput& input)
+{
+  std::vector<Vector> positions;
+  std::vector<Walls::Type> walls;
+  positions.reserve(input.Leaves.Vertices.size());
+  walls.reserve(input.Leaves.Vertices.size());
+  for (const CutMesh::Vertex& vertex : input.Leaves.Vertices)
+  {
+    const Point& at = vertex.Position;
+    positions.push_back(input.World({ 1.0 * at[0], 1.0 * at[1], 1.0 * at[2] }));
+    walls.push_back(WallsOf(vertex, input.SampleGrid));
+  }
+  const Background background(
+    input.Leaves, std::move(positions), std::move(walls), input.Points, input.World.Mirrors());
+  ImprovementOptions options;
+  options.WantedAngle = WantedAngle;
+  options.SurfaceMove = input.SurfaceMove;
+  options.Axes = AxesOf(input.World);
+  return Improve(MovedVertices(background).Cut(), options);
+}
+
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Stuffing_h
+#define isodiamond_Stuffing_h
+
+#include "Field/GridGeometry.h"
+#include "Lattice/Lattice.h"
+#include "Mesh/CutMesh.h"
+#include "Stuffing/TetrahedronMesh.h"
+
+namespace isodiamond
+{
+
+/** What tetrahedra for simulations are made of. */
+struct StuffingInput
+{
+  const CutMesh& Leaves;
+  const std::vector<Vector>& Points; ///< of the interval volume's mesh, in the world
+  const GridGeometry& World;
+  const Grid& SampleGrid;
+  double SurfaceMove = 0.0; ///< see ImprovementOptions
+};
+
+/**
+ * An interval volume, as tetrahedra without very small or large dihedral angles.
+ *
+ * Vertices that are near to a surface move onto it before the leaves are cut (MovedVertices.h);
+ * then the few tetrahedra that are still bad are improved one by one (Improvement.h). Points are
+ * some of those that the volume's mesh has otherwise, all that are on a surface where they were; a
+ * few inside are moved or added. Tetrahedra are positive and conform; surfaces have the topology
+ * that they had. What is wanted of the angles, 15 to 165 degrees, is no promise: where a surface
+ * nearly touches itself some are left that are worse.
+ *
+ * Angles are those of the world: if steps on the axes differ in length, they suffer from the
+ * start.
+ */
+TetrahedronMesh Stuff(const StuffingInput& input);
+
+}
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/TetrahedronMesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isodiamond
+{
+
+double SmallestSine(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
+{
+  const Vector ab = b - a;
+  const Vector ac = c - a;
+  const Vector ad = d - a;
+  const Vector bc = c - b;
+  const Vector bd = d - b;
+  const Vector cd = d - c;
+  const Vector toA = Cross(bc, bd); // normals of the faces opposite to a, b, c, d: twice the area
+  const Vector toB = Cross(ad, ac);
+  const Vector toC = Cross(ab, ad);
+  const Vector toD = Cross(ac, ab);
+  const double squareA = Dot(toA, toA);
+  const double squareB = Dot(toB, toB);
+  const double squareC = Dot(toC, toC);
+  const double squareD = Dot(toD, toD);
+  // At an edge the sine is its length times six volumes by both areas, doubled.
+  const double least =
+    std::min({ Dot(ab, ab) / (squareC * squareD), Dot(ac, ac) / (squareB * squareD),
+      Dot(ad, ad) / (squareB * squareC), Dot(bc, bc) / (squareA * squareD),
+      Dot(bd, bd) / (squareA * squareC), Dot(cd, cd) / (squareA * squareB) });
+  const double sine = Dot(Cross(ab, ac), ad) * std::sqrt(least);
+  return std::isfinite(sine) ? sine : 0.0;
+}
+
+std::array<double, 2> DihedralAngles(
+  const Vector& a, const Vector& b, const Vector& c, const Vector& d)
+{
+  std::array<Vector, 4> normals = { Cross(c - b, d - b), Cross(d - a, c - a), Cross(b - a, d - a),
+    Cross(c - a, b - a) };
+  for (Vector& normal : normals)
+  {
+    const double length = std::sqrt(Dot(normal, normal));
+    normal = (length > 0.0 ? 1.0 / length : 0.0) * normal;
+  }
+  std::array<double, 2> range = { 1.0, -1.0 }; // of cosines
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = i + 1; j < 4; ++j)
+    {
+      const double cosine = std::clamp(-Dot(normals[i], normals[j]), -1.0, 1.0);
+      range = { std::min(range[0], cosine), std::max(range[1], cosine) };
+    }
+  }
+  constexpr double degrees = 57.29577951308232;
+  return { degrees * std::acos(range[1]), degrees * std::acos(range[0]) };
+}
+
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_TetrahedronMesh_h
+#define isodiamond_TetrahedronMesh_h
+
+#include "Field/Vector.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** A tetrahedron by the ids of its points. */
+using Corners = std::array<std::uint32_t, 4>;
+
+/** What a point may not leave: bit 2 a is set on the grid's first layer on axis a, bit 2 a + 1 on
+ *  its last; Fixed points stay where they are. */
+struct Walls
+{
+  using Type = std::uint8_t;
+  static constexpr Type Fixed = 64;
+
+  static constexpr bool OnAxis(Type walls, int axis) { return ((walls >> (2 * axis)) & 3) != 0; }
+};
+
+/** A part of what one point has. */
+struct Share
+{
+  std::uint32_t Point = 0;
+  double Part = 0.0;
+};
+
+/** A point whose attributes are those of others, in parts. */
+struct BlendedPoint
+{
+  std::uint32_t Point = 0;
+  std::vector<Share> Shares; ///< of points that are not blended
+};
+
+/** Positive tetrahedra of points, some of which lie on surfaces. */
+struct TetrahedronMesh
+{
+  std::vector<Vector> Positions;
+  std::vector<std::int8_t> Surfaces; ///< by point: -1 on the lower one, 1 on the upper, 0 inside
+  std::vector<Walls::Type> OnWalls;  ///< by point
+  std::vector<Corners> Tetrahedra;
+  std::vector<std::uint32_t> Origins; ///< by tetrahedron: that of the CutMesh that it comes from
+  std::vector<BlendedPoint> Blended;  ///< points that were moved or added, by their ids
+};
+
+/** The smallest sine of the six dihedral angles: large if none is near 0 or 180 degrees. Negative
+ *  if the tetrahedron is, NaN never. */
+double SmallestSine(const Vector& a, const Vector& b, const Vector& c, const Vector& d);
+
+inline double SmallestSine(const TetrahedronMesh& mesh, const Corners& corners)
+{
+  return SmallestSine(mesh.Positions[corners[0]], mesh.Positions[corners[1]],
+    mesh.Positions[corners[2]], mesh.Positions[corners[3]]);
+}
+
+/** Six times the volume. */
+inline double SixVolumes(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
+{
+  return Dot(Cross(b - a, c - a), d - a);
+}
+
+/** The smallest and the largest dihedral angle, in degrees. */
+std::array<double, 2> DihedralAngles(
+  const Vector& a, const Vector& b, const Vector& c, const Vector& d);
+
+}
+
+#endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamond_Stuff_h
+#define vtkIsodiamond_Stuff_h
+
+#include "Mesh/IntervalExtraction.h"
+#include "Private/Mesh.h"
+
+/**
+ * @file Stuff.h
+ * Tetrahedra of good shape instead of those of an interval volume's mesh.
+ */
+namespace vtkIsodiamond
+{
+
+/**
+ * Stuffs what a mesh of an extraction is of (see Stuffing/Stuffing.h), and hands points and cells
+ * over, with their data: those of moved and added points are interpolated linearly in the mesh.
+ *
+ * @param mesh with all data, nothing left out; afterwards without what is hidden
+ */
+void StuffMesh(const isodiamond::IntervalExtraction& extraction, const isodiamond::Grid& grid,
+  const MeshOptions& options, const isodiamond::ParallelFor& parallelFor, Mesh& mesh);
+
+}
+
+#endif

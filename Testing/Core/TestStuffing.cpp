@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IntervalTestTools.h"
+#include "RandomTestTools.h"
+#include "TopologyTestTools.h"
+
+#include "Mesh/IntervalExtraction.h"
+#include "Stuffing/LocalMesh.h"
+#include "Stuffing/Stuffing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+using namespace isodiamond;
+
+namespace
+{
+
+/** The mesh of a query, and what is made of it for simulations. */
+struct Stuffed
+{
+  test::Volume Plain; ///< in index space
+  TetrahedronMesh Mesh;
+
+  Stuffed(const IsodiamondHierarchy& hierarchy, const Query& query,
+    const GridGeometry& world = AffineMap(), const HiddenCells* hidden = nullptr)
+    : Plain(test::ExtractVolume(hierarchy, query))
+  {
+    const RefinedSet refined(hierarchy, query, SerialFor);
+    const IntervalExtraction extraction(refined, SerialFor);
+    std::vector<Vector> points;
+    for (const std::array<double, 3>& point : this->Plain.Points)
+    {
+      points.push_back(world(point));
+    }
+    const CutMesh leaves = extraction.Leaves(hidden);
+    const double move = std::max(0.25 * world.SmallestStep(), 0.5 * query.Tolerance);
+    this->Mesh = Stuff({ leaves, points, world, hierarchy.SampleGrid(), move });
+  }
+
+  /** As a volume with the points that are used. */
+  test::Volume AsVolume() const
+  {
+    test::Volume volume;
+    std::vector<std::int32_t> ids(this->Mesh.Positions.size(), -1);
+    for (const Corners& corners : this->Mesh.Tetrahedra)
+    {
+      std::array<std::int32_t, 4> tetrahedron{};
+      for (int i = 0; i < 4; ++i)
+      {
+        std::int32_t& id = ids[corners[i]];
+        if (id < 0)
+        {
+          id = static_cast<std::int32_t>(volume.Points.size());
+          volume.Points.push_back(this->Mesh.Positions[corners[i]]);
+          volume.Surfaces.push_back(this->Mesh.Surfaces[corners[i]]);
+          volume.Values.push_back(0.0);
+        }
+        tetrahedron[i] = id;
+      }
+      volume.Tetrahedra.push_back(tetrahedron);
+      volume.Levels.push_back(0);
+    }
+    return volume;
+  }
+
+  /** The smallest and the largest dihedral angle. */
+  std::array<double, 2> Angles() const
+  {
+    std::array<double, 2> all = { 180.0, 0.0 };
+    for (const Corners& corners : this->Mesh.Tetrahedra)
+    {
+      const std::array<double, 2> angles =
+        DihedralAngles(this->Mesh.Positions[corners[0]], this->Mesh.Positions[corners[1]],
+          this->Mesh.Positions[corners[2]], this->Mesh.Positions[corners[3]]);
+      all = { std::min(all[0], angles[0]), std::max(all[1], angles[1]) };
+    }
+    return all;
+  }
+
+  /** Tetrahedra with an angle below 15 or above 165 degrees. */
+  std::size_t CountBad() const
+  {
+    return std::count_if(this->Mesh.Tetrahedra.begin(), this->Mesh.Tetrahedra.end(),
+      [&](const Corners& corners)
+      { return SmallestSine(this->Mesh, corners) < std::sin(15.0 * std::acos(-1.0) / 180.0); });
+  }
+};
+
+/** The topology of a volume, and of its surfaces. */
+test::Topology TopologyOf(const test::Volume& volume, test::AnyMesh mesh)
+{
+  mesh.Interval = volume;
+  return test::Topology(mesh);
+}
+
+/** A smooth field with tunnels. */
+test::Field GyroidField(int size, double periods)
+{
+  test::Field field{ "gyroid", { size, size, size }, {}, 0.1 };
+  const double step = periods * 2.0 * std::acos(-1.0) / (size - 1);
+  for (int z = 0; z < size; ++z)
+  {
+    for (int y = 0; y < size; ++y)
+    {
+      for (int x = 0; x < size; ++x)
+      {
+        field.Samples.push_back(static_cast<float>(std::sin(step * x) * std::cos(step * y) +
+          std::sin(step * y) * std::cos(step * z) + std::sin(step * z) * std::cos(step * x)));
+      }
+    }
+  }
+  return field;
+}
+
+test::Built BuildVolume(const test::Field& field, const Isoregion& region)
+{
+  BuildOptions options = test::Distance();
+  options.PreserveTopology = true;
+  return { BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, options), SerialFor };
+}
+
+}
+
+TEST(Stuffing, SineIsThatOfTheWorstDihedralAngle)
+{
+  test::Random random(3);
+  for (int i = 0; i < 1000; ++i)
+  {
+    std::array<Vector, 4> corners{};
+    for (Vector& corner : corners)
+    {
+      corner = { test::Uniform(random, -1, 1), test::Uniform(random, -1, 1),
+        test::Uniform(random, -1, 1) };
+    }
+    const double volumes = SixVolumes(corners[0], corners[1], corners[2], corners[3]);
+    const double sine = SmallestSine(corners[0], corners[1], corners[2], corners[3]);
+    EXPECT_EQ(sine > 0.0, volumes > 0.0);
+    if (volumes > 0.0)
+    {
+      const auto [smallest, largest] =
+        DihedralAngles(corners[0], corners[1], corners[2], corners[3]);
+      const double degree = std::acos(-1.0) / 180.0;
+      EXPECT_NEAR(sine, std::min(std::sin(smallest * degree), std::sin(largest * degree)), 1e-9);
+    }
+  }
+  // A regular one has 70.53 degrees, the corner of a cube 54.74 and 90.
+  const auto regular = DihedralAngles({ 1, 1, 1 }, { 1, -1, -1 }, { -1, -1, 1 }, { -1, 1, -1 });
+  EXPECT_NEAR(regular[0], 70.52878, 1e-4);
+  EXPECT_NEAR(regular[1], 70.52878, 1e-4);
+  const auto corner = DihedralAngles({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 });
+  EXPECT_NEAR(corner[0], 54.73561, 1e-4);
+  EXPECT_NEAR(corner[1], 90.0, 1e-9);
+}
+
+TEST(Stuffing, KeepsConformityTopologyAndPointsOfRandomFields)
+{
+  std::size_t moved = 0;
+  std::size_t blended = 0;
+  test::ForRandomSeeds(
+    [&](std::uint32_t seed)
+    {
+      test::Random random(seed);
+      const test::RandomSamples samples(random, 10, 100);
+      const Isoregion any = test::RandomRegion(random, samples);
+      if (!any.IsVolume() && !std::isfinite(any.Isovalue()))
+      {
+        return;
+      }
+      const Isoregion region = any.IsVolume() ? any : Isoregion(any.Isovalue(), HUGE_VAL);
+      const BuildOptions options = test::RandomOptions(random, samples.Dimensions);
+      SCOPED_TRACE(test::Describe(samples, region));
+      const test::Built built(
+        BuildIsodiamonds(Model::Minimal, samples.View(), region, SerialFor, options), SerialFor);
+      for (int i = 0; i < 2; ++i)
+      {
+        const Query query =
+          i == 0 ? Query{} : test::RandomQuery(random, *built.Hierarchy, options.World);
+        const Stuffed stuffed(*built.Hierarchy, query);
+        const test::Volume volume = stuffed.AsVolume();
+        EXPECT_EQ(test::FindFault(volume, samples.Dimensions), "");
+        const test::AnyMesh plain(*built.Hierarchy, query);
+        EXPECT_EQ(TopologyOf(volume, plain), test::Topology(plain));
+        const std::set<std::array<double, 3>> points(
+          stuffed.Plain.Points.begin(), stuffed.Plain.Points.end());
+        for (std::size_t j = 0; j < volume.Points.size(); ++j)
+        {
+          EXPECT_TRUE(volume.Surfaces[j] == 0 || points.count(volume.Points[j]) == 1);
+        }
+        moved += stuffed.Mesh.Tetrahedra.size() < stuffed.Plain.Tetrahedra.size() ? 1 : 0;
+        blended += stuffed.Mesh.Blended.size();
+      }
+    });
+  EXPECT_GT(moved, 0U);
+  EXPECT_GT(blended, 0U);
+}
+
+TEST(Stuffing, HasTheAnglesThatSolversLikeOnSmoothFields)
+{
+  for (const test::Field& field : { GyroidField(33, 2.0), test::SphereField({ 33, 33, 33 }) })
+  {
+    const test::Built built = BuildVolume(field, { field.Isovalue, HUGE_VAL });
+    for (const double tolerance : { 0.0, 0.5 })
+    {
+      Query query;
+      query.Tolerance = tolerance;
+      const Stuffed stuffed(*built.Hierarchy, query);
+      const auto [smallest, largest] = stuffed.Angles();
+      EXPECT_GE(smallest, 15.0) << field.Name << " at " << tolerance;
+      EXPECT_LE(largest, 165.0) << field.Name << " at " << tolerance;
+      const test::Volume volume = stuffed.AsVolume();
+      EXPECT_LT(volume.Tetrahedra.size(), 0.8 * stuffed.Plain.Tetrahedra.size());
+      if (tolerance == 0.0)
+      {
+        EXPECT_NEAR(test::TotalVolume(volume) / test::TotalVolume(stuffed.Plain), 1.0, 0.01);
+      }
+    }
+  }
+}
+
+TEST(Stuffing, LeavesFewBadTetrahedraInNoise)
+{
+  std::size_t bad = 0;
+  std::size_t all = 0;
+  for (unsigned seed = 1; seed <= 3; ++seed)
+  {
+    const test::Field field = test::NoiseField({ 9, 9, 9 }, seed);
+    const test::Built built = BuildVolume(field, { 3.7, HUGE_VAL });
+    const Stuffed stuffed(*built.Hierarchy, Query{});
+    bad += stuffed.CountBad();
+    all += stuffed.Mesh.Tetrahedra.size();
+  }
+  EXPECT_LT(bad, all / 10);
+}
+
+TEST(Stuffing, BlendsAttributesAsPositions)
+{
+  // A linear function of the position is interpolated exactly, such as the position itself.
+  const test::Field field = test::NoiseField({ 9, 9, 9 }, 4);
+  const test::Built built = BuildVolume(field, { 3.7, HUGE_VAL });
+  const Stuffed stuffed(*built.Hierarchy, Query{});
+  ASSERT_FALSE(stuffed.Mesh.Blended.empty());
+  for (const BlendedPoint& blended : stuffed.Mesh.Blended)
+  {
+    Vector sum{};
+    double parts = 0.0;
+    for (const Share& share : blended.Shares)
+    {
+      ASSERT_LT(share.Point, stuffed.Plain.Points.size());
+      sum = sum + share.Part * stuffed.Plain.Points[share.Point];
+      parts += share.Part;
+    }
+    EXPECT_NEAR(parts, 1.0, 1e-9);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_NEAR(sum[axis], stuffed.Mesh.Positions[blended.Point][axis], 1e-9);
+    }
+  }
+}
+
+TEST(Stuffing, IsAMirrorImageInAMirroredWorld)
+{
+  const test::Field field = test::SphereField({ 17, 17, 17 });
+  const test::Built built = BuildVolume(field, { field.Isovalue, HUGE_VAL });
+  AffineMap mirror;
+  mirror.Rows[0] = { -1.0, 0.0, 0.0, 3.0 };
+  const Stuffed here(*built.Hierarchy, Query{});
+  const Stuffed there(*built.Hierarchy, Query{}, mirror);
+  EXPECT_EQ(here.Mesh.Tetrahedra.size(), there.Mesh.Tetrahedra.size());
+  EXPECT_GT(there.Angles()[0], 15.0);
+  for (const Corners& corners : there.Mesh.Tetrahedra)
+  {
+    ASSERT_GT(SmallestSine(there.Mesh, corners), 0.0);
+  }
+}
+
+TEST(Stuffing, LeavesOutWhatIsHidden)
+{
+  const test::Field field = test::SphereField({ 17, 17, 17 });
+  std::vector<std::uint8_t> hidden(16 * 16 * 16, 0);
+  for (int z = 6; z < 9; ++z)
+  {
+    for (int y = 6; y < 9; ++y)
+    {
+      for (int x = 6; x < 9; ++x)
+      {
+        hidden[(z * 16 + y) * 16 + x] = 1;
+      }
+    }
+  }
+  const HiddenCells cells(hidden, { 16, 16, 16 });
+  BuildOptions options = test::Distance();
+  options.Hidden = &cells;
+  const test::Built built(BuildIsodiamonds(Model::Minimal, field.View(),
+                            { field.Isovalue, HUGE_VAL }, SerialFor, options),
+    SerialFor);
+  Query query;
+  query.Tolerance = 1.0;
+  const Stuffed stuffed(*built.Hierarchy, query, AffineMap(), &cells);
+  const Stuffed whole(*built.Hierarchy, query);
+  // The cells are inside, so just their volume is missing.
+  EXPECT_NEAR(
+    test::TotalVolume(whole.AsVolume()) - test::TotalVolume(stuffed.AsVolume()), 27.0, 1e-9);
+}
+
+TEST(LocalMesh, CollapsesOnlyWhatKeepsTheTopology)
+{
+  // All collapses that are allowed, each on a mesh of its own, and some that are not.
+  const test::Field field = test::NoiseField({ 4, 4, 4 }, 2);
+  const test::Built built = BuildVolume(field, { 3.7, HUGE_VAL });
+  const Stuffed stuffed(*built.Hierarchy, Query{});
+  const test::AnyMesh plain(*built.Hierarchy, Query{});
+  const test::Topology topology = TopologyOf(stuffed.AsVolume(), plain);
+  const LocalMesh mesh(stuffed.Mesh);
+  std::set<std::array<std::uint32_t, 2>> edges;
+  for (const Corners& corners : stuffed.Mesh.Tetrahedra)
+  {
+    for (const std::uint32_t a : corners)
+    {
+      for (const std::uint32_t b : corners)
+      {
+        edges.insert({ a, b });
+      }
+    }
+  }
+  std::size_t allowed = 0;
+  std::size_t refused = 0;
+  for (const auto& [from, to] : edges)
+  {
+    if (from == to)
+    {
+      continue;
+    }
+    if (!mesh.CanCollapse(from, to))
+    {
+      ++refused;
+      continue;
+    }
+    ++allowed;
+    LocalMesh local(stuffed.Mesh);
+    std::vector<std::uint32_t> changed;
+    local.Collapse(from, to, changed);
+    Stuffed collapsed = stuffed;
+    collapsed.Mesh = local.Take();
+    EXPECT_EQ(TopologyOf(collapsed.AsVolume(), plain), topology) << from << " to " << to;
+  }
+  EXPECT_GT(allowed, 100U);
+  EXPECT_GT(refused, 100U);
+}
