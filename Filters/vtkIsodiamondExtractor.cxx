@@ -5,6 +5,7 @@
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
 #include "Private/Simplify.h"
+#include "Private/Simulation.h"
 #include "Private/Target.h"
 #include "Private/WorldQuery.h"
 
@@ -366,17 +367,15 @@ vtkIsodiamond::Mesh vtkIsodiamondExtractor::MakeMesh(const vtkIsodiamond::State&
   // Nobody wants to see a surface in the colour of its isovalue.
   options.ValuesAreScalars = refined.Hierarchy().Region().IsVolume();
   options.PointsPrecision = this->OutputPointsPrecision;
-  if (query.SimulationQuality)
-  {
-    vtkIsodiamond::CheckSimulationQuality(refined.Hierarchy().Region().IsVolume());
-    vtkIsodiamond::SetSimulationQuality(
-      query, vtkIsodiamond::Measure(refined.Hierarchy()), options);
-  }
   if (state.Isodiamonds && !state.PointArrays.empty())
   {
     options.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
   }
   vtkIsodiamond::Task extracting = task.Part(0.0, query.Simplify ? 0.4 : 1.0);
+  if (query.SimulationQuality)
+  {
+    return vtkIsodiamond::ExtractForSimulation(refined, query, options, extracting);
+  }
   vtkIsodiamond::Mesh mesh = vtkIsodiamond::ExtractMesh(refined, options, extracting);
   if (query.Simplify)
   {

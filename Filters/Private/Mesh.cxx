@@ -196,7 +196,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
   if (options.ForSimulation)
   {
     AddMorePointData(extraction, options, mesh);
-    StuffMesh(extraction, refined.Hierarchy().SampleGrid(), options, parallelFor, mesh);
+    StuffMesh(extraction, refined.Hierarchy(), options, parallelFor, mesh);
     return;
   }
   Complete(extraction, options, mesh);

@@ -13,8 +13,10 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 class vtkCellArray;
 class vtkPoints;
@@ -33,6 +35,8 @@ struct Mesh
   vtkNew<vtkCellData> CellData; ///< "Level"
   /** The smallest and the largest, in degrees, of tetrahedra for simulations. */
   std::optional<std::array<double, 2>> DihedralAngles;
+  /** Of such tetrahedra: diamonds whose leaves have surfaces that are too far away. */
+  std::vector<isodiamond::Place> FarDiamonds;
 
   /** Hands it to a data set. */
   void Give(vtkPolyData* triangles) const;
@@ -52,7 +56,9 @@ struct MeshOptions
   PointDataMaker MorePointData = nullptr;
   const isodiamond::HiddenCells* Hidden = nullptr; ///< what lies in them is left out
   bool ForSimulation = false;                      ///< see Stuff.h; of an interval volume
-  double DistanceTolerance = 0.0; ///< how far its surfaces may be from where they were
+  double DistanceTolerance = 0.0; ///< the least that it may be away from full resolution
+  /** The same in a triangle or tetrahedron, by its corners in the world; none to not measure. */
+  std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
 };
 
 /** Extracts a mesh. Runs in the calling thread's vtkSMPTools scope. */

@@ -2,6 +2,8 @@
 #include "Private/Simplify.h"
 
 #include "Private/Cells.h"
+#include "Private/PlacedTolerance.h"
+#include "Private/Simulation.h"
 #include "Private/Tuples.h"
 #include "Simplification/MeshOptimizer.h"
 
@@ -21,60 +23,6 @@ namespace
  *  it takes. */
 constexpr double HierarchyPart = 0.3;
 
-/** What a query tolerates at a place of the world. */
-class PlacedTolerance
-{
-public:
-  PlacedTolerance(
-    const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
-    : Query(query)
-    , Outside(OutsideOf(query, measure, world))
-  {
-  }
-
-  /** The least in a triangle, or less. */
-  double In(const std::array<isodiamond::Vector, 3>& corners) const
-  {
-    isodiamond::Vector low = corners[0];
-    isodiamond::Vector high = corners[0];
-    for (const isodiamond::Vector& corner : corners)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        low[axis] = std::min(low[axis], corner[axis]);
-        high[axis] = std::max(high[axis], corner[axis]);
-      }
-    }
-    double tolerance = this->Query.ErrorTolerance;
-    if (this->Query.Region)
-    {
-      bool touches = true;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        touches = touches && low[axis] <= this->Query.Region->Maximum[axis] &&
-          high[axis] >= this->Query.Region->Minimum[axis];
-      }
-      tolerance = touches ? std::min(tolerance, this->Outside) : this->Outside;
-    }
-    if (this->Query.View)
-    {
-      const isodiamond::Vector& eye = this->Query.View->Position;
-      double squared = 0.0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double away = std::max({ low[axis] - eye[axis], eye[axis] - high[axis], 0.0 });
-        squared += away * away;
-      }
-      tolerance = std::max(tolerance, this->Query.View->TolerancePerDistance * std::sqrt(squared));
-    }
-    return tolerance;
-  }
-
-private:
-  const WorldQuery& Query;
-  double Outside;
-};
-
 isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& tolerance)
 {
   isodiamond::AllowedMesh result;
@@ -93,8 +41,8 @@ isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& toleranc
     mesh.Cells->GetCellAtId(cell, size, ids);
     result.Mesh.Triangles.push_back({ static_cast<std::uint32_t>(ids[0]),
       static_cast<std::uint32_t>(ids[1]), static_cast<std::uint32_t>(ids[2]) });
-    const double tolerated = tolerance.In(
-      { result.Mesh.Corner(cell, 0), result.Mesh.Corner(cell, 1), result.Mesh.Corner(cell, 2) });
+    const std::array<isodiamond::Vector, 3> corners = result.Mesh.Corners(cell);
+    const double tolerated = tolerance.In(corners.data(), 3);
     result.Allowances.push_back((1.0 - HierarchyPart) * tolerated);
   }
   return result;
@@ -118,21 +66,6 @@ void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume)
   {
     throw std::invalid_argument("Simplify needs the distance metric.");
   }
-}
-
-void CheckSimulationQuality(bool isVolume)
-{
-  if (!isVolume)
-  {
-    throw std::invalid_argument("SimulationQuality is for interval volumes, not for isosurfaces.");
-  }
-}
-
-void SetSimulationQuality(const WorldQuery& query, const Measure& measure, MeshOptions& options)
-{
-  options.ForSimulation = query.SimulationQuality;
-  options.DistanceTolerance =
-    measure.Metric == isodiamond::ErrorMetric::Distance ? query.ErrorTolerance : 0.0;
 }
 
 WorldQuery BeforeSimplifying(
@@ -196,17 +129,12 @@ Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const Worl
     CheckSimplify(measure.Metric, hierarchy.Region().IsVolume());
     extracted = BeforeSimplifying(query, measure, options.World);
   }
-  MeshOptions asked = options;
-  if (query.SimulationQuality)
-  {
-    CheckSimulationQuality(hierarchy.Region().IsVolume());
-    SetSimulationQuality(query, measure, asked);
-  }
   task.Begin("Refining", 0.0, 0.3);
   const isodiamond::RefinedSet refined(
     hierarchy, CoreQuery(extracted, hierarchy, options.World), task.For());
   Task extracting = task.Part(0.3, query.Simplify ? 0.5 : 1.0);
-  Mesh mesh = ExtractMesh(refined, asked, extracting);
+  Mesh mesh = query.SimulationQuality ? ExtractForSimulation(refined, query, options, extracting)
+                                      : ExtractMesh(refined, options, extracting);
   if (query.Simplify)
   {
     task.Begin("Simplifying", 0.5, 1.0);

@@ -15,13 +15,6 @@ namespace vtkIsodiamond
 /** Makes sure that a query can be simplified. @throws std::invalid_argument saying why not */
 void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume);
 
-/** Makes sure that a query can have tetrahedra for simulations. @throws std::invalid_argument
- * saying why not */
-void CheckSimulationQuality(bool isVolume);
-
-/** What a mesh of a query needs to be told for them. */
-void SetSimulationQuality(const WorldQuery& query, const Measure& measure, MeshOptions& options);
-
 /** The query whose mesh is to be simplified: its tolerances are parts of those that are asked for.
  */
 WorldQuery BeforeSimplifying(

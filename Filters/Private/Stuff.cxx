@@ -33,6 +33,43 @@ std::vector<isodiamond::Vector> PositionsOf(vtkPoints* points)
   return positions;
 }
 
+/** What is left of the tolerance in each leaf: its diamond's error may be so far away already.
+ *  Leaves of full resolution, which cannot be finer, are not asked. */
+std::vector<double> AllowancesOf(const isodiamond::CutMesh& leaves,
+  const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options)
+{
+  std::vector<double> allowances;
+  if (!options.ToleranceIn)
+  {
+    return allowances;
+  }
+  std::vector<isodiamond::Vector> positions;
+  for (const isodiamond::CutMesh::Vertex& vertex : leaves.Vertices)
+  {
+    const isodiamond::Point& at = vertex.Position;
+    positions.push_back(options.World({ 1.0 * at[0], 1.0 * at[1], 1.0 * at[2] }));
+  }
+  for (std::size_t i = 0; i < leaves.Tetrahedra.size(); ++i)
+  {
+    const auto place = isodiamond::DiamondOf(leaves, i, hierarchy.SampleGrid());
+    const isodiamond::Brick* brick =
+      place ? hierarchy.Diamonds().Level(place->Scale).Find(place->Position) : nullptr;
+    const int bit = place ? isodiamond::BitOf(place->Position) : 0;
+    if (brick == nullptr || !brick->Contains(place->Position[2] & 7, bit))
+    {
+      allowances.push_back(HUGE_VAL); // nothing finer is there
+      continue;
+    }
+    std::array<isodiamond::Vector, 4> corners{};
+    std::transform(leaves.Tetrahedra[i].Vertices.begin(), leaves.Tetrahedra[i].Vertices.end(),
+      corners.begin(), [&](std::uint32_t vertex) { return positions[vertex]; });
+    const double error =
+      hierarchy.Codes().Decode(hierarchy.Threshold(brick->Rank(place->Position[2] & 7, bit)));
+    allowances.push_back(std::max(0.0, options.ToleranceIn(corners.data(), 4) - error));
+  }
+  return allowances;
+}
+
 /** Which points are used, by their ids before; an added one begins as a copy of one that it is
  *  blended from. */
 struct PointNumbers
@@ -116,15 +153,22 @@ std::array<double, 2> AnglesOf(const isodiamond::TetrahedronMesh& mesh)
 
 }
 
-void StuffMesh(const isodiamond::IntervalExtraction& extraction, const isodiamond::Grid& grid,
-  const MeshOptions& options, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
+void StuffMesh(const isodiamond::IntervalExtraction& extraction,
+  const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,
+  const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
   const isodiamond::CutMesh leaves = extraction.Leaves(options.Hidden);
   const std::vector<isodiamond::Vector> positions = PositionsOf(mesh.Points);
   const double move = std::max(
     MovePartOfStep * options.World.SmallestStep(), MovePartOfTolerance * options.DistanceTolerance);
-  const isodiamond::TetrahedronMesh stuffed =
-    isodiamond::Stuff({ leaves, positions, options.World, grid, move });
+  const isodiamond::Grid& grid = hierarchy.SampleGrid();
+  const isodiamond::StuffedMesh result = isodiamond::Stuff(
+    { leaves, positions, options.World, grid, move, AllowancesOf(leaves, hierarchy, options) });
+  const isodiamond::TetrahedronMesh& stuffed = result.Mesh;
+  for (const std::uint32_t leaf : result.FarLeaves)
+  {
+    mesh.FarDiamonds.push_back(*isodiamond::DiamondOf(leaves, leaf, grid));
+  }
 
   const PointNumbers numbers(stuffed, positions.size());
   mesh.Points = PointsOf(mesh.Points, numbers.Kept);

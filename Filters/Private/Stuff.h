@@ -18,8 +18,9 @@ namespace vtkIsodiamond
  *
  * @param mesh with all data, nothing left out; afterwards without what is hidden
  */
-void StuffMesh(const isodiamond::IntervalExtraction& extraction, const isodiamond::Grid& grid,
-  const MeshOptions& options, const isodiamond::ParallelFor& parallelFor, Mesh& mesh);
+void StuffMesh(const isodiamond::IntervalExtraction& extraction,
+  const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,
+  const isodiamond::ParallelFor& parallelFor, Mesh& mesh);
 
 }
 

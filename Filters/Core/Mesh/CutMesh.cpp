@@ -186,6 +186,37 @@ private:
 
 }
 
+std::optional<Place> DiamondOf(const CutMesh& mesh, std::size_t leaf, const Grid& grid)
+{
+  std::int64_t longest = 0;
+  Point twice{}; // the middle of the longest edge
+  for (const std::uint32_t a : mesh.Tetrahedra[leaf].Vertices)
+  {
+    for (const std::uint32_t b : mesh.Tetrahedra[leaf].Vertices)
+    {
+      const Point& from = mesh.Vertices[a].Position;
+      const Point& to = mesh.Vertices[b].Position;
+      std::int64_t squared = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        squared += std::int64_t{ to[axis] - from[axis] } * (to[axis] - from[axis]);
+      }
+      if (squared > longest)
+      {
+        longest = squared;
+        twice = from + to;
+      }
+    }
+  }
+  if (Parity(twice) != 0)
+  {
+    return std::nullopt;
+  }
+  const Point middle = { twice[0] / 2, twice[1] / 2, twice[2] / 2 };
+  const int scale = grid.Scale(middle);
+  return Place{ scale, { middle[0] >> scale, middle[1] >> scale, middle[2] >> scale } };
+}
+
 CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden)
 {
   const bool anyHidden = hidden != nullptr && hidden->Any();

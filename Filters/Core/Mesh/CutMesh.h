@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace isodiamond
@@ -24,9 +25,9 @@ struct CutMesh
 
   struct Vertex
   {
-    Point Position{};           ///< in index space
-    std::int8_t Sign = 0;       ///< 0, 1, 2: below, inside, above
-    bool IsHidden = false;      ///< whether it is a corner of a hidden cell
+    Point Position{};             ///< in index space
+    std::int8_t Sign = 0;         ///< 0, 1, 2: below, inside, above
+    bool IsHidden = false;        ///< whether it is a corner of a hidden cell
     std::uint32_t PointId = None; ///< in the mesh; only of vertices inside
   };
 
@@ -49,6 +50,9 @@ inline constexpr int CutEdge(int younger, int older)
 {
   return younger + older - (younger == 0 ? 1 : 0);
 }
+
+/** The diamond that a leaf lies in, around its longest edge; none at full resolution. */
+std::optional<Place> DiamondOf(const CutMesh& mesh, std::size_t leaf, const Grid& grid);
 
 /** Collects the leaves of a volume's passes that carry something and are not hidden. */
 CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden);

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace isodiamond
 {
@@ -24,6 +25,8 @@ struct Query
   std::optional<RegionOfInterest> Region = std::nullopt;
   /** The tolerance outside of the region. */
   double OutsideTolerance = HUGE_VAL;
+  /** Diamonds that are to be subdivided whatever is tolerated, with all ancestors. */
+  std::vector<Place> Also = {};
   /** From where the mesh is seen: a diamond's tolerance is at least what the distance from there
    *  makes of it. For errors that are distances. */
   std::optional<Viewpoint> View = std::nullopt;

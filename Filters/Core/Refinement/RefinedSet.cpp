@@ -29,7 +29,12 @@ public:
   }
 
   /** Whether they are the same everywhere, so that thresholds alone tell what is refined. */
-  bool IsUniform() const { return !this->TheQuery.Region && !this->TheQuery.View; }
+  bool IsUniform() const
+  {
+    return !this->TheQuery.Region && !this->TheQuery.View && this->TheQuery.Also.empty();
+  }
+
+  const std::vector<Place>& Also() const { return this->TheQuery.Also; }
 
   /** What is tolerated wherever it is. */
   Tolerances Everywhere() const
@@ -182,6 +187,10 @@ DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalToler
         wanted.Insert(scale, level.Bricks[i].BoxIndex, added[i]);
       }
     }
+  }
+  for (const Place& place : tolerance.Also())
+  {
+    wanted.Insert(place);
   }
   wanted.CloseOverParents(hierarchy.SampleGrid());
   return wanted;

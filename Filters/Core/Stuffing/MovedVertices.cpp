@@ -30,7 +30,6 @@ MovedVertices::MovedVertices(const Background& background)
   , Goals(background.VertexCount(), CutMesh::None)
   , Links(background, TheStates)
 {
-  std::vector<Goal> goals;
   this->Positions.reserve(background.VertexCount());
   for (std::uint32_t vertex = 0; vertex < background.VertexCount(); ++vertex)
   {
@@ -38,7 +37,12 @@ MovedVertices::MovedVertices(const Background& background)
       static_cast<std::uint8_t>(2 * background.Leaves().Vertices[vertex].Sign);
     this->Positions.push_back(background.PositionOf(vertex));
   }
-  for (std::uint32_t vertex = 0; vertex < background.VertexCount(); ++vertex)
+}
+
+void MovedVertices::MoveAll()
+{
+  std::vector<Goal> goals;
+  for (std::uint32_t vertex = 0; vertex < this->Mesh.VertexCount(); ++vertex)
   {
     if (const Goal goal = this->NearestTo(vertex); goal.Distance < NearPart)
     {

@@ -21,8 +21,11 @@ namespace isodiamond
 class MovedVertices
 {
 public:
-  /** @param background must outlive it */
+  /** None has been moved yet. @param background must outlive it */
   explicit MovedVertices(const Background& background);
+
+  /** Moves all that can be. */
+  void MoveAll();
 
   /** By vertex, see VertexState. */
   const std::vector<std::uint8_t>& States() const { return this->TheStates; }

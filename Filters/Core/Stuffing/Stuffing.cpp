@@ -4,6 +4,7 @@
 #include "Stuffing/Background.h"
 #include "Stuffing/Improvement.h"
 #include "Stuffing/MovedVertices.h"
+#include "Stuffing/SurfaceDistance.h"
 
 #include <cmath>
 #include <utility>
@@ -48,7 +49,7 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
 
 }
 
-TetrahedronMesh Stuff(const StuffingInput& input)
+StuffedMesh Stuff(const StuffingInput& input)
 {
   std::vector<Vector> positions;
   std::vector<Walls::Type> walls;
@@ -66,7 +67,16 @@ TetrahedronMesh Stuff(const StuffingInput& input)
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;
   options.Axes = AxesOf(input.World);
-  return Improve(MovedVertices(background).Cut(), options);
+  MovedVertices vertices(background);
+  const TetrahedronMesh plain = input.Allowances.empty() ? TetrahedronMesh() : vertices.Cut();
+  vertices.MoveAll();
+  StuffedMesh result;
+  result.Mesh = Improve(vertices.Cut(), options);
+  if (!input.Allowances.empty())
+  {
+    result.FarLeaves = FindFarLeaves(plain, result.Mesh, input.Allowances);
+  }
+  return result;
 }
 
 }

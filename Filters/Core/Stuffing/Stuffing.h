@@ -18,6 +18,8 @@ struct StuffingInput
   const GridGeometry& World;
   const Grid& SampleGrid;
   double SurfaceMove = 0.0; ///< see ImprovementOptions
+  /** By leaf, see FindFarLeaves(); none to not measure. */
+  std::vector<double> Allowances = {};
 };
 
 /**
@@ -33,7 +35,12 @@ struct StuffingInput
  * Angles are those of the world: if steps on the axes differ in length, they suffer from the
  * start.
  */
-TetrahedronMesh Stuff(const StuffingInput& input);
+struct StuffedMesh
+{
+  TetrahedronMesh Mesh;
+  std::vector<std::uint32_t> FarLeaves; ///< where a surface is too far away, as it is measured
+};
+StuffedMesh Stuff(const StuffingInput& input);
 
 }
 

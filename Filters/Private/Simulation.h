@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamond_Simulation_h
+#define vtkIsodiamond_Simulation_h
+
+#include "Private/Mesh.h"
+#include "Private/WorldQuery.h"
+
+/**
+ * @file Simulation.h
+ * Tetrahedra for simulations, as a query asks for them.
+ */
+namespace vtkIsodiamond
+{
+
+/**
+ * Extracts a refined set's interval volume, stuffed. Where its surfaces are farther from those of
+ * the volume's mesh than what the diamonds' errors leave of the tolerance, it refines and begins
+ * again; cells of full resolution stay as they are.
+ *
+ * @param query that the refined set is of
+ * @throws std::invalid_argument of an isosurface
+ */
+Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuery& query,
+  const MeshOptions& options, Task& task);
+
+}
+
+#endif
