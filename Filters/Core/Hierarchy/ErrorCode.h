@@ -67,6 +67,10 @@ public:
     {
       ++code; // the division may have rounded down
     }
+    while (code > Least && this->Decode(static_cast<Type>(code - 1)) >= error)
+    {
+      --code; // or up
+    }
     return code < Least ? Least : static_cast<Type>(code);
   }
 
