@@ -9,6 +9,8 @@
 #include "Patches/SurfacePatch.h"
 #include "Patches/WorldLengths.h"
 
+#include "ReferenceError.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,7 +84,7 @@ void ExpectReferencesErrors(const test::Field& field, const GridGeometry& world,
     {
       const test::Built relevant = test::Build(Model::Relevant, field, test::Placement(exact));
       const Grid& grid = relevant.Hierarchy->SampleGrid();
-      const ErrorCode code(DistanceErrorScale(grid, world));
+      const reference::ErrorCodes codes(DistanceErrorScale(grid, world));
       const std::vector<ErrorCode::Type> found =
         DistanceErrors(*relevant.Hierarchy, field.View(), world, preserve, test::ThreadedFor(2));
       const std::vector<double> expected = reference::OwnDistanceErrors(
@@ -98,8 +100,8 @@ void ExpectReferencesErrors(const test::Field& field, const GridGeometry& world,
         }
         ASSERT_NE(rank, DiamondSet::None);
         // Codes of values that differ by rounding only.
-        ASSERT_GE(found[rank], code.Encode(expected[i] * (1 - 1e-9))) << "diamond " << i;
-        ASSERT_LE(found[rank], code.Encode(expected[i] * (1 + 1e-9))) << "diamond " << i;
+        ASSERT_GE(found[rank], codes.CodeOf(expected[i] * (1 - 1e-9))) << "diamond " << i;
+        ASSERT_LE(found[rank], codes.CodeOf(expected[i] * (1 + 1e-9))) << "diamond " << i;
         ++seen[expected[i] < Infinity];
       }
     }

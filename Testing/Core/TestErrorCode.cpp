@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/ErrorCode.h"
 
+#include "ReferenceError.h"
+
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -45,6 +48,27 @@ TEST(ErrorCode, KeepsCodesThatItDecodes)
   {
     const auto exact = static_cast<ErrorCode::Type>(c);
     EXPECT_EQ(code.Encode(code.Decode(exact)), exact);
+  }
+}
+
+// Next to a code's error the division by the scale, which rounds, would decide.
+TEST(ErrorCode, IsTheReferencesAroundEveryCode)
+{
+  for (const double scale : { 1e-30, 0.1, 1.0, 255.0, 3.7e20 })
+  {
+    const ErrorCode code(scale);
+    const reference::ErrorCodes expected(scale);
+    for (int c = 1; c < 31 * 512 + 256; ++c)
+    {
+      const double error = expected.ErrorOf(c);
+      EXPECT_EQ(code.Decode(static_cast<ErrorCode::Type>(c)), error);
+      for (const double near :
+        { std::nextafter(error, 0.0), error, std::nextafter(error, HUGE_VAL) })
+      {
+        ASSERT_EQ(code.Encode(near), expected.CodeOf(near)) << "code " << c << " scale " << scale;
+        ASSERT_EQ(code.Accepted(near), expected.LastWithin(near));
+      }
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #include "Build/Classification.h"
 #include "IntervalTestTools.h"
 
+#include "ReferenceError.h"
 #include "ReferenceExact.h"
 #include "ReferenceLinearVolume.h"
 
@@ -27,7 +28,8 @@ struct Oracle
   reference::DiamondSet Carrying;
   reference::DiamondSet Inside;
 
-  Oracle(const test::Field& field, const reference::Isorange& range, const ErrorCode& code)
+  Oracle(
+    const test::Field& field, const reference::Isorange& range, const reference::ErrorCodes& codes)
     : Hierarchy(field.Dims)
     , Samples(field.Reference())
     , Range(range)
@@ -37,8 +39,9 @@ struct Oracle
   {
     for (double& error : this->Errors)
     {
-      const ErrorCode::Type rounded = code.Encode(error);
-      error = rounded == ErrorCode::Always ? std::numeric_limits<double>::infinity() : rounded;
+      const int code = codes.CodeOf(error);
+      error =
+        code == reference::ErrorCodes::Infinite ? std::numeric_limits<double>::infinity() : code;
     }
   }
 
@@ -178,7 +181,8 @@ TEST(IntervalReference, RefinedSetsAndMeshesAreTheSameInAllModels)
       const Isoregion region = test::RegionOf(range);
       const test::BuiltScalars scalars = test::BuildScalars(field);
       const ErrorCode& code = scalars.Hierarchy->Codes();
-      const Oracle oracle(field, range, code);
+      const reference::ErrorCodes codes(code.Scale());
+      const Oracle oracle(field, range, codes);
       for (const bool refineInterior : { false, true })
       {
         const std::vector<ReferenceKind> kinds =
@@ -198,7 +202,7 @@ TEST(IntervalReference, RefinedSetsAndMeshesAreTheSameInAllModels)
         {
           const double interior = refineInterior ? 0.15 * code.Scale() : infinity;
           const reference::DiamondSet expected = oracle.Refine(
-            code.Accepted(tolerance), refineInterior ? code.Accepted(interior) : infinity);
+            codes.LastWithin(tolerance), refineInterior ? codes.LastWithin(interior) : infinity);
           ExpectSameSet(oracle, kinds, expected,
             RefinedSet(*relevant.Hierarchy, { tolerance, interior }, SerialFor), false);
           ExpectSameSet(oracle, kinds, expected,
@@ -249,16 +253,16 @@ TEST(IntervalReference, CreationInsideACoarseActiveDiamondDoesNotOverlap)
   const test::Built built(
     BuildIsodiamonds(Model::Minimal, field.View(), test::RegionOf(range), SerialFor), SerialFor);
   EXPECT_GT(built.Hierarchy->Count(Kind::Creation), 0);
-  const Oracle oracle(field, range, built.Hierarchy->Codes());
+  const reference::ErrorCodes codes(built.Hierarchy->Codes().Scale());
+  const Oracle oracle(field, range, codes);
   for (const double tolerance : test::Tolerances(built.Hierarchy->Codes().Scale()))
   {
     SCOPED_TRACE(tolerance);
     const test::Volume volume = test::ExtractVolume(*built.Hierarchy, tolerance);
     EXPECT_EQ(test::FindFault(volume, field.Dims), "");
     ExpectSameMesh(oracle,
-      oracle.Refine(
-        built.Hierarchy->Codes().Accepted(tolerance), std::numeric_limits<double>::infinity()),
-      volume, true);
+      oracle.Refine(codes.LastWithin(tolerance), std::numeric_limits<double>::infinity()), volume,
+      true);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "CoreTestTools.h"
 #include "Refinement/ScalarQuery.h"
 
+#include "ReferenceError.h"
 #include "ReferenceMinimal.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ struct Oracle
   std::vector<bool> Crossed;
   std::vector<double> Errors;
 
-  Oracle(const test::Field& field, const ErrorCode& code)
+  Oracle(const test::Field& field, const reference::ErrorCodes& codes)
     : Hierarchy(field.Dims)
     , Samples(field.Reference())
     , Kinds(reference::Classify(this->Hierarchy, this->Samples, field.Isovalue))
@@ -36,11 +37,11 @@ struct Oracle
     for (double& error : this->Errors)
     {
       // The top code stands for "always": above every tolerance, infinity too.
-      error = code.Encode(error);
+      error = codes.CodeOf(error);
     }
   }
 
-  reference::DiamondSet Refine(ErrorCode::Type accepted) const
+  reference::DiamondSet Refine(int accepted) const
   {
     return reference::Refine(
       this->Hierarchy, reference::UniformCriterion(this->Errors, this->Crossed, accepted))
@@ -71,12 +72,13 @@ TEST(Refinement, EqualsTheReferenceWalkInAllModels)
     const test::Built relevant = test::Build(Model::Relevant, field);
     const test::Built minimal = test::Build(Model::Minimal, field);
     const test::BuiltScalars scalars = test::BuildScalars(field);
-    const ErrorCode& code = relevant.Hierarchy->Codes();
-    const Oracle oracle(field, code);
-    for (const double tolerance : test::Tolerances(code.Scale()))
+    const double scale = relevant.Hierarchy->Codes().Scale();
+    const reference::ErrorCodes codes(scale);
+    const Oracle oracle(field, codes);
+    for (const double tolerance : test::Tolerances(scale))
     {
       SCOPED_TRACE(tolerance);
-      const ErrorCode::Type accepted = code.Accepted(tolerance);
+      const int accepted = codes.LastWithin(tolerance);
       const reference::DiamondSet expected = oracle.Refine(accepted);
       ASSERT_EQ(expected,
         reference::SmallestClosedSet(
@@ -85,7 +87,9 @@ TEST(Refinement, EqualsTheReferenceWalkInAllModels)
         oracle, expected, RefinedSet(*relevant.Hierarchy, { tolerance }, SerialFor), false);
       ExpectSameSet(
         oracle, expected, RefinedSet(*minimal.Hierarchy, { tolerance }, SerialFor), true);
-      const DiamondMask subdivided = scalars.Hierarchy->Refine(field.Isovalue, accepted).Subdivided;
+      const DiamondMask subdivided =
+        scalars.Hierarchy->Refine(field.Isovalue, relevant.Hierarchy->Codes().Accepted(tolerance))
+          .Subdivided;
       for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
       {
         ASSERT_EQ(subdivided.Contains(
@@ -105,7 +109,7 @@ TEST(Refinement, FollowsArbitraryCriteria)
   {
     SCOPED_TRACE(field.Name);
     const Grid grid(field.Dims);
-    Oracle oracle(field, ErrorCode(1.0));
+    Oracle oracle(field, reference::ErrorCodes(1.0));
     DiamondMask mask(grid);
     for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
     {
@@ -128,7 +132,7 @@ TEST(Refinement, FollowsArbitraryCriteria)
       ActivationThresholds(grid, members, triggers, test::ThreadedFor(3));
     for (const int accepted : { 0, 1, 1000, 4000, 8000, 12000, 16000, ErrorCode::Always - 1 })
     {
-      const reference::DiamondSet expected = oracle.Refine(static_cast<ErrorCode::Type>(accepted));
+      const reference::DiamondSet expected = oracle.Refine(accepted);
       members.ForEach(
         [&](const Place& place, std::uint32_t rank) {
           EXPECT_EQ(
@@ -195,8 +199,9 @@ TEST(Refinement, TheWalkOnTheMinimalStructureFindsTheSameSet)
   {
     SCOPED_TRACE(field.Name);
     const test::Built minimal = test::Build(Model::Minimal, field, test::Placement(false));
-    const ErrorCode& code = minimal.Hierarchy->Codes();
-    const Oracle oracle(field, code);
+    const double scale = minimal.Hierarchy->Codes().Scale();
+    const reference::ErrorCodes codes(scale);
+    const Oracle oracle(field, codes);
     const Grid& grid = minimal.Hierarchy->SampleGrid();
     std::vector<double> thresholds(oracle.Hierarchy.Size(), 0.0);
     for (int i = 0; i < oracle.Hierarchy.Size(); ++i)
@@ -209,9 +214,9 @@ TEST(Refinement, TheWalkOnTheMinimalStructureFindsTheSameSet)
       reference::Encode(oracle.Hierarchy, oracle.Samples, field.Isovalue, oracle.Kinds,
         std::vector<std::uint16_t>(oracle.Hierarchy.Size(), 1), reference::Model::Minimal);
     const reference::MinimalHierarchy walk(oracle.Hierarchy, encoding, thresholds);
-    for (const double tolerance : test::Tolerances(code.Scale()))
+    for (const double tolerance : test::Tolerances(scale))
     {
-      const reference::MinimalRefinement result = walk.Refine(code.Accepted(tolerance));
+      const reference::MinimalRefinement result = walk.Refine(codes.LastWithin(tolerance));
       ExpectSameSet(
         oracle, result.Subdivided, RefinedSet(*minimal.Hierarchy, { tolerance }, SerialFor), true);
       EXPECT_EQ(test::CompareWithPatches(test::Extract(*minimal.Hierarchy, tolerance),

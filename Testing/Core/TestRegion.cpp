@@ -4,6 +4,7 @@
 #include "IntervalTestTools.h"
 #include "Refinement/ScalarQuery.h"
 
+#include "ReferenceError.h"
 #include "ReferenceRegion.h"
 
 #include <gtest/gtest.h>
@@ -109,7 +110,7 @@ struct Oracle
   std::vector<double> Errors;
   std::vector<bool> Triggers;
 
-  Oracle(const test::Field& field, const Isoregion& region, const ErrorCode& code)
+  Oracle(const test::Field& field, const Isoregion& region, const reference::ErrorCodes& codes)
     : Hierarchy(field.Dims)
     , Errors(reference::OwnFieldErrors(this->Hierarchy, field.Reference()))
   {
@@ -127,11 +128,11 @@ struct Oracle
     }
     for (double& error : this->Errors)
     {
-      error = code.Encode(error);
+      error = codes.CodeOf(error);
     }
   }
 
-  reference::DiamondSet Refine(ErrorCode::Type accepted) const
+  reference::DiamondSet Refine(int accepted) const
   {
     return reference::Refine(
       this->Hierarchy, reference::UniformCriterion(this->Errors, this->Triggers, accepted))
@@ -149,7 +150,8 @@ void ExpectAllModels(const test::Field& field, const Isoregion& region, const Co
     BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor), SerialFor);
   const test::BuiltScalars scalars = test::BuildScalars(field);
   const ErrorCode& code = minimal.Hierarchy->Codes();
-  const Oracle oracle(field, region, code);
+  const reference::ErrorCodes codes(code.Scale());
+  const Oracle oracle(field, region, codes);
   const Grid& grid = minimal.Hierarchy->SampleGrid();
   for (const Box& box : RandomBoxes(field.Dims, 4711, 12))
   {
@@ -159,8 +161,8 @@ void ExpectAllModels(const test::Field& field, const Isoregion& region, const Co
       {
         const Query query{ inside, HUGE_VAL, RegionOfInterest(box, grid, AffineMap()), outside };
         const reference::DiamondSet expected =
-          reference::RefineRegion(oracle.Hierarchy, oracle.Refine(code.Accepted(outside)),
-            oracle.Refine(code.Accepted(inside)), oracle.Kinds, ReferenceBox(box));
+          reference::RefineRegion(oracle.Hierarchy, oracle.Refine(codes.LastWithin(outside)),
+            oracle.Refine(codes.LastWithin(inside)), oracle.Kinds, ReferenceBox(box));
         ExpectSet(oracle.Hierarchy, expected, oracle.Kinds,
           RefinedSet(*relevant.Hierarchy, query, SerialFor), Model::Relevant);
         ExpectSet(oracle.Hierarchy, expected, oracle.Kinds,
@@ -435,10 +437,11 @@ TEST(Region, CountsTheUniformFrontInAllModels)
     const test::Built minimal = test::Build(Model::Minimal, field);
     const test::BuiltScalars scalars = test::BuildScalars(field);
     const ErrorCode& code = minimal.Hierarchy->Codes();
-    const Oracle oracle(field, field.Isovalue, code);
+    const reference::ErrorCodes codes(code.Scale());
+    const Oracle oracle(field, field.Isovalue, codes);
     for (const double tolerance : test::Tolerances(code.Scale()))
     {
-      const reference::DiamondSet expected = oracle.Refine(code.Accepted(tolerance));
+      const reference::DiamondSet expected = oracle.Refine(codes.LastWithin(tolerance));
       ExpectSet(oracle.Hierarchy, expected, oracle.Kinds,
         RefinedSet(*relevant.Hierarchy, { tolerance }, SerialFor), Model::Relevant);
       ExpectSet(oracle.Hierarchy, expected, oracle.Kinds,

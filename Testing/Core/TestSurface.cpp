@@ -5,6 +5,8 @@
 #include "Mesh/DiamondMesh.h"
 #include "Refinement/ScalarQuery.h"
 
+#include "ReferenceError.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,14 +27,14 @@ TEST(Surface, EqualsTheReferenceMeshAtEveryTolerance)
     const std::vector<bool> crossed = reference::CrossedDomains(hierarchy, samples, field.Isovalue);
     std::vector<double> errors = reference::OwnFieldErrors(hierarchy, samples);
     const test::Built minimal = test::Build(Model::Minimal, field);
-    const ErrorCode& code = minimal.Hierarchy->Codes();
+    const reference::ErrorCodes codes(minimal.Hierarchy->Codes().Scale());
     std::transform(errors.begin(), errors.end(), errors.begin(),
-      [&](double error) { return double(code.Encode(error)); });
-    for (const double tolerance : test::Tolerances(code.Scale()))
+      [&](double error) { return double(codes.CodeOf(error)); });
+    for (const double tolerance : test::Tolerances(minimal.Hierarchy->Codes().Scale()))
     {
       SCOPED_TRACE(tolerance);
       const reference::DiamondSet subdivided = reference::Refine(
-        hierarchy, reference::UniformCriterion(errors, crossed, code.Accepted(tolerance)))
+        hierarchy, reference::UniformCriterion(errors, crossed, codes.LastWithin(tolerance)))
                                                  .Subdivided;
       EXPECT_EQ(test::CompareWithPatches(test::Extract(*minimal.Hierarchy, tolerance),
                   reference::LeafPatches(hierarchy, samples, field.Isovalue, subdivided), samples,
