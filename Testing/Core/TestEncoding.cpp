@@ -8,6 +8,8 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 using namespace isodiamond;
 
@@ -109,50 +111,137 @@ TEST(Encoding, IsoverticesOfAnEdgeAreInTheOrderOfTheirSurfaces)
   EXPECT_GT(both, 10);
 }
 
-TEST(Encoding, DamageIsRefused)
+namespace
 {
-  const test::Field field = test::SphereField({ 17, 12, 9 });
-  const Encoding good = BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor);
-  EXPECT_NO_THROW(IsodiamondHierarchy(good, SerialFor));
-  const std::vector<std::function<void(Encoding&)>> damages = {
-    [](Encoding& e) {
-      e.Header.Dimensions = { 17, 12, 1 };
-    },
-    [](Encoding& e) {
-      e.Header.Dimensions = { 33, 12, 9 };
-    },
-    [](Encoding& e) {
-      e.Header.Dimensions = { 9, 12, 9 };
-    },
-    [](Encoding& e) { e.Header.TheModel = Model::HierarchyOfDiamonds; },
-    [](Encoding& e) { e.Header.ErrorScale = 0.0; },
-    [](Encoding& e) { e.Header.ErrorScale = std::numeric_limits<double>::quiet_NaN(); },
-    [](Encoding& e) { e.Arrays.BrickCounts.pop_back(); },
-    [](Encoding& e) { ++e.Arrays.BrickCounts.back(); },
-    [](Encoding& e) { e.Arrays.BrickCounts.back() = 0xffffffffU; },
-    [](Encoding& e) { --e.Arrays.BrickCounts[1]; },
-    [](Encoding& e) { e.Arrays.BrickIndices.back() = 1000000; },
-    [](Encoding& e) { e.Arrays.BrickIndices.back() = e.Arrays.BrickIndices.end()[-2]; },
-    [](Encoding& e) { e.Arrays.BrickIndices.pop_back(); },
-    [](Encoding& e) { e.Arrays.BrickMasks.pop_back(); },
-    [](Encoding& e) { e.Arrays.BrickMasks[0] = 0; },
-    [](Encoding& e) { e.Arrays.BrickMasks.end()[-8] |= 1; }, // an even position
-    [](Encoding& e) { e.Arrays.BrickMasks.end()[-1] ^= 0x8000000000000000U; },
-    [](Encoding& e) { e.Arrays.Records.pop_back(); },
-    [](Encoding& e) { e.Arrays.Records.push_back(e.Arrays.Records.back()); },
-    [](Encoding& e) { e.Arrays.Records.back() |= 2; },
-    [](Encoding& e) { e.Arrays.Records.back() = 1; },
-    [](Encoding& e) { e.Arrays.Isovertices.pop_back(); },
-    [](Encoding& e) { e.Arrays.Isovertices.push_back(7); },
-    [](Encoding& e) { e.Arrays.Isovertices.front() = 0; },
-    [](Encoding& e) { e.Arrays = {}; },
-  };
-  for (std::size_t i = 0; i < damages.size(); ++i)
+
+/** What is done to an encoding, and what is to be said of it. */
+struct Case
+{
+  const char* Message;
+  std::function<void(Encoding&)> Damage;
+};
+
+/** What is said of an encoding; nothing if it is accepted. */
+std::string FaultOf(const EncodingView& encoding)
+{
+  try
+  {
+    IsodiamondHierarchy(encoding, SerialFor);
+    return "";
+  }
+  catch (const std::invalid_argument& fault)
+  {
+    return fault.what();
+  }
+}
+
+void ExpectRefused(const Encoding& good, const std::vector<Case>& cases)
+{
+  EXPECT_EQ(FaultOf(good), "");
+  for (std::size_t i = 0; i < cases.size(); ++i)
   {
     Encoding bad = good;
-    damages[i](bad);
-    EXPECT_THROW(IsodiamondHierarchy(bad, SerialFor), std::invalid_argument) << "damage " << i;
+    cases[i].Damage(bad);
+    EXPECT_EQ(FaultOf(bad), cases[i].Message) << "damage " << i;
   }
+}
+
+Encoding Sphere(const Isoregion& region, const BuildOptions& options = {})
+{
+  const test::Field field = test::SphereField({ 17, 12, 9 });
+  return BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, options);
+}
+
+constexpr const char* TooFewScales = "the number of scales does not match the dimensions";
+constexpr const char* WrongMasks = "the numbers of brick masks and of brick indices do not match";
+constexpr const char* TooFewBricks = "there are fewer bricks than the scales need";
+constexpr const char* WrongIndex = "a brick's index is out of order or range";
+constexpr const char* WrongPlace = "a brick has a diamond where none can be";
+constexpr const char* WrongRecords = "the number of records does not match the bricks";
+constexpr const char* WrongRecord = "a record has an invalid error code or sign";
+constexpr const char* WrongIsovertices = "the number of isovertices does not match the signs";
+constexpr const char* WrongInteriorCodes = "the number of interior codes does not match the bricks";
+constexpr const char* WrongInsideValues = "the number of inside values does not match the signs";
+
+}
+
+// Each check by damage that no other check sees before it: the message tells.
+TEST(Encoding, DamageIsRefused)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr const char* model =
+    "the encoding is not that of a relevant or minimal isodiamond hierarchy";
+  constexpr const char* errorScale = "the error scale is not a positive number";
+  constexpr const char* fieldScale = "the field scale is not a positive number";
+  constexpr const char* corners = "the corners of the base cube are missing";
+  ExpectRefused(Sphere(0.25),
+    { { model, [](Encoding& e) { e.Header.TheModel = Model::HierarchyOfDiamonds; } },
+      { errorScale, [](Encoding& e) { e.Header.ErrorScale = 0.0; } },
+      { errorScale, [](Encoding& e) { e.Header.ErrorScale = -1.0; } },
+      { errorScale, [](Encoding& e) { e.Header.ErrorScale = nan; } },
+      { errorScale, [](Encoding& e) { e.Header.ErrorScale = infinity; } },
+      { fieldScale, [](Encoding& e) { e.Header.FieldScale = 0.0; } },
+      { fieldScale, [](Encoding& e) { e.Header.FieldScale = nan; } },
+      { fieldScale, [](Encoding& e) { e.Header.FieldScale = infinity; } },
+      { TooFewScales,
+        [](Encoding& e) {
+          e.Header.Dimensions = { 33, 12, 9 };
+        } },
+      { TooFewScales, [](Encoding& e) { e.Arrays.BrickCounts.pop_back(); } },
+      { TooFewScales, [](Encoding& e) { e.Arrays = {}; } },
+      { WrongMasks, [](Encoding& e) { e.Arrays.BrickIndices.pop_back(); } },
+      { WrongMasks, [](Encoding& e) { e.Arrays.BrickMasks.pop_back(); } },
+      { TooFewBricks, [](Encoding& e) { ++e.Arrays.BrickCounts.back(); } },
+      { TooFewBricks, [](Encoding& e) { e.Arrays.BrickCounts.back() = 0xffffffffU; } },
+      { "there are more bricks than the scales need",
+        [](Encoding& e) { --e.Arrays.BrickCounts.back(); } },
+      { WrongIndex, [](Encoding& e) { e.Arrays.BrickIndices.back() = 1000000; } },
+      { WrongIndex,
+        [](Encoding& e) { e.Arrays.BrickIndices.back() = e.Arrays.BrickIndices.end()[-2]; } },
+      { "a brick is empty", [](Encoding& e) { std::fill_n(e.Arrays.BrickMasks.end() - 8, 8, 0); } },
+      { WrongPlace, [](Encoding& e) { e.Arrays.BrickMasks.end()[-8] |= 1; } }, // an even position
+      { corners, [](Encoding& e) { e.Arrays.BrickMasks[0] = 0x302; } },
+      { WrongRecords, [](Encoding& e) { e.Arrays.Records.pop_back(); } },
+      { WrongRecords, [](Encoding& e) { e.Arrays.Records.push_back(e.Arrays.Records.back()); } },
+      { WrongRecord, [](Encoding& e) { e.Arrays.Records.back() |= 2; } }, // a third side
+      { WrongRecord, [](Encoding& e) { e.Arrays.Records.back() &= 3; } }, // code 0
+      { WrongRecord, [](Encoding& e) { e.Arrays.Records[7] |= 1; } },     // not in the grid
+      { "an isovertex has the coefficient 0",
+        [](Encoding& e) { e.Arrays.Isovertices.front() = 0; } },
+      { WrongIsovertices, [](Encoding& e) { e.Arrays.Isovertices.pop_back(); } },
+      { WrongIsovertices, [](Encoding& e) { e.Arrays.Isovertices.push_back(7); } },
+      { "there are more relevant isodiamonds than the header says",
+        [](Encoding& e) { e.Header.RelevantCount = 0; } },
+      { WrongInteriorCodes, // there is no interior
+        [](Encoding& e) { e.Arrays.InteriorCodes.resize(e.Arrays.Records.size(), 1); } } });
+}
+
+TEST(Encoding, DamageToVolumesIsRefused)
+{
+  const auto resizeValues = [](int more)
+  {
+    return [more](Encoding& e)
+    { std::visit([&](auto& values) { values.resize(values.size() + more); }, e.InsideValues); };
+  };
+  const Isoregion region(0.2, 1.5);
+  ExpectRefused(Sphere(region),
+    { { WrongInsideValues, resizeValues(1) }, { WrongInsideValues, resizeValues(-1) },
+      { WrongRecord, [](Encoding& e) { e.Arrays.Records.back() |= 3; } } }); // a fourth side
+  ExpectRefused(Sphere(region, test::Interior(true)),
+    { { WrongInteriorCodes, [](Encoding& e) { e.Arrays.InteriorCodes.pop_back(); } },
+      { WrongInteriorCodes, [](Encoding& e) { e.Arrays.InteriorCodes.push_back(1); } },
+      { WrongRecord,
+        [](Encoding& e) { e.Arrays.InteriorCodes.back() = ErrorCode::Always + 1; } } });
+}
+
+// There are no such arrays: the check must come before anything is read.
+TEST(Encoding, MoreIsoverticesThanNumbersAreRefused)
+{
+  const Encoding good = Sphere(0.25);
+  EncodingView view(good);
+  view.Arrays.Isovertices.Size = std::int64_t{ 1 } << 32;
+  EXPECT_EQ(FaultOf(view), "more than 2^32 - 1 isovertices");
 }
 
 namespace
