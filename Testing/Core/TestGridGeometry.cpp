@@ -151,17 +151,99 @@ TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
     const Vector at = { index(random), index(random), index(random) };
     ExpectNear(Gradients(samples, affine)(at), Gradients(samples, listed)(at), 1e-9);
   }
-  // Of a linear field its own, everywhere.
+  // Of a linear field its own, everywhere, beyond the grid, too.
   for (std::size_t i = 0; i < field.size(); ++i)
   {
     field[i] = static_cast<float>(
       2.0 * positions[3 * i] - positions[3 * i + 1] + 0.5 * positions[3 * i + 2]);
   }
-  ExpectNear(Gradients(samples, listed)({ 1.3, 2.2, 4.1 }), { 2.0, -1.0, 0.5 }, 1e-5);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Vector at = { index(random), index(random), index(random) };
+    ExpectNear(Gradients(samples, listed)(at), { 2.0, -1.0, 0.5 }, 1e-5);
+    ExpectNear(Gradients(samples, affine)(at), { 2.0, -1.0, 0.5 }, 1e-5);
+  }
   const Vector normal = NormalOf({ 0.0, 3.0, -4.0 });
   ExpectNear(normal, { 0.0, -0.6, 0.8 });
   ExpectNear(NormalOf({ 0.0, 0.0, 0.0 }), { 0.0, 0.0, 1.0 });
   ExpectNear(NormalOf({ 0.0, std::nan(""), 0.0 }), { 0.0, 0.0, 1.0 });
+}
+
+TEST(GridGeometry, GradientsAreCentralDifferencesAndOneSidedAtTheBorder)
+{
+  const auto squares = [](const Point& p) { return p[0] * p[0] + 3 * p[1] * p[1] - p[2] * p[2]; };
+  std::vector<int> field;
+  for (int i = 0; i < Size[0] * Size[1] * Size[2]; ++i)
+  {
+    field.push_back(squares({ i % Size[0], i / Size[0] % Size[1], i / (Size[0] * Size[1]) }));
+  }
+  const GridGeometry world((AffineMap()));
+  const AnySamples samples = SampleView<int>(field.data(), Size);
+  const Gradients gradients(samples, world);
+  const std::array<double, 3> factors = { 1.0, 3.0, -1.0 };
+  for (int i = 0; i < Size[0] * Size[1] * Size[2]; ++i)
+  {
+    const Point p = { i % Size[0], i / Size[0] % Size[1], i / (Size[0] * Size[1]) };
+    Vector expected{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const bool isFirst = p[axis] == 0;
+      const bool isLast = p[axis] == Size[axis] - 1;
+      expected[axis] = factors[axis] * (2 * p[axis] + (isFirst ? 1 : 0) - (isLast ? 1 : 0));
+    }
+    ExpectNear(gradients({ 1.0 * p[0], 1.0 * p[1], 1.0 * p[2] }), expected);
+  }
+}
+
+namespace
+{
+
+/** Whether the box around a cell touches another. */
+bool CellTouches(const std::vector<double>& positions, const Point& cell, const Box& box)
+{
+  bool touches = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const Vector p = At(
+        positions, cell[0] + (corner & 1), cell[1] + ((corner >> 1) & 1), cell[2] + (corner >> 2));
+      low = std::min(low, p[axis]);
+      high = std::max(high, p[axis]);
+    }
+    touches = touches && low <= box.Maximum[axis] && high >= box.Minimum[axis];
+  }
+  return touches;
+}
+
+/** The index box of the cells that touch, of the outermost the padding, too. */
+Box BoxOfCells(const std::vector<double>& positions, const Box& box, int padding)
+{
+  Box expected{ { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } };
+  for (int z = 0; z < Size[2] - 1; ++z)
+  {
+    for (int y = 0; y < Size[1] - 1; ++y)
+    {
+      for (int x = 0; x < Size[0] - 1; ++x)
+      {
+        const Point cell = { x, y, z };
+        for (int axis = 0; axis < 3 && CellTouches(positions, cell, box); ++axis)
+        {
+          const bool isFirst = cell[axis] == 0;
+          const bool isLast = cell[axis] == Size[axis] - 2;
+          expected.Minimum[axis] =
+            std::min(expected.Minimum[axis], isFirst ? 0.0 : cell[axis] + 1.0 * padding);
+          expected.Maximum[axis] =
+            std::max(expected.Maximum[axis], cell[axis] + 1.0 + (isLast ? 2.0 : 1.0) * padding);
+        }
+      }
+    }
+  }
+  return expected;
+}
+
 }
 
 TEST(GridGeometry, IndexBoxesHoldAllCellsThatTouch)
@@ -181,6 +263,9 @@ TEST(GridGeometry, IndexBoxesHoldAllCellsThatTouch)
         box.Maximum[axis] = box.Minimum[axis] + 2.0 * part(random);
       }
       const Box found = IndexBoxOf(box, bent);
+      const Box expected = BoxOfCells(positions, box, padding); // no more either
+      EXPECT_EQ(found.Minimum, expected.Minimum);
+      EXPECT_EQ(found.Maximum, expected.Maximum);
       for (int j = 0; j < 300; ++j) // no point of the grid in the box may be outside
       {
         Vector index{};
@@ -248,6 +333,52 @@ TEST(HiddenCells, TouchesAreThoseOfTheBoxAroundADiamond)
       // Blocks at the grid's end reach beyond it, never short of it.
       EXPECT_EQ(some.Touch(place), expected) << scale;
     }
+  }
+}
+
+TEST(WorldLengths, OfAnAffineMapIsTheGeometrysDistance)
+{
+  std::mt19937 random(10);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  const auto anywhere = [&]
+  {
+    const auto along = [&] { return static_cast<int>(random() % (20 * FineUnits)); };
+    return FinePosition{ along(), along(), along() };
+  };
+  for (int i = 0; i < 500; ++i)
+  {
+    // Sheared, most of it by far along one of the axes.
+    AffineMap world;
+    for (std::array<double, 4>& row : world.Rows)
+    {
+      row = { part(random), 0.1 * part(random), 5.0 * part(random), 100.0 * part(random) };
+    }
+    const AffineLengths lengths(world);
+    const auto place = [&](const FinePosition& p)
+    { return Vector(world(p[0] / 256.0, p[1] / 256.0, p[2] / 256.0)); };
+    const auto squared = [](const Vector& v) { return Dot(v, v); };
+    const FinePosition a = anywhere();
+    const FinePosition b = anywhere();
+    const double length = squared(place(b) - place(a));
+    EXPECT_NEAR(squared(lengths(b) - lengths(a)), length, 1e-9 * length);
+    // The ball around a box holds all of it, and no more than it must.
+    FineBox box;
+    box.Add(a);
+    box.Add(b);
+    const FinePosition middle = { (box.Low[0] + box.High[0]) / 2, (box.Low[1] + box.High[1]) / 2,
+      (box.Low[2] + box.High[2]) / 2 };
+    double farthest = 0.0;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const FinePosition at = { (corner & 1) != 0 ? box.High[0] : box.Low[0],
+        (corner & 2) != 0 ? box.High[1] : box.Low[1],
+        (corner & 4) != 0 ? box.High[2] : box.Low[2] };
+      farthest = std::max(farthest, squared(place(at) - place(middle)));
+    }
+    // The middle is a step of 1/256 beside the true one at most.
+    const double radius = lengths.SquaredRadius(box, middle);
+    EXPECT_GE(radius, farthest * (1.0 - 1e-9));
+    EXPECT_LE(std::sqrt(radius), std::sqrt(farthest) + 6.0 * std::sqrt(3.0) / 256.0);
   }
 }
 
@@ -335,6 +466,31 @@ TEST_P(ViewpointIn, TolerancesAreThoseOfTheNearestPointOrLess)
   const Viewpoint view(eye, 0.01, map);
   std::mt19937 random(8);
   std::uniform_real_distribution<double> part(-1.0, 1.0);
+  // Of a ball around a cube of a half width, or of the cube where axes are uneven.
+  const auto expectedOf = [&](const Vector& centre, double half)
+  {
+    Vector away = map(centre) - eye;
+    double longest = 0.0;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const Vector at = { centre[0] + ((corner & 1) != 0 ? half : -half),
+        centre[1] + ((corner & 2) != 0 ? half : -half),
+        centre[2] + ((corner & 4) != 0 ? half : -half) };
+      const Vector reach = map(at) - map(centre);
+      longest = std::max(longest, std::hypot(reach[0], reach[1], reach[2]));
+    }
+    if (!this->GetParam())
+    {
+      return 0.01 * std::max(0.0, std::hypot(away[0], away[1], away[2]) - longest);
+    }
+    const Vector low = map({ centre[0] - half, centre[1] + half, centre[2] - half }); // y falls
+    const Vector high = map({ centre[0] + half, centre[1] - half, centre[2] + half });
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      away[axis] = std::clamp(eye[axis], low[axis], high[axis]) - eye[axis];
+    }
+    return 0.01 * std::hypot(away[0], away[1], away[2]);
+  };
   double greatest = 0.0;
   for (int scale = 0; scale < grid.Depth(); ++scale)
   {
@@ -350,9 +506,13 @@ TEST_P(ViewpointIn, TolerancesAreThoseOfTheNearestPointOrLess)
       const Point origin = { place.Position[0] & ~7, place.Position[1] & ~7,
         place.Position[2] & ~7 };
       EXPECT_LE(view.LeastIn(scale, origin), tolerance);
+      const double h = 1 << scale;
+      const Vector centre = { h * place.Position[0], h * place.Position[1], h * place.Position[2] };
+      EXPECT_NEAR(tolerance, expectedOf(centre, h), 1e-9);
+      const Vector middle = { h * (origin[0] + 3.5), h * (origin[1] + 3.5), h * (origin[2] + 3.5) };
+      EXPECT_NEAR(view.LeastIn(scale, origin), expectedOf(middle, 4.5 * h), 1e-9);
       for (int j = 0; j < 20; ++j)
       {
-        const double h = 1 << scale;
         const Vector p = map({ h * (place.Position[0] + part(random)),
           h * (place.Position[1] + part(random)), h * (place.Position[2] + part(random)) });
         EXPECT_LE(
@@ -362,6 +522,16 @@ TEST_P(ViewpointIn, TolerancesAreThoseOfTheNearestPointOrLess)
   }
   EXPECT_GT(greatest, 0.1);
   EXPECT_GE(view.GreatestIn(grid), greatest);
+  double corners = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const double last = 1 << grid.Depth();
+    const Vector away = map({ (corner & 1) != 0 ? last : 0.0, (corner & 2) != 0 ? last : 0.0,
+                          (corner & 4) != 0 ? last : 0.0 }) -
+      eye;
+    corners = std::max(corners, std::hypot(away[0], away[1], away[2]));
+  }
+  EXPECT_NEAR(view.GreatestIn(grid), 0.01 * corners, 1e-9);
   EXPECT_THROW(Viewpoint({ std::nan(""), 0.0, 0.0 }, 1.0, map), std::invalid_argument);
   EXPECT_THROW(Viewpoint(eye, HUGE_VAL, map), std::invalid_argument);
 }
