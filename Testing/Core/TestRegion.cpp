@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Regions of interest: which diamonds touch one, the refined set in all models and for both shapes,
 // the counts of subdivided and front diamonds.
-#include "IntervalTestTools.h"
+#include "DistanceTestTools.h"
 #include "Refinement/ScalarQuery.h"
 
 #include "ReferenceError.h"
@@ -179,6 +179,27 @@ void ExpectAllModels(const test::Field& field, const Isoregion& region, const Co
 
 }
 
+namespace
+{
+
+/** From where to where the tetrahedra of a diamond reach on an axis. */
+std::pair<int, int> ExtentOf(const reference::Hierarchy& hierarchy, int diamond, int axis)
+{
+  std::pair<int, int> extent = { hierarchy.At(diamond).Center[axis],
+    hierarchy.At(diamond).Center[axis] };
+  for (const reference::Tetrahedron& tetrahedron : hierarchy.At(diamond).Tetrahedra)
+  {
+    for (const reference::Point& vertex : tetrahedron.Vertices)
+    {
+      extent.first = std::min(extent.first, vertex[axis]);
+      extent.second = std::max(extent.second, vertex[axis]);
+    }
+  }
+  return extent;
+}
+
+}
+
 TEST(Region, TouchesWhatTheReferenceSays)
 {
   int touched = 0;
@@ -343,6 +364,39 @@ TEST(Region, FollowsNegativeSpacingsAndFarOrigins)
     {
       ASSERT_EQ(region.Touches(test::PlaceOf(grid, hierarchy.At(i).Center)),
         reference::Touches(hierarchy, i, ReferenceBox(box)));
+    }
+  }
+}
+
+// A box that ends where diamonds do touches them, if rounding made it an ulp shorter, too.
+TEST(Region, TouchesDespiteRounding)
+{
+  const Grid grid({ 9, 9, 9 });
+  AffineMap world = test::Spacing(0.1, 0.3, 0.7);
+  world.Rows[0][3] = 100.0;
+  const reference::Hierarchy hierarchy({ 9, 9, 9 });
+  for (int plane = 1; plane < 8; ++plane)
+  {
+    const Vector position = world(plane, plane, plane);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Box below{ { -Infinity, -Infinity, -Infinity }, { Infinity, Infinity, Infinity } };
+      Box above = below;
+      below.Maximum[axis] = std::nextafter(position[axis], -Infinity);
+      above.Minimum[axis] = std::nextafter(position[axis], Infinity);
+      const RegionOfInterest belowPlane(below, grid, world);
+      const RegionOfInterest abovePlane(above, grid, world);
+      for (int i = 0; i < hierarchy.Size(); ++i)
+      {
+        const Place place = test::PlaceOf(grid, hierarchy.At(i).Center);
+        const auto [low, high] = ExtentOf(hierarchy, i, axis);
+        ASSERT_EQ(belowPlane.Touches(place), low <= plane);
+        ASSERT_EQ(abovePlane.Touches(place), high >= plane);
+        const Point origin = { place.Position[0] & ~7, place.Position[1] & ~7,
+          place.Position[2] & ~7 };
+        ASSERT_TRUE(belowPlane.MayTouch(place.Scale, origin) || !belowPlane.Touches(place));
+        ASSERT_TRUE(abovePlane.MayTouch(place.Scale, origin) || !abovePlane.Touches(place));
+      }
     }
   }
 }
