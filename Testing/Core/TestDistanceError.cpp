@@ -2,6 +2,7 @@
 // The distance metric: errors against the reference's definition, the promise on whole meshes. More
 // meshes, in worlds and of real data, are checked with VTK in Testing/Filters/TestDistance.cpp.
 #include "DistanceError/DistanceError.h"
+#include "DistanceError/ErrorMaxima.h"
 #include "DistanceTestTools.h"
 #include "Mesh/CurrentMesh.h"
 #include "Patches/PatchBound.h"
@@ -13,9 +14,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <thread>
 
 using namespace isodiamond;
 
@@ -378,6 +381,91 @@ TEST(DistanceError, SubdividesAroundValuesThatAreNotFinite)
     {
       ASSERT_NEAR(point[0], 26.3, 33.0 / 256);
     }
+  }
+}
+
+namespace
+{
+
+/** Errors of a small hierarchy before anything is found. */
+struct Maxima
+{
+  test::Built Relevant = test::Build(Model::Relevant, Field());
+  test::Field Samples = Field();
+  MapBounds None;
+  ErrorMaxima Errors{ *Relevant.Hierarchy, Samples.View(), AffineMap(), 1.0, true, None };
+
+  static test::Field Field() { return test::NoiseField({ 9, 9, 9 }, 61); }
+
+  void Raise(std::uint32_t rank, double distance)
+  {
+    this->Errors.RaiseToFarthest({ 0, { 1, 1, 1 } }, rank,
+      [&](Farthest& farthest)
+      {
+        farthest.IsAny = true;
+        farthest.Squared = std::max(farthest.Squared, distance * distance);
+      });
+  }
+};
+
+}
+
+// A greater distance that another thread finds in the meantime stays.
+TEST(ErrorMaxima, KeepWhatIsFoundInBetween)
+{
+  Maxima maxima;
+  maxima.Errors.RaiseToFarthest({ 0, { 1, 1, 1 } }, 20,
+    [&](Farthest& farthest)
+    {
+      maxima.Raise(20, 0.5);
+      farthest = { 0.25 * 0.25, true };
+    });
+  EXPECT_EQ(maxima.Errors.Result()[20], reference::ErrorCodes(1.0).CodeOf(0.5 * DistanceMargin));
+}
+
+TEST(ErrorMaxima, AreThoseOfTwoThreadsAtOnce)
+{
+  for (int round = 0; round < 100; ++round)
+  {
+    Maxima maxima;
+    const auto count = static_cast<std::uint32_t>(maxima.Errors.Result().size());
+    std::atomic<int> started{ 0 };
+    const auto raiseAll = [&](double odd, double even)
+    {
+      ++started;
+      while (started < 2)
+      {
+      }
+      for (std::uint32_t rank = 0; rank < count; ++rank)
+      {
+        maxima.Raise(rank, rank % 2 != 0 ? odd : even);
+      }
+    };
+    std::thread other(raiseAll, 0.25, 0.5);
+    raiseAll(0.5, 0.25);
+    other.join();
+    const std::vector<ErrorCode::Type> found = maxima.Errors.Result();
+    const int expected = reference::ErrorCodes(1.0).CodeOf(0.5 * DistanceMargin);
+    ASSERT_EQ(std::count(found.begin(), found.end(), expected), count) << "round " << round;
+  }
+}
+
+// A distance just below that of a code is rounded up to the next one, whatever was known.
+TEST(ErrorMaxima, DoNotDependOnTheOrderNextToCodes)
+{
+  const reference::ErrorCodes codes(1.0);
+  for (int code = 9000; code < 9100; ++code)
+  {
+    const double less = codes.ErrorOf(code) * (1.0 - 1e-4);
+    const double next = codes.ErrorOf(code) * (1.0 - 1e-13);
+    Maxima maxima;
+    maxima.Raise(20, less);
+    ASSERT_EQ(maxima.Errors.Result()[20], code);
+    maxima.Raise(20, next);
+    maxima.Raise(21, next);
+    maxima.Raise(21, less);
+    ASSERT_EQ(maxima.Errors.Result()[20], code + 1);
+    ASSERT_EQ(maxima.Errors.Result()[21], code + 1);
   }
 }
 
