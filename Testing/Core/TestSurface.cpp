@@ -248,14 +248,43 @@ TEST(DiamondMesh, TilesTheDomainForRelevantAndScalarHierarchies)
     }
     return six;
   };
+  const auto corners = [](const DiamondMesh& mesh, std::size_t tetrahedron)
+  {
+    std::array<Point, 4> points{};
+    for (int i = 0; i < 4; ++i)
+    {
+      points[i] = mesh.Points[mesh.Tetrahedra[tetrahedron][i]];
+    }
+    return points;
+  };
+  // Those that the surface passes, and all.
+  const auto tetrahedra = [&](const DiamondMesh& mesh, bool isCrossed)
+  {
+    std::set<std::array<Point, 4>> chosen;
+    for (std::size_t i = 0; i < mesh.Tetrahedra.size(); ++i)
+    {
+      std::array<Point, 4> points = corners(mesh, i);
+      const auto above = std::count_if(points.begin(), points.end(),
+        [&](const Point& p) { return field.Reference().At(p) > field.Isovalue; });
+      std::sort(points.begin(), points.end());
+      if (!isCrossed || (above != 0 && above != 4))
+      {
+        chosen.insert(points);
+      }
+    }
+    return chosen;
+  };
   for (const double tolerance : { 0.0, 0.1, 1.0, 1e9 })
   {
     const DiamondMesh whole =
       ExtractDiamondMesh(RefinedSet(*relevant.Hierarchy, { tolerance }, SerialFor));
     EXPECT_EQ(volume(whole), 6 * 16 * 16 * 16);
+    // An MI knows nothing of where no surface is, and all of where one is.
     const DiamondMesh part =
       ExtractDiamondMesh(RefinedSet(*minimal.Hierarchy, { tolerance }, SerialFor));
-    EXPECT_LT(part.Tetrahedra.size(), std::max<std::size_t>(whole.Tetrahedra.size(), 7));
+    EXPECT_EQ(tetrahedra(part, true), tetrahedra(whole, true));
+    EXPECT_EQ(tetrahedra(part, true).empty(), tolerance == 1e9); // no corner of the cube is above
+    EXPECT_EQ(tetrahedra(part, false).size(), part.Tetrahedra.size());
     EXPECT_LE(volume(part), 6 * 16 * 16 * 16);
   }
 }
