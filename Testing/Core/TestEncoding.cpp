@@ -62,19 +62,6 @@ TEST(Encoding, CoefficientsAreWithinAStepOfTheLinearCrossing)
   EXPECT_EQ(LinearCoefficient(0.0, std::numeric_limits<double>::quiet_NaN(), 1.0), 128);
 }
 
-TEST(Encoding, HugeDimensionsAreRefusedBeforeTheyTakeMemory)
-{
-  const test::Field field = test::SphereField({ 17, 12, 9 });
-  Encoding bad = BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor);
-  for (const std::array<int, 3>& dimensions :
-    { std::array<int, 3>{ 6000, 6000, 6000 }, { 1048577, 1048577, 2 },
-      { 1048577, 1048577, 1048577 }, { 2147483647, 2, 2 }, { -5, 12, 9 } })
-  {
-    bad.Header.Dimensions = dimensions;
-    EXPECT_THROW(IsodiamondHierarchy(bad, SerialFor), std::logic_error) << dimensions[0];
-  }
-}
-
 TEST(Encoding, IsoverticesOfAnEdgeAreInTheOrderOfTheirSurfaces)
 {
   const test::Field field = test::NoiseField({ 9, 9, 9 }, 2); // of small integers
@@ -233,6 +220,24 @@ TEST(Encoding, DamageToVolumesIsRefused)
       { WrongInteriorCodes, [](Encoding& e) { e.Arrays.InteriorCodes.push_back(1); } },
       { WrongRecord,
         [](Encoding& e) { e.Arrays.InteriorCodes.back() = ErrorCode::Always + 1; } } });
+}
+
+TEST(Encoding, HugeDimensionsAreRefusedBeforeTheyTakeMemory)
+{
+  Encoding bad = Sphere(0.25);
+  for (const std::array<int, 3>& dimensions :
+    { std::array<int, 3>{ 6000, 6000, 6000 }, { 5000, 5000, 8193 } })
+  {
+    bad.Header.Dimensions = dimensions;
+    EXPECT_EQ(FaultOf(bad), "the dimensions are too large for what is stored") << dimensions[0];
+  }
+  // No grid at all.
+  for (const std::array<int, 3>& dimensions : { std::array<int, 3>{ 1048577, 1048577, 1048577 },
+         { 1048577, 1048577, 2 }, { 2147483647, 2, 2 }, { -5, 12, 9 } })
+  {
+    bad.Header.Dimensions = dimensions;
+    EXPECT_THROW(IsodiamondHierarchy(bad, SerialFor), std::logic_error) << dimensions[0];
+  }
 }
 
 // There are no such arrays: the check must come before anything is read.

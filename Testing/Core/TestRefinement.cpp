@@ -262,3 +262,40 @@ TEST(Refinement, HierarchyOfDiamondsVisitsFewerAsTheToleranceGrows)
     previous = visited;
   }
 }
+
+// Cells are cut out of meshes, so these have full resolution there, whatever the tolerance.
+TEST(Refinement, GoesToTheEndAtHiddenCells)
+{
+  const test::Field field = test::SphereField({ 17, 17, 17 });
+  const auto cellOf = [](const test::PlacedTriangle& triangle)
+  {
+    const auto& [a, b, c] = triangle.Corners;
+    Point cell{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell[axis] = static_cast<int>(std::floor((a[axis] + b[axis] + c[axis]) / 3.0F));
+    }
+    return cell;
+  };
+  const std::vector<test::PlacedTriangle> full =
+    test::PlacedTriangles(test::Extract(*test::Build(Model::Minimal, field).Hierarchy, 0.0));
+  const Point cell = cellOf(full[full.size() / 2]);
+  std::vector<std::uint8_t> hidden(16 * 16 * 16, 0);
+  hidden[(cell[2] * 16 + cell[1]) * 16 + cell[0]] = 1;
+  const HiddenCells cells(std::move(hidden), { 16, 16, 16 });
+  for (const ErrorMetric metric : { ErrorMetric::Field, ErrorMetric::Distance })
+  {
+    BuildOptions options;
+    options.Metric = metric;
+    options.Hidden = &cells;
+    const test::Built built = test::Build(Model::Minimal, field, options);
+    const std::vector<test::PlacedTriangle> coarse =
+      test::PlacedTriangles(test::Extract(*built.Hierarchy, 3.0));
+    EXPECT_LT(coarse.size(), full.size() / 2);
+    for (const test::PlacedTriangle& triangle : full)
+    {
+      EXPECT_TRUE(cellOf(triangle) != cell ||
+        std::find(coarse.begin(), coarse.end(), triangle) != coarse.end());
+    }
+  }
+}
