@@ -450,6 +450,20 @@ TEST(ErrorMaxima, AreThoseOfTwoThreadsAtOnce)
   }
 }
 
+TEST(ErrorMaxima, StayWhereNothingIsFound)
+{
+  Maxima maxima;
+  const auto findNothing = [&](std::uint32_t rank) {
+    maxima.Errors.RaiseToFarthest({ 0, { 1, 1, 1 } }, rank, [](Farthest& /*farthest*/) {});
+  };
+  maxima.Raise(21, 0.5);
+  const ErrorCode::Type known = maxima.Errors.Result()[21];
+  findNothing(20);
+  findNothing(21);
+  EXPECT_EQ(maxima.Errors.Result()[20], 0); // no isovertex at all
+  EXPECT_EQ(maxima.Errors.Result()[21], known);
+}
+
 // A distance just below that of a code is rounded up to the next one, whatever was known.
 TEST(ErrorMaxima, DoNotDependOnTheOrderNextToCodes)
 {
@@ -467,6 +481,18 @@ TEST(ErrorMaxima, DoNotDependOnTheOrderNextToCodes)
     ASSERT_EQ(maxima.Errors.Result()[20], code + 1);
     ASSERT_EQ(maxima.Errors.Result()[21], code + 1);
   }
+}
+
+TEST(DistanceError, HasTheDiagonalOfTheGridAsItsScale)
+{
+  const Grid grid({ 3, 5, 13 });
+  EXPECT_EQ(DistanceErrorScale(grid, AffineMap()), std::sqrt(2.0 * 2.0 + 4.0 * 4.0 + 12.0 * 12.0));
+  EXPECT_EQ(DistanceErrorScale(grid, GridGeometry(test::Spacing(2.0, -0.75, 0.5))),
+    std::sqrt(4.0 * 4.0 + 3.0 * 3.0 + 6.0 * 6.0));
+  const AxisCoordinates axes = { std::vector<double>{ 1, 3, 4 }, { 9, 7, 6, 5, 3 },
+    { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14 } };
+  EXPECT_EQ(
+    DistanceErrorScale(grid, GridGeometry(axes)), std::sqrt(3.0 * 3.0 + 6.0 * 6.0 + 14.0 * 14.0));
 }
 
 TEST(DistanceError, RefusesWorldsWithoutLengths)
