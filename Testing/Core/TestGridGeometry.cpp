@@ -169,6 +169,24 @@ TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
   ExpectNear(NormalOf({ 0.0, std::nan(""), 0.0 }), { 0.0, 0.0, 1.0 });
 }
 
+TEST(Samples, AreFiniteOrNot)
+{
+  const std::vector<int> whole(8, 7);
+  const AnySamples integers = SampleView<int>(whole.data(), { 2, 2, 2 });
+  EXPECT_TRUE(Finiteness(integers).All());
+  for (const double special : { std::nan(""), HUGE_VAL, -HUGE_VAL })
+  {
+    std::vector<double> values(8, 7.0);
+    const AnySamples samples = SampleView<double>(values.data(), { 2, 2, 2 });
+    EXPECT_TRUE(Finiteness(samples).All());
+    values[5] = special;
+    const Finiteness isFinite(samples);
+    EXPECT_FALSE(isFinite.All());
+    EXPECT_FALSE(isFinite({ 1, 0, 1 }));
+    EXPECT_TRUE(isFinite({ 1, 1, 1 }));
+  }
+}
+
 TEST(GridGeometry, GradientsAreCentralDifferencesAndOneSidedAtTheBorder)
 {
   const auto squares = [](const Point& p) { return p[0] * p[0] + 3 * p[1] * p[1] - p[2] * p[2]; };
