@@ -67,7 +67,7 @@ void CheckPromise(const test::Field& field, const GridGeometry& world)
     test::Promise promise;
     promise.Tolerance = tolerance;
     promise.Step = 0.25;
-    promise.MostSamples = 4e4;
+    promise.MostSamples = 2e4;
     EXPECT_EQ(FaultOf(promise, full, test::Placed(mesh, world)), "") << "tolerance " << tolerance;
   }
   EXPECT_LT(fewest, finest.Triangles.size());
@@ -84,6 +84,11 @@ TEST(LargeFields, KeepThePromise)
   CheckPromise(test::WaveField(box), test::Spacing(0.5, 2.0, 1.25));
   CheckPromise(RareField(cube, 71, 2 * n), AffineMap());
   CheckPromise(test::WaveField(cube), GridGeometry(test::UnevenCoordinates(cube, 20.0)));
+}
+
+TEST(LargeFields, KeepThePromiseAt65Samples)
+{
+  CheckPromise(test::SphereField({ 65, 65, 65 }), AffineMap());
 }
 
 TEST(LargeFields, KeepThePromiseOfBothSurfaces)
