@@ -169,6 +169,33 @@ TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
   ExpectNear(NormalOf({ 0.0, std::nan(""), 0.0 }), { 0.0, 0.0, 1.0 });
 }
 
+TEST(AffineMap, HasItsDeterminantAndInverse)
+{
+  AffineMap map;
+  map.Rows = { { { 2.0, 1.0, 0.0, 5.0 }, { 0.0, 3.0, -1.0, -2.0 }, { 4.0, 0.0, 1.0, 0.5 } } };
+  // 2 (3 - 0) - 1 (0 + 4) + 0
+  EXPECT_EQ(map.Determinant(), 2.0);
+  EXPECT_FALSE(map.Mirrors());
+  const Vector index = { 1.25, -7.0, 3.5 };
+  ExpectNear(map.Inverse(map(index[0], index[1], index[2])), index);
+  // Products of cofactors and columns: the determinant, or nothing.
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      double sum = 0.0;
+      for (int i = 0; i < 3; ++i)
+      {
+        sum += map.Cofactor(i, j) * map.Rows[i][k];
+      }
+      EXPECT_EQ(sum, j == k ? 2.0 : 0.0);
+    }
+  }
+  std::swap(map.Rows[0], map.Rows[1]);
+  EXPECT_EQ(map.Determinant(), -2.0);
+  EXPECT_TRUE(map.Mirrors());
+}
+
 TEST(Samples, AreFiniteOrNot)
 {
   const std::vector<int> whole(8, 7);
