@@ -240,6 +240,42 @@ TEST(Encoding, HugeDimensionsAreRefusedBeforeTheyTakeMemory)
   }
 }
 
+// Codes and ranges of another grid or type lead beyond the arrays.
+TEST(Encoding, ScalarsThatDoNotFitAreRefused)
+{
+  const test::Field field = test::SphereField({ 9, 6, 7 });
+  const ScalarEncoding good = BuildScalarHierarchy(field.View(), SerialFor);
+  const auto isRefused = [&](const ScalarEncoding& encoding)
+  {
+    try
+    {
+      ScalarHierarchy(field.View(), encoding.ErrorScale, encoding.Codes.data(),
+        static_cast<std::int64_t>(encoding.Codes.size()), ViewOf(encoding.Minima),
+        ViewOf(encoding.Maxima));
+      return false;
+    }
+    catch (const std::invalid_argument&)
+    {
+      return true;
+    }
+  };
+  EXPECT_FALSE(isRefused(good));
+  const auto isRefusedAfter = [&](const std::function<void(ScalarEncoding&)>& damage)
+  {
+    ScalarEncoding bad = good;
+    damage(bad);
+    return isRefused(bad);
+  };
+  const auto shorten = [](AnyValues& values)
+  { std::visit([](auto& some) { some.pop_back(); }, values); };
+  EXPECT_TRUE(isRefusedAfter([](ScalarEncoding& e) { e.Codes.pop_back(); }));
+  EXPECT_TRUE(isRefusedAfter([&](ScalarEncoding& e) { shorten(e.Minima); }));
+  EXPECT_TRUE(isRefusedAfter([&](ScalarEncoding& e) { shorten(e.Maxima); }));
+  const std::size_t count = std::get<std::vector<float>>(good.Minima).size();
+  EXPECT_TRUE(isRefusedAfter([&](ScalarEncoding& e) { e.Minima = std::vector<double>(count); }));
+  EXPECT_TRUE(isRefusedAfter([&](ScalarEncoding& e) { e.Maxima = std::vector<double>(count); }));
+}
+
 // There are no such arrays: the check must come before anything is read.
 TEST(Encoding, MoreIsoverticesThanNumbersAreRefused)
 {

@@ -230,6 +230,29 @@ TEST(Surface, AtInfiniteToleranceDependsOnTheRoot)
   EXPECT_TRUE(mesh.Triangles.empty());
 }
 
+TEST(Surface, TellsOfEachPointOnce)
+{
+  const test::Field field = test::SphereField({ 17, 12, 9 });
+  const test::Built built = test::Build(Model::Minimal, field);
+  const RefinedSet refined(*built.Hierarchy, { 0.3 }, SerialFor);
+  const SurfaceExtraction extraction(refined, SerialFor);
+  std::vector<double> written(3 * extraction.PointCount());
+  extraction.WritePoints(AffineMap(), written.data());
+  std::vector<int> seen(extraction.PointCount());
+  extraction.ForEachPoint(
+    [&](const MeshPoint& point)
+    {
+      ++seen[point.Id];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_EQ(point.Index[axis], written[3 * point.Id + axis]);
+      }
+      EXPECT_EQ(point.Surface, -1);
+    });
+  EXPECT_GT(seen.size(), 100U);
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), extraction.PointCount());
+}
+
 TEST(DiamondMesh, TilesTheDomainForRelevantAndScalarHierarchies)
 {
   const test::Field field = test::SphereField({ 17, 17, 17 });
