@@ -64,7 +64,8 @@ struct Rise
  *
  * A sweep down gives each diamond what it has by its parents alone, one up raises the ancestors.
  * Only the few diamonds whose parents a sibling's descendants have raised are left then; from them
- * the paper's own walk goes on, with a falling tolerance.
+ * the paper's own walk goes on, with a falling tolerance. Where few diamonds have anything by their
+ * parents the walk does without the sweep down.
  */
 class RisingCodes
 {
@@ -77,6 +78,14 @@ public:
     , Parallel(parallelFor)
     , Codes(members.Size())
   {
+  }
+
+  /** From codes that count wherever the parents are. */
+  RisingCodes(const Grid& grid, const DiamondSet& members, std::vector<ErrorCode::Type> own,
+    const std::vector<ErrorCode::Type>& least, const ParallelFor& parallelFor)
+    : RisingCodes(grid, members, std::move(own), parallelFor)
+  {
+    std::copy(least.begin(), least.end(), this->Codes.begin());
   }
 
   std::vector<ErrorCode::Type> Thresholds()
@@ -95,8 +104,9 @@ public:
 
   std::vector<ErrorCode::Type> Saturated()
   {
-    std::copy(this->Own.begin(), this->Own.end(), this->Codes.begin());
     this->SweepUp();
+    this->FindRising();
+    this->Walk();
     return this->Result();
   }
 
@@ -318,10 +328,33 @@ std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const Diamon
   return thresholds;
 }
 
-std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
-  std::vector<ErrorCode::Type> codes, const ParallelFor& parallelFor)
+std::vector<std::uint32_t> FindFollowers(
+  const std::vector<ErrorCode::Type>& own, const std::vector<ErrorCode::Type>& thresholds)
 {
-  return RisingCodes(grid, members, std::move(codes), parallelFor).Saturated();
+  std::vector<std::uint32_t> followers;
+  for (std::size_t rank = 0; rank < own.size(); ++rank)
+  {
+    if (own[rank] > thresholds[rank])
+    {
+      followers.push_back(static_cast<std::uint32_t>(rank));
+    }
+  }
+  return followers;
+}
+
+std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
+  const std::vector<ErrorCode::Type>& codes, const std::vector<std::uint32_t>& followers,
+  const ParallelFor& parallelFor)
+{
+  std::vector<ErrorCode::Type> own(members.Size(), 0);
+  for (const std::uint32_t rank : followers)
+  {
+    own[rank] = ErrorCode::Always; // has the greatest code of its parents, however great
+  }
+  std::vector<ErrorCode::Type> saturated =
+    RisingCodes(grid, members, std::move(own), codes, parallelFor).Saturated();
+  assert(AreClosed(grid, members, saturated) && "every refined set has its diamonds' parents");
+  return saturated;
 }
 
 }

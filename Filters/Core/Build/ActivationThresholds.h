@@ -6,6 +6,7 @@
 #include "Hierarchy/ErrorCode.h"
 #include "Lattice/DiamondSet.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace isodiamond
@@ -33,10 +34,27 @@ namespace isodiamond
 std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
   std::vector<ErrorCode::Type> own, const ParallelFor& parallelFor);
 
-/** Raises codes to the greatest of their descendants': what is subdivided where any of these is.
- *  @param members, codes as above */
+/**
+ * The *followers*: diamonds whose own error exceeds their threshold. No parent of such a diamond is
+ * subdivided at the tolerances between the two, or it would be, too. But where something else
+ * subdivides a parent, it can be a leaf with an error that nobody tolerates: it has to follow.
+ *
+ * @param own,thresholds by rank, before and after ActivationThresholds()
+ * @return ranks, ascending
+ */
+std::vector<std::uint32_t> FindFollowers(
+  const std::vector<ErrorCode::Type>& own, const std::vector<ErrorCode::Type>& thresholds);
+
+/**
+ * Raises codes to the greatest of their descendants', those of followers to the greatest of their
+ * parents': what is subdivided where any of these is. The least solution, as above.
+ *
+ * @param members, codes as above
+ * @param followers ranks
+ */
 std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
-  std::vector<ErrorCode::Type> codes, const ParallelFor& parallelFor);
+  const std::vector<ErrorCode::Type>& codes, const std::vector<std::uint32_t>& followers,
+  const ParallelFor& parallelFor);
 
 }
 

@@ -189,18 +189,24 @@ DiamondMask RefinedForTopology(const Grid& grid, const SignLattice& signs,
   return refined;
 }
 
-/** Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
- *  ancestors. */
-void RaiseToThresholds(
-  const Grid& grid, const DiamondSet& members, const ParallelFor& parallelFor, DiamondCodes& codes)
+/**
+ * Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
+ * ancestors, and what follows these.
+ * @param haveFollowers without, what an interior tolerance leads to may exceed the other one
+ */
+void RaiseToThresholds(const Grid& grid, const DiamondSet& members, bool haveFollowers,
+  const ParallelFor& parallelFor, DiamondCodes& codes)
 {
+  std::vector<ErrorCode::Type> own = codes.Surface;
   codes.Surface = ActivationThresholds(grid, members, std::move(codes.Surface), parallelFor);
-  std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
   if (!codes.Interior.empty())
   {
-    codes.Interior = SaturateUpward(grid, members, std::move(codes.Interior), parallelFor);
+    const std::vector<std::uint32_t> followers =
+      haveFollowers ? FindFollowers(own, codes.Surface) : std::vector<std::uint32_t>();
+    codes.Interior = SaturateUpward(grid, members, codes.Interior, followers, parallelFor);
     std::fill_n(codes.Interior.begin(), 8, ErrorCode::Always);
   }
+  std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
 }
 
 void SetCodes(Encoding& encoding, DiamondCodes codes)
@@ -346,11 +352,13 @@ public:
     return own;
   }
 
-  /** Own errors become thresholds. */
+  /** Own errors become thresholds. Of the field metric nothing follows: an HD, which is to give the
+   *  same mesh, has no thresholds to tell. */
   void FindThresholds(DiamondCodes& codes) const
   {
     this->Report("Finding thresholds", 0.8, 0.9);
-    RaiseToThresholds(this->Origin.SampleGrid, this->Members, this->For, codes);
+    RaiseToThresholds(this->Origin.SampleGrid, this->Members,
+      this->Header.Metric == ErrorMetric::Distance, this->For, codes);
   }
 
   Encoding Complete(Model model, Encoding relevant, DiamondCodes thresholds) const
