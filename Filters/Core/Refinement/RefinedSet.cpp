@@ -49,8 +49,13 @@ public:
   {
     const bool mayTouch =
       !this->TheQuery.Region || this->TheQuery.Region->MayTouch(scale, brickOrigin);
-    return this->Seen(mayTouch ? this->Inside() : this->Outside(),
-      this->TheQuery.View ? this->TheQuery.View->LeastIn(scale, brickOrigin) : 0.0);
+    Tolerances least = mayTouch ? this->Inside() : this->Outside();
+    if (this->TheQuery.Region)
+    {
+      least.Surface = std::min(least.Surface, this->Outside().Surface); // some may not touch it
+    }
+    return this->Seen(
+      least, this->TheQuery.View ? this->TheQuery.View->LeastIn(scale, brickOrigin) : 0.0);
   }
 
   /** What is tolerated of a diamond. */
