@@ -26,6 +26,7 @@ inline constexpr const char* Records = "IsodiamondRecords";
 inline constexpr const char* Isovertices = "IsodiamondIsovertices";
 inline constexpr const char* InsideValues = "IsodiamondInsideValues";
 inline constexpr const char* InteriorCodes = "IsodiamondInteriorCodes";
+inline constexpr const char* Followers = "IsodiamondFollowers";
 inline constexpr const char* PointDataPrefix = "IsodiamondPointData:"; ///< an array's name follows
 
 /** Of an HD. */

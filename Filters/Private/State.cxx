@@ -112,6 +112,10 @@ void ReadIsodiamonds(Reader& reader, const isodiamond::EncodingHeader& header, S
   {
     view.Arrays.InteriorCodes = reader.Stored<std::uint16_t>(format::InteriorCodes);
   }
+  if (reader.Has(format::Followers))
+  {
+    view.Arrays.Followers = reader.Stored<std::uint32_t>(format::Followers);
+  }
   RunThreaded(0,
     [&] { state.Isodiamonds = std::make_unique<isodiamond::IsodiamondHierarchy>(view, SMPFor()); });
 }

@@ -185,6 +185,10 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice
   {
     AddArray<vtkTypeUInt16Array>(fieldData, format::InteriorCodes, encoding.Arrays.InteriorCodes);
   }
+  if (!encoding.Arrays.Followers.empty())
+  {
+    AddArray<vtkTypeUInt32Array>(fieldData, format::Followers, encoding.Arrays.Followers);
+  }
   WriteNumbers(encoding, fieldData);
   WriteLargestTolerance(fieldData);
   for (vtkDataArray* array : pointArrays)

@@ -9,6 +9,8 @@
 #include "Patches/PatchDistance.h"
 #include "Patches/SurfacePatch.h"
 #include "Patches/WorldLengths.h"
+#include "RandomTestTools.h"
+#include "Refinement/RefinedSet.h"
 
 #include "ReferenceError.h"
 
@@ -237,6 +239,131 @@ TEST(DistanceError, IsAPromiseWithinRegionsOfInterest)
       }
     }
   }
+}
+
+// The smallest field that was found: the interior tolerance subdivides the parents of a diamond
+// that no tolerance of the surfaces does before those.
+TEST(DistanceError, IsAPromiseWhateverTheInteriorTolerance)
+{
+  const test::Field field{ "interior", { 3, 3, 6 },
+    { 4, 2, 1, 1, 2, 4, 2, 2, 2, //
+      3, 1, 3, 2, 1, 0, 1, 1, 2, //
+      4, 3, 0, 1, 2, 0, 1, 2, 4, //
+      1, 0, 1, 2, 2, 1, 4, 2, 0, //
+      2, 1, 4, 2, 3, 2, 4, 3, 2, //
+      3, 3, 2, 2, 2, 1, 3, 2, 4 },
+    0.5 };
+  const AffineMap world = test::Spacing(3.0, 2.0, 2.0);
+  BuildOptions options = test::Distance(world);
+  options.RefineInterior = true;
+  const test::Built built(
+    BuildIsodiamonds(Model::Minimal, field.View(), Isoregion(0.5, 2.5), SerialFor, options),
+    SerialFor);
+  const test::Volume full = test::ExtractVolume(*built.Hierarchy, 0.0);
+  test::Promise promise;
+  promise.Tolerance = 3.0;
+  for (const double interior : { 0.0, 1.0, Infinity })
+  {
+    const test::Volume volume = test::ExtractVolume(*built.Hierarchy, promise.Tolerance, interior);
+    for (const int surface : { -1, 1 })
+    {
+      EXPECT_EQ(
+        FaultOf(promise, test::Placed(full, surface, world), test::Placed(volume, surface, world)),
+        "")
+        << "interior tolerance " << interior << ", surface " << surface;
+    }
+  }
+}
+
+// The smallest field that was found: the region's box subdivides the parents of a diamond beside it
+// that no tolerance outside does before those.
+TEST(DistanceError, IsAPromiseBesideARegionOfInterest)
+{
+  const test::Field field{ "beside", { 3, 3, 3 },
+    { 4, 0, 2, 1, 1, 4, 2, 0, 3, //
+      0, 4, 0, 1, 0, 4, 1, 4, 3, //
+      3, 3, 0, 4, 4, 2, 2, 1, 0 },
+    2.5 };
+  const test::Built built = test::Build(Model::Minimal, field, test::Distance());
+  Query query{ 0.0 };
+  query.Region.emplace(Box{ { 0, 0, 0 }, { 0, 0, 1 } }, built.Hierarchy->SampleGrid(), AffineMap());
+  query.OutsideTolerance = 1.3;
+  test::Promise promise;
+  promise.Tolerance = query.OutsideTolerance;
+  const AffineMap world;
+  EXPECT_EQ(FaultOf(promise, test::Placed(test::Extract(*built.Hierarchy, 0.0), world),
+              test::Placed(test::Extract(*built.Hierarchy, query), world)),
+    "");
+}
+
+namespace
+{
+
+/** What a query tolerates of a diamond. */
+double ToleranceOf(const Query& query, const Place& place)
+{
+  const bool isInside = !query.Region || query.Region->Touches(place);
+  const double tolerance = isInside ? query.Tolerance : query.OutsideTolerance;
+  return query.View ? std::max(tolerance, query.View->ToleranceOf(place)) : tolerance;
+}
+
+/** The number of diamonds of a set's front that have an error of their own which is not tolerated.
+ *  Relevant ones have no patches. */
+int CountLeavesThatExceed(
+  const RefinedSet& refined, const Query& query, const std::vector<ErrorCode::Type>& own)
+{
+  const IsodiamondHierarchy& hierarchy = refined.Hierarchy();
+  const Grid& grid = hierarchy.SampleGrid();
+  int count = 0;
+  hierarchy.Diamonds().ForEach(
+    [&](const Place& place, std::uint32_t rank)
+    {
+      bool isLeaf = false;
+      const TypeTable& shape = ShapeOf(place.Position);
+      for (int i = 0; i < shape.ParentCount && place.Scale < grid.Depth(); ++i)
+      {
+        const Place parent = ParentPlace(shape, place, i);
+        isLeaf = isLeaf ||
+          (grid.IsValid(parent.Position, parent.Scale) && refined.Contains(parent) &&
+            !refined.Contains(place) && hierarchy.KindOf(rank) != Kind::Relevant);
+      }
+      count += isLeaf && own[rank] > ErrorCode::Least &&
+          own[rank] > hierarchy.Codes().Accepted(ToleranceOf(query, place))
+        ? 1
+        : 0;
+    });
+  return count;
+}
+
+}
+
+// Whatever subdivides the parents: the tolerance, another one nearby, a viewpoint's, the
+// interior's.
+TEST(DistanceError, OfEveryLeafIsTolerated)
+{
+  std::size_t followers = 0;
+  for (std::uint32_t seed = 0; seed < 60; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    test::Random numbers(seed);
+    const test::RandomSamples field(numbers, 40, 2000);
+    const Isoregion region = test::RandomRegion(numbers, field);
+    BuildOptions options = test::RandomOptions(numbers, field.Dimensions);
+    options.Metric = ErrorMetric::Distance;
+    options.PreserveFeatures = true;
+    const test::Built built(
+      BuildIsodiamonds(Model::Relevant, field.View(), region, SerialFor, options), SerialFor);
+    followers += built.Encoding.Arrays.Followers.size();
+    const std::vector<ErrorCode::Type> own =
+      DistanceErrors(*built.Hierarchy, field.View(), options.World, true, SerialFor);
+    for (int i = 0; i < 10; ++i)
+    {
+      const Query query = test::RandomQuery(numbers, *built.Hierarchy, options.World);
+      EXPECT_EQ(
+        CountLeavesThatExceed(RefinedSet(*built.Hierarchy, query, SerialFor), query, own), 0);
+    }
+  }
+  EXPECT_GT(followers, 100U);
 }
 
 // The way back holds for features that vanish, too: what is left of the mesh is near to something.

@@ -42,6 +42,7 @@ public:
     EXPECT_EQ(threaded.Encoding.Arrays.Records, this->Minimal.Encoding.Arrays.Records);
     EXPECT_EQ(threaded.Encoding.Arrays.Isovertices, this->Minimal.Encoding.Arrays.Isovertices);
     EXPECT_EQ(threaded.Encoding.Arrays.InteriorCodes, this->Minimal.Encoding.Arrays.InteriorCodes);
+    EXPECT_EQ(threaded.Encoding.Arrays.Followers, this->Minimal.Encoding.Arrays.Followers);
     this->CheckQuery(Query{});
     for (int i = 0; i < 3; ++i)
     {

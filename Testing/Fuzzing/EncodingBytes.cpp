@@ -140,6 +140,7 @@ void VisitAll(Visitor& visitor, Numbers& numbers, Some& arrays)
   visitor(arrays.Samples);
   visitor(arrays.Minima);
   visitor(arrays.Maxima);
+  visitor(isodiamonds.Followers);
 }
 
 }

@@ -82,6 +82,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(
         break;
       case 6:
         ChangeOne(isodiamonds.InteriorCodes, random);
+        ChangeOne(isodiamonds.Followers, random);
         ChangeOne(arrays.Errors, random);
         break;
       default:

@@ -69,6 +69,7 @@ struct DiamondCodes
 {
   std::vector<ErrorCode::Type> Surface;
   std::vector<ErrorCode::Type> Interior; ///< empty without refinement of the interior
+  std::vector<std::uint32_t> Followers;  ///< ranks, once there are thresholds
 
   explicit DiamondCodes(std::int64_t size, bool refineInterior)
     : Surface(size, 0)
@@ -192,21 +193,21 @@ DiamondMask RefinedForTopology(const Grid& grid, const SignLattice& signs,
 /**
  * Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
  * ancestors, and what follows these.
- * @param haveFollowers without, what an interior tolerance leads to may exceed the other one
+ * @param haveFollowers without, what something else than a threshold leads to may have any error
  */
 void RaiseToThresholds(const Grid& grid, const DiamondSet& members, bool haveFollowers,
   const ParallelFor& parallelFor, DiamondCodes& codes)
 {
-  std::vector<ErrorCode::Type> own = codes.Surface;
+  const std::vector<ErrorCode::Type> own =
+    haveFollowers ? codes.Surface : std::vector<ErrorCode::Type>();
   codes.Surface = ActivationThresholds(grid, members, std::move(codes.Surface), parallelFor);
+  codes.Followers = FindFollowers(own, codes.Surface);
+  std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
   if (!codes.Interior.empty())
   {
-    const std::vector<std::uint32_t> followers =
-      haveFollowers ? FindFollowers(own, codes.Surface) : std::vector<std::uint32_t>();
-    codes.Interior = SaturateUpward(grid, members, codes.Interior, followers, parallelFor);
+    codes.Interior = SaturateUpward(grid, members, codes.Interior, codes.Followers, parallelFor);
     std::fill_n(codes.Interior.begin(), 8, ErrorCode::Always);
   }
-  std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
 }
 
 void SetCodes(Encoding& encoding, DiamondCodes codes)
@@ -217,6 +218,7 @@ void SetCodes(Encoding& encoding, DiamondCodes codes)
     records[rank] = Record::Pack(codes.Surface[rank], Record::Sign(records[rank]));
   }
   encoding.Arrays.InteriorCodes = std::move(codes.Interior);
+  encoding.Arrays.Followers = std::move(codes.Followers);
 }
 
 /** Removes the relevant diamonds from an encoding. They have no isovertices and no values inside,
@@ -227,6 +229,8 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
   arrays.BrickCounts.assign(1, 1); // the corners of the base cube
   std::size_t bricks = 1;
   std::size_t diamonds = 8;
+  std::size_t followers = 0;
+  auto follower = arrays.Followers.cbegin();
   for (int scale = members.ScaleCount() - 2; scale >= 0; --scale)
   {
     const std::size_t before = bricks;
@@ -251,6 +255,13 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
             {
               arrays.InteriorCodes[diamonds] = arrays.InteriorCodes[rank];
             }
+            follower = std::find_if(follower, arrays.Followers.cend(),
+              [&](std::uint32_t other) { return other >= rank; });
+            if (follower != arrays.Followers.cend() && *follower == rank)
+            {
+              ++follower;
+              arrays.Followers[followers++] = static_cast<std::uint32_t>(diamonds);
+            }
             ++diamonds;
           });
         arrays.BrickMasks[8 * bricks + z] = kept & brick.Occupancy[z];
@@ -268,6 +279,7 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
   shorten(arrays.BrickMasks, 8 * bricks);
   shorten(arrays.Records, diamonds);
   shorten(arrays.InteriorCodes, arrays.InteriorCodes.empty() ? 0 : diamonds);
+  shorten(arrays.Followers, followers);
 }
 
 /** Whether an interval volume is refined inside: what lies in hidden cells can be left out at full

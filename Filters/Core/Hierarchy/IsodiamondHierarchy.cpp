@@ -65,7 +65,8 @@ std::int64_t EncodingView::StorageSize() const
     : 0;
   return 4 * this->Arrays.BrickCounts.Size + 4 * this->Arrays.BrickIndices.Size +
     8 * this->Arrays.BrickMasks.Size + 2 * this->Arrays.Records.Size +
-    this->Arrays.Isovertices.Size + 2 * this->Arrays.InteriorCodes.Size + insideBytes;
+    this->Arrays.Isovertices.Size + 2 * this->Arrays.InteriorCodes.Size +
+    4 * this->Arrays.Followers.Size + insideBytes;
 }
 
 IsodiamondHierarchy::IsodiamondHierarchy(
@@ -84,6 +85,7 @@ IsodiamondHierarchy::IsodiamondHierarchy(
     "the field scale is not a positive number");
   this->ReadBricks();
   this->CheckRecords();
+  this->CheckFollowers();
 
   this->DeriveAllEdges(parallelFor);
   this->CountByKind();
@@ -276,6 +278,18 @@ void IsodiamondHierarchy::CheckRecords() const
     valid = valid && this->View.Arrays.Isovertices[i] != 0;
   }
   Require(valid, "an isovertex has the coefficient 0");
+}
+
+void IsodiamondHierarchy::CheckFollowers() const
+{
+  std::int64_t previous = 7; // the corners of the base cube have no parents
+  for (std::int64_t i = 0; i < this->Followers().Size; ++i)
+  {
+    const std::int64_t rank = this->Followers()[i];
+    Require(rank > previous && rank < this->Set.Size(),
+      "a diamond that follows its parents is out of order or range");
+    previous = rank;
+  }
 }
 
 int IsodiamondHierarchy::SignAt(const Place& place) const

@@ -124,6 +124,9 @@ struct EncodingArrays
   /** Of an interval volume that is to be refined inside: one a diamond, the code of the interior
    *  tolerance below which it is subdivided, 0 for never. Else empty. */
   Array<ErrorCode::Type> InteriorCodes;
+  /** Ranks, ascending, of the diamonds whose own error exceeds their threshold: wherever something
+   *  else than this subdivides a parent, they have to follow. None of errors in the field. */
+  Array<std::uint32_t> Followers;
 };
 
 template <typename T>
@@ -148,7 +151,8 @@ struct EncodingView
   EncodingView(const Encoding& encoding) // NOLINT(google-explicit-constructor): it is a view
     : Header(encoding.Header)
     , Arrays{ encoding.Arrays.BrickCounts, encoding.Arrays.BrickIndices, encoding.Arrays.BrickMasks,
-      encoding.Arrays.Records, encoding.Arrays.Isovertices, encoding.Arrays.InteriorCodes }
+      encoding.Arrays.Records, encoding.Arrays.Isovertices, encoding.Arrays.InteriorCodes,
+      encoding.Arrays.Followers }
     , InsideValues(ViewOf(encoding.InsideValues))
   {
   }
@@ -186,6 +190,9 @@ public:
   {
     return this->View.Arrays.InteriorCodes[rank];
   }
+
+  /** Ranks of the diamonds that are to be subdivided wherever a parent is, ascending. */
+  const ArrayView<std::uint32_t>& Followers() const { return this->View.Arrays.Followers; }
 
   /** The highest thresholds of a brick's diamonds: queries pass over a brick that they are too low
    *  for. @param brick numbered as AllBricks() does */
@@ -250,6 +257,7 @@ public:
 private:
   void ReadBricks();
   void CheckRecords() const;
+  void CheckFollowers() const;
   void DeriveAllEdges(const ParallelFor& parallelFor);
   void CountByKind();
   void CheckOrderOnEdges() const;

@@ -156,9 +156,72 @@ BrickMask ExceedingLocally(const IsodiamondHierarchy& hierarchy, const BrickPlac
   return mask;
 }
 
+/** Whether a parent of a diamond is in a set. */
+bool HasParentIn(const DiamondMask& set, const Place& place)
+{
+  const TypeTable& shape = ShapeOf(place.Position);
+  bool has = false;
+  for (int i = 0; i < shape.ParentCount && !has; ++i)
+  {
+    has = set.Contains(ParentPlace(shape, place, i));
+  }
+  return has;
+}
+
+/** The diamonds that follow their parents, but for relevant ones. */
+std::vector<Place> FollowersOf(const IsodiamondHierarchy& hierarchy)
+{
+  const ArrayView<std::uint32_t>& ranks = hierarchy.Followers();
+  std::vector<Place> followers;
+  std::int64_t next = 0;
+  for (int scale = hierarchy.SampleGrid().Depth() - 1; scale >= 0; --scale)
+  {
+    for (const Brick& brick : hierarchy.Diamonds().Level(scale).Bricks)
+    {
+      if (next == ranks.Size || ranks[next] >= brick.First + brick.Size())
+      {
+        continue;
+      }
+      hierarchy.Diamonds().ForEachInBrick(scale, brick,
+        [&](const Place& place, std::uint32_t rank)
+        {
+          if (next < ranks.Size && ranks[next] == rank)
+          {
+            ++next;
+            if (hierarchy.KindOf(rank) != Kind::Relevant)
+            {
+              followers.push_back(place);
+            }
+          }
+        });
+    }
+  }
+  return followers;
+}
+
+/** Adds to a closed set what follows, with all ancestors, until nothing does. */
+void AddFollowers(const IsodiamondHierarchy& hierarchy, DiamondMask& set)
+{
+  std::vector<Place> waiting = FollowersOf(hierarchy);
+  bool hasGrown = true;
+  while (hasGrown)
+  {
+    const auto end = std::partition(waiting.begin(), waiting.end(),
+      [&](const Place& place) { return set.Contains(place) || !HasParentIn(set, place); });
+    hasGrown = end != waiting.end();
+    std::for_each(end, waiting.end(), [&](const Place& place) { set.Insert(place); });
+    waiting.erase(end, waiting.end());
+    if (hasGrown)
+    {
+      set.CloseOverParents(hierarchy.SampleGrid());
+    }
+  }
+}
+
 /**
- * What is wanted beyond the diamonds that exceed what is tolerated everywhere, with all ancestors:
- * those that an MI does not store lead to others that it does.
+ * What is wanted beyond the diamonds that exceed what is tolerated everywhere, with all ancestors,
+ * those that an MI does not store, too, and with what follows these. Of followers whose parents
+ * exceed what is tolerated everywhere nothing has to be known: they have the same threshold.
  */
 DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalTolerance& tolerance,
   const Exceeds& exceedsEverywhere, const ParallelFor& parallelFor)
@@ -198,6 +261,7 @@ DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalToler
     wanted.Insert(place);
   }
   wanted.CloseOverParents(hierarchy.SampleGrid());
+  AddFollowers(hierarchy, wanted);
   return wanted;
 }
 

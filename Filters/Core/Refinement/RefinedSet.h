@@ -15,8 +15,9 @@ namespace isodiamond
  * Where the tolerance is the same everywhere that is R(t) = {threshold > t}: no front, no closure,
  * the thresholds have them (see ActivationThresholds.h). With a region of interest or a viewpoint
  * it is the smallest closed superset of R(what is tolerated everywhere) and of those active and
- * creation diamonds whose threshold exceeds the tolerance that they have (see RefinedSet.cpp):
- * inside of a region, the mesh is the uniform one; outside it is what conformity needs.
+ * creation diamonds whose threshold exceeds the tolerance that they have (see RefinedSet.cpp), and
+ * of those that follow their parents: inside of a region, the mesh is the uniform one; outside it
+ * is what conformity and its own tolerance need.
  *
  * The corners of the base cube always count as subdivided.
  */
