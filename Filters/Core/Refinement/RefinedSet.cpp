@@ -199,6 +199,22 @@ std::vector<Place> FollowersOf(const IsodiamondHierarchy& hierarchy)
   return followers;
 }
 
+/** Adds a diamond to a closed set, which stays so. Few at a time: CloseOverParents() goes over all.
+ */
+void InsertWithAncestors(const Grid& grid, const Place& place, DiamondMask& set)
+{
+  if (place.Scale == grid.Depth() || !grid.IsValid(place.Position, place.Scale) ||
+    !set.Insert(place))
+  {
+    return;
+  }
+  const TypeTable& shape = ShapeOf(place.Position);
+  for (int i = 0; i < shape.ParentCount; ++i)
+  {
+    InsertWithAncestors(grid, ParentPlace(shape, place, i), set);
+  }
+}
+
 /** Adds to a closed set what follows, with all ancestors, until nothing does. */
 void AddFollowers(const IsodiamondHierarchy& hierarchy, DiamondMask& set)
 {
@@ -209,12 +225,9 @@ void AddFollowers(const IsodiamondHierarchy& hierarchy, DiamondMask& set)
     const auto end = std::partition(waiting.begin(), waiting.end(),
       [&](const Place& place) { return set.Contains(place) || !HasParentIn(set, place); });
     hasGrown = end != waiting.end();
-    std::for_each(end, waiting.end(), [&](const Place& place) { set.Insert(place); });
+    std::for_each(end, waiting.end(),
+      [&](const Place& place) { InsertWithAncestors(hierarchy.SampleGrid(), place, set); });
     waiting.erase(end, waiting.end());
-    if (hasGrown)
-    {
-      set.CloseOverParents(hierarchy.SampleGrid());
-    }
   }
 }
 
