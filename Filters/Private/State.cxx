@@ -114,7 +114,7 @@ void ReadIsodiamonds(Reader& reader, const isodiamond::EncodingHeader& header, S
   }
   if (reader.Has(format::Followers))
   {
-    view.Arrays.Followers = reader.Stored<std::uint32_t>(format::Followers);
+    view.Arrays.Followers = reader.Stored<std::uint64_t>(format::Followers);
   }
   RunThreaded(0,
     [&] { state.Isodiamonds = std::make_unique<isodiamond::IsodiamondHierarchy>(view, SMPFor()); });

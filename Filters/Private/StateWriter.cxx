@@ -187,7 +187,7 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice
   }
   if (!encoding.Arrays.Followers.empty())
   {
-    AddArray<vtkTypeUInt32Array>(fieldData, format::Followers, encoding.Arrays.Followers);
+    AddArray<vtkTypeUInt64Array>(fieldData, format::Followers, encoding.Arrays.Followers);
   }
   WriteNumbers(encoding, fieldData);
   WriteLargestTolerance(fieldData);

@@ -308,7 +308,7 @@ double ToleranceOf(const Query& query, const Place& place)
 }
 
 /** The number of diamonds of a set's front that have an error of their own which is not tolerated.
- *  Relevant ones have no patches. */
+ */
 int CountLeavesThatExceed(
   const RefinedSet& refined, const Query& query, const std::vector<ErrorCode::Type>& own)
 {
@@ -325,7 +325,7 @@ int CountLeavesThatExceed(
         const Place parent = ParentPlace(shape, place, i);
         isLeaf = isLeaf ||
           (grid.IsValid(parent.Position, parent.Scale) && refined.Contains(parent) &&
-            !refined.Contains(place) && hierarchy.KindOf(rank) != Kind::Relevant);
+            !refined.Contains(place));
       }
       count += isLeaf && own[rank] > ErrorCode::Least &&
           own[rank] > hierarchy.Codes().Accepted(ToleranceOf(query, place))

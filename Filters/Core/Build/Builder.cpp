@@ -210,7 +210,7 @@ void RaiseToThresholds(const Grid& grid, const DiamondSet& members, bool haveFol
   }
 }
 
-void SetCodes(Encoding& encoding, DiamondCodes codes)
+void SetCodes(Encoding& encoding, const DiamondSet& members, DiamondCodes codes)
 {
   std::vector<std::uint16_t>& records = encoding.Arrays.Records;
   for (std::size_t rank = 0; rank < records.size(); ++rank)
@@ -218,7 +218,18 @@ void SetCodes(Encoding& encoding, DiamondCodes codes)
     records[rank] = Record::Pack(codes.Surface[rank], Record::Sign(records[rank]));
   }
   encoding.Arrays.InteriorCodes = std::move(codes.Interior);
-  encoding.Arrays.Followers = std::move(codes.Followers);
+  std::vector<std::uint64_t>& followers = encoding.Arrays.Followers;
+  auto next = codes.Followers.cbegin();
+  members.ForEach(
+    [&](const Place& place, std::uint32_t rank)
+    {
+      if (next != codes.Followers.cend() && *next == rank)
+      {
+        followers.push_back(CentreCode(place));
+        ++next;
+      }
+    });
+  std::sort(followers.begin(), followers.end());
 }
 
 /** Removes the relevant diamonds from an encoding. They have no isovertices and no values inside,
@@ -229,8 +240,6 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
   arrays.BrickCounts.assign(1, 1); // the corners of the base cube
   std::size_t bricks = 1;
   std::size_t diamonds = 8;
-  std::size_t followers = 0;
-  auto follower = arrays.Followers.cbegin();
   for (int scale = members.ScaleCount() - 2; scale >= 0; --scale)
   {
     const std::size_t before = bricks;
@@ -255,13 +264,6 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
             {
               arrays.InteriorCodes[diamonds] = arrays.InteriorCodes[rank];
             }
-            follower = std::find_if(follower, arrays.Followers.cend(),
-              [&](std::uint32_t other) { return other >= rank; });
-            if (follower != arrays.Followers.cend() && *follower == rank)
-            {
-              ++follower;
-              arrays.Followers[followers++] = static_cast<std::uint32_t>(diamonds);
-            }
             ++diamonds;
           });
         arrays.BrickMasks[8 * bricks + z] = kept & brick.Occupancy[z];
@@ -279,7 +281,6 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
   shorten(arrays.BrickMasks, 8 * bricks);
   shorten(arrays.Records, diamonds);
   shorten(arrays.InteriorCodes, arrays.InteriorCodes.empty() ? 0 : diamonds);
-  shorten(arrays.Followers, followers);
 }
 
 /** Whether an interval volume is refined inside: what lies in hidden cells can be left out at full
@@ -375,7 +376,7 @@ public:
 
   Encoding Complete(Model model, Encoding relevant, DiamondCodes thresholds) const
   {
-    SetCodes(relevant, std::move(thresholds));
+    SetCodes(relevant, this->Members, std::move(thresholds));
     relevant.Header.TheModel = model;
     if (model == Model::Minimal)
     {

@@ -66,7 +66,7 @@ std::int64_t EncodingView::StorageSize() const
   return 4 * this->Arrays.BrickCounts.Size + 4 * this->Arrays.BrickIndices.Size +
     8 * this->Arrays.BrickMasks.Size + 2 * this->Arrays.Records.Size +
     this->Arrays.Isovertices.Size + 2 * this->Arrays.InteriorCodes.Size +
-    4 * this->Arrays.Followers.Size + insideBytes;
+    8 * this->Arrays.Followers.Size + insideBytes;
 }
 
 IsodiamondHierarchy::IsodiamondHierarchy(
@@ -282,13 +282,17 @@ void IsodiamondHierarchy::CheckRecords() const
 
 void IsodiamondHierarchy::CheckFollowers() const
 {
-  std::int64_t previous = 7; // the corners of the base cube have no parents
+  std::uint64_t previous = 0;
   for (std::int64_t i = 0; i < this->Followers().Size; ++i)
   {
-    const std::int64_t rank = this->Followers()[i];
-    Require(rank > previous && rank < this->Set.Size(),
-      "a diamond that follows its parents is out of order or range");
-    previous = rank;
+    const std::uint64_t code = this->Followers()[i];
+    Require(code > previous && code >> 63 == 0,
+      "the diamonds that follow their parents are out of order or range");
+    previous = code;
+    const Place place = PlaceOfCentre(code);
+    Require(
+      place.Scale < this->TheGrid.Depth() && this->TheGrid.IsValid(place.Position, place.Scale),
+      "a diamond that follows its parents lies where none can be");
   }
 }
 

@@ -108,6 +108,26 @@ struct EncodingHeader
   std::int64_t CreationCount = 0;
 };
 
+/** A diamond by its centre, which has 21 bits on an axis. */
+inline std::uint64_t CentreCode(const Place& place)
+{
+  const Point centre = Centre(place);
+  return static_cast<std::uint64_t>(centre[0]) | static_cast<std::uint64_t>(centre[1]) << 21 |
+    static_cast<std::uint64_t>(centre[2]) << 42;
+}
+
+/** The diamond of such a code, which is not 0. */
+inline Place PlaceOfCentre(std::uint64_t code)
+{
+  const auto coordinate = [&](int axis)
+  { return static_cast<std::uint32_t>(code >> (21 * axis)) & 0x1fffffU; };
+  const std::array<std::uint32_t, 3> centre = { coordinate(0), coordinate(1), coordinate(2) };
+  const int scale = LowestBit(centre[0] | centre[1] | centre[2]);
+  return { scale,
+    { static_cast<int>(centre[0] >> scale), static_cast<int>(centre[1] >> scale),
+      static_cast<int>(centre[2] >> scale) } };
+}
+
 /**
  * The arrays of an encoding. Scales run from N, the base cube's corners, down to 0; bricks of a
  * scale by their index in its box; diamonds by bit; isovertices by diamond and edge.
@@ -124,9 +144,10 @@ struct EncodingArrays
   /** Of an interval volume that is to be refined inside: one a diamond, the code of the interior
    *  tolerance below which it is subdivided, 0 for never. Else empty. */
   Array<ErrorCode::Type> InteriorCodes;
-  /** Ranks, ascending, of the diamonds whose own error exceeds their threshold: wherever something
-   *  else than this subdivides a parent, they have to follow. None of errors in the field. */
-  Array<std::uint32_t> Followers;
+  /** The CentreCode(), ascending, of the diamonds whose own error exceeds their threshold: wherever
+   *  something else than this subdivides a parent, they have to follow, stored or not. None of
+   *  errors in the field. */
+  Array<std::uint64_t> Followers;
 };
 
 template <typename T>
@@ -191,8 +212,8 @@ public:
     return this->View.Arrays.InteriorCodes[rank];
   }
 
-  /** Ranks of the diamonds that are to be subdivided wherever a parent is, ascending. */
-  const ArrayView<std::uint32_t>& Followers() const { return this->View.Arrays.Followers; }
+  /** The diamonds that are to be subdivided wherever a parent is, by CentreCode(). */
+  const ArrayView<std::uint64_t>& Followers() const { return this->View.Arrays.Followers; }
 
   /** The highest thresholds of a brick's diamonds: queries pass over a brick that they are too low
    *  for. @param brick numbered as AllBricks() does */

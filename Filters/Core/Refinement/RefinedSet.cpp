@@ -168,37 +168,6 @@ bool HasParentIn(const DiamondMask& set, const Place& place)
   return has;
 }
 
-/** The diamonds that follow their parents, but for relevant ones. */
-std::vector<Place> FollowersOf(const IsodiamondHierarchy& hierarchy)
-{
-  const ArrayView<std::uint32_t>& ranks = hierarchy.Followers();
-  std::vector<Place> followers;
-  std::int64_t next = 0;
-  for (int scale = hierarchy.SampleGrid().Depth() - 1; scale >= 0; --scale)
-  {
-    for (const Brick& brick : hierarchy.Diamonds().Level(scale).Bricks)
-    {
-      if (next == ranks.Size || ranks[next] >= brick.First + brick.Size())
-      {
-        continue;
-      }
-      hierarchy.Diamonds().ForEachInBrick(scale, brick,
-        [&](const Place& place, std::uint32_t rank)
-        {
-          if (next < ranks.Size && ranks[next] == rank)
-          {
-            ++next;
-            if (hierarchy.KindOf(rank) != Kind::Relevant)
-            {
-              followers.push_back(place);
-            }
-          }
-        });
-    }
-  }
-  return followers;
-}
-
 /** Adds a diamond to a closed set, which stays so. Few at a time: CloseOverParents() goes over all.
  */
 void InsertWithAncestors(const Grid& grid, const Place& place, DiamondMask& set)
@@ -218,7 +187,9 @@ void InsertWithAncestors(const Grid& grid, const Place& place, DiamondMask& set)
 /** Adds to a closed set what follows, with all ancestors, until nothing does. */
 void AddFollowers(const IsodiamondHierarchy& hierarchy, DiamondMask& set)
 {
-  std::vector<Place> waiting = FollowersOf(hierarchy);
+  const ArrayView<std::uint64_t>& followers = hierarchy.Followers();
+  std::vector<Place> waiting(followers.Size);
+  std::transform(followers.Data, followers.Data + followers.Size, waiting.begin(), PlaceOfCentre);
   bool hasGrown = true;
   while (hasGrown)
   {
