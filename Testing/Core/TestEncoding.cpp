@@ -148,6 +148,9 @@ constexpr const char* WrongRecords = "the number of records does not match the b
 constexpr const char* WrongRecord = "a record has an invalid error code or sign";
 constexpr const char* WrongIsovertices = "the number of isovertices does not match the signs";
 constexpr const char* WrongInteriorCodes = "the number of interior codes does not match the bricks";
+constexpr const char* WrongFollowers =
+  "the diamonds that follow their parents are out of order or range";
+constexpr const char* NoFollower = "a diamond that follows its parents lies where none can be";
 constexpr const char* WrongInsideValues = "the number of inside values does not match the signs";
 
 }
@@ -168,6 +171,15 @@ TEST(Encoding, DamageIsRefused)
       { errorScale, [](Encoding& e) { e.Header.ErrorScale = -1.0; } },
       { errorScale, [](Encoding& e) { e.Header.ErrorScale = nan; } },
       { errorScale, [](Encoding& e) { e.Header.ErrorScale = infinity; } },
+      { WrongFollowers, [](Encoding& e) { e.Arrays.Followers = { 0 }; } },
+      { WrongFollowers,
+        [](Encoding& e) {
+          e.Arrays.Followers = { 3, 3 };
+        } },
+      { WrongFollowers,
+        [](Encoding& e) { e.Arrays.Followers = { std::uint64_t{ 1 } << 63 | 1 }; } },
+      { NoFollower, [](Encoding& e) { e.Arrays.Followers = { 16 }; } }, // a corner of the base cube
+      { NoFollower, [](Encoding& e) { e.Arrays.Followers = { 17 }; } }, // beyond the grid
       { fieldScale, [](Encoding& e) { e.Header.FieldScale = 0.0; } },
       { fieldScale, [](Encoding& e) { e.Header.FieldScale = nan; } },
       { fieldScale, [](Encoding& e) { e.Header.FieldScale = infinity; } },

@@ -32,6 +32,9 @@ struct StuffingInput
  * that they had. What is wanted of the angles, 15 to 165 degrees, is no promise: where a surface
  * nearly touches itself some are left that are worse.
  *
+ * If there are allowances the surfaces are measured (SurfaceDistance.h); it is for the caller to
+ * refine where they are too far away.
+ *
  * Angles are those of the world: if steps on the axes differ in length, they suffer from the
  * start.
  */
