@@ -150,7 +150,7 @@ private:
         const int vertex = shape.Vertices[shape.ByAge[i - 1]];
         corner.Position = corner.Position + h * parent.Shape().Offsets[vertex];
       }
-      corner.Sign = static_cast<std::int8_t>(code % 3);
+      corner.Sign = static_cast<std::uint8_t>(code % 3);
       code /= 3;
       if (corner.Sign == InsideSign)
       {

@@ -26,7 +26,7 @@ struct CutMesh
   struct Vertex
   {
     Point Position{};             ///< in index space
-    std::int8_t Sign = 0;         ///< 0, 1, 2: below, inside, above
+    std::uint8_t Sign = 0;        ///< 0, 1, 2: below, inside, above
     bool IsHidden = false;        ///< whether it is a corner of a hidden cell
     std::uint32_t PointId = None; ///< in the mesh; only of vertices inside
   };

@@ -13,10 +13,10 @@ class Background
 {
 public:
   /**
-   * @param cut,points must outlive it
+   * @param cut must outlive it
    * @param positions of the cut mesh's vertices in the world
-   * @param points of the interval volume's mesh, in the world
    * @param walls by vertex
+   * @param points of the interval volume's mesh, in the world; must outlive it
    * @param mirrored whether orientation turns around from index space to the world
    */
   Background(const CutMesh& cut, std::vector<Vector> positions, std::vector<Walls::Type> walls,

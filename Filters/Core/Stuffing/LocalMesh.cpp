@@ -458,7 +458,8 @@ void LocalMesh::Replace(const std::vector<std::uint32_t>& old, const std::vector
     [&](const Corners& corners) { this->Add(corners, origin, changed); });
 }
 
-std::uint32_t LocalMesh::AddPoint(const Vector& at, Walls::Type walls, std::vector<Share> shares)
+std::uint32_t LocalMesh::AddPoint(
+  const Vector& at, Walls::Type walls, const std::vector<Share>& shares)
 {
   const auto point = static_cast<std::uint32_t>(this->TheMesh.Positions.size());
   this->TheMesh.Positions.push_back(at);

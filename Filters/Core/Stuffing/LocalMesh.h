@@ -83,7 +83,7 @@ public:
   void Replace(const std::vector<std::uint32_t>& old, const std::vector<Corners>& fresh,
     std::vector<std::uint32_t>& changed);
   /** Adds a point inside, or on walls. @return its id */
-  std::uint32_t AddPoint(const Vector& at, Walls::Type walls, std::vector<Share> shares);
+  std::uint32_t AddPoint(const Vector& at, Walls::Type walls, const std::vector<Share>& shares);
   ///@}
 
   /** What is alive. The LocalMesh is empty then. */

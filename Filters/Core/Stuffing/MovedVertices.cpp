@@ -17,7 +17,7 @@ constexpr double NearPart = 0.25;
 constexpr double LeastSine = 0.1;
 
 /** The walls that an edge lies in. */
-Walls::Type Common(Walls::Type a, Walls::Type b)
+Walls::Type CommonWalls(Walls::Type a, Walls::Type b)
 {
   return static_cast<Walls::Type>(a & b);
 }
@@ -114,7 +114,7 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
             nearest.Distance = distance;
             nearest.Point = point;
             nearest.Surface = surface;
-            nearest.OnWalls = Common(walls, this->Mesh.WallsOf(corners[other]));
+            nearest.OnWalls = CommonWalls(walls, this->Mesh.WallsOf(corners[other]));
           }
         }
       }
@@ -248,7 +248,7 @@ TetrahedronMesh MovedVertices::Cut() const
           if (point != CutMesh::None)
           {
             mesh.Surfaces[point] = static_cast<std::int8_t>(2 * surface - 1);
-            mesh.OnWalls[point] = Common(
+            mesh.OnWalls[point] = CommonWalls(
               this->Mesh.WallsOf(leaf.Vertices[younger]), this->Mesh.WallsOf(leaf.Vertices[older]));
           }
         }

@@ -78,7 +78,7 @@ SurfaceMesh SurfaceOf(const TetrahedronMesh& mesh, std::int8_t surface)
   return result;
 }
 
-bool Has(const SurfaceMesh& surface, Triangle points)
+bool HasTriangle(const SurfaceMesh& surface, Triangle points)
 {
   std::sort(points.begin(), points.end());
   return std::binary_search(surface.Known.begin(), surface.Known.end(), points);
@@ -125,7 +125,7 @@ private:
     for (std::uint32_t i = 0; i < count; ++i)
     {
       const Triangle& points = this->Stuffed.Mesh.Triangles[i];
-      if (Has(this->Plain, points) || !this->PlainLinks.IsUsed(points[0]))
+      if (HasTriangle(this->Plain, points) || !this->PlainLinks.IsUsed(points[0]))
       {
         continue;
       }
@@ -171,7 +171,7 @@ private:
     for (std::size_t at = 0; at < waiting.size(); ++at)
     {
       const std::uint32_t i = waiting[at];
-      if (!Has(this->Stuffed, this->Plain.Mesh.Triangles[i]))
+      if (!HasTriangle(this->Stuffed, this->Plain.Mesh.Triangles[i]))
       {
         this->MeasureForth(cover, i, places[i]);
       }

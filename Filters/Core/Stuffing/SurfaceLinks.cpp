@@ -12,7 +12,7 @@ namespace
 
 using Edge = std::array<std::uint32_t, 2>;
 
-Edge MakeEdge(std::uint32_t a, std::uint32_t b)
+Edge SortedEdge(std::uint32_t a, std::uint32_t b)
 {
   return { std::min(a, b), std::max(a, b) };
 }
@@ -26,7 +26,7 @@ std::array<std::uint32_t, 3> Without(const Corners& corners, std::uint32_t verte
   return others;
 }
 
-bool Has(const Corners& corners, std::uint32_t vertex)
+bool HasCorner(const Corners& corners, std::uint32_t vertex)
 {
   return std::find(corners.begin(), corners.end(), vertex) != corners.end();
 }
@@ -85,7 +85,7 @@ bool SurfaceLinks::HasOneCycle(std::uint32_t vertex, int surface) const
         const bool side = this->IsInside(lone, surface);
         if (this->IsInside(a, surface) != side && this->IsInside(b, surface) != side)
         {
-          mixed.push_back({ MakeEdge(lone, a), MakeEdge(lone, b) });
+          mixed.push_back({ SortedEdge(lone, a), SortedEdge(lone, b) });
         }
       }
     });
@@ -115,7 +115,7 @@ bool SurfaceLinks::HasOneRun(std::uint32_t vertex, std::uint32_t other, int surf
     [&](std::uint32_t tetrahedron)
     {
       const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-      if (!Has(corners, other))
+      if (!HasCorner(corners, other))
       {
         return;
       }
