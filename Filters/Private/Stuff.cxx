@@ -163,7 +163,8 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
     MovePartOfStep * options.World.SmallestStep(), MovePartOfTolerance * options.DistanceTolerance);
   const isodiamond::Grid& grid = hierarchy.SampleGrid();
   const isodiamond::StuffedMesh result = isodiamond::Stuff(
-    { leaves, positions, options.World, grid, move, AllowancesOf(leaves, hierarchy, options) });
+    { leaves, positions, options.World, grid, move, AllowancesOf(leaves, hierarchy, options) },
+    parallelFor);
   const isodiamond::TetrahedronMesh& stuffed = result.Mesh;
   for (const std::uint32_t leaf : result.FarLeaves)
   {

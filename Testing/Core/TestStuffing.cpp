@@ -38,7 +38,7 @@ struct Stuffed
     }
     const CutMesh leaves = extraction.Leaves(hidden);
     const double move = std::max(0.25 * world.SmallestStep(), 0.5 * query.Tolerance);
-    this->Mesh = Stuff({ leaves, points, world, hierarchy.SampleGrid(), move }).Mesh;
+    this->Mesh = Stuff({ leaves, points, world, hierarchy.SampleGrid(), move }, SerialFor).Mesh;
   }
 
   /** As a volume with the points that are used. */

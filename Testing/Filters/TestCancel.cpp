@@ -162,6 +162,21 @@ TEST(Cancel, IntervalVolume)
     25, 2);
 }
 
+TEST(Cancel, SimulationQuality)
+{
+  const auto image = test::PhantomImage({ 20, 20, 20 }, 5.0);
+  ExpectStops(
+    [&]
+    {
+      const auto volume = vtkSmartPointer<vtkIsodiamondIntervalVolume>::New();
+      volume->SetInputData(image);
+      volume->SetIsorange(50.0, 200.0);
+      volume->SimulationQualityOn();
+      return volume;
+    },
+    10, 3);
+}
+
 TEST(Cancel, Builder)
 {
   const auto image = test::PhantomImage({ 48, 48, 48 }, 1.0);

@@ -2,6 +2,8 @@
 #ifndef isodiamond_Parallel_h
 #define isodiamond_Parallel_h
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 
@@ -31,6 +33,25 @@ void ForEachIndex(const ParallelFor& parallelFor, Count count, std::int64_t grai
         body(i);
       }
     });
+}
+
+/** Runs body(i) for all i in [0, count), one after the other, with a call of the parallel-for every
+ *  so many of them: for what has to be done in order, so that it can be told of, and aborted. */
+template <typename Body>
+void InSteps(const ParallelFor& parallelFor, std::size_t count, std::size_t step, const Body& body)
+{
+  for (std::size_t first = 0; first < count; first += step)
+  {
+    const std::size_t last = std::min(count, first + step);
+    parallelFor(1, 1,
+      [&](std::int64_t /*begin*/, std::int64_t /*end*/)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          body(i);
+        }
+      });
+  }
 }
 
 /** Told that a phase of some work begins, and which part of the whole it is, from 0 to 1. */

@@ -28,6 +28,9 @@ constexpr std::size_t MostAround = 7;
 /** The least cosine between the normals of a surface's triangles whose common edge is turned. */
 constexpr double LeastCosine = 0.5;
 
+/** Tries between two looks at whether to go on: some milliseconds. */
+constexpr std::size_t TriesOfStep = 16;
+
 /** A change that has been tried. */
 struct Change
 {
@@ -61,7 +64,7 @@ public:
   {
   }
 
-  void Run()
+  void Run(const ParallelFor& parallelFor)
   {
     std::vector<std::uint32_t> bad(this->Mesh.Mesh().Tetrahedra.size());
     std::iota(bad.begin(), bad.end(), 0U);
@@ -69,15 +72,17 @@ public:
     {
       bad = this->WorstFirst(bad);
       std::vector<std::uint32_t> changed;
-      for (const std::uint32_t tetrahedron : bad)
-      {
-        if (this->IsBad(tetrahedron) && this->IsWorthATry(tetrahedron))
+      InSteps(parallelFor, bad.size(), TriesOfStep,
+        [&](std::size_t i)
         {
-          const std::size_t before = changed.size();
-          this->ImproveAt(tetrahedron, changed);
-          this->NoteChange(tetrahedron, changed.data() + before, changed.data() + changed.size());
-        }
-      }
+          const std::uint32_t tetrahedron = bad[i];
+          if (this->IsBad(tetrahedron) && this->IsWorthATry(tetrahedron))
+          {
+            const std::size_t before = changed.size();
+            this->ImproveAt(tetrahedron, changed);
+            this->NoteChange(tetrahedron, changed.data() + before, changed.data() + changed.size());
+          }
+        });
       if (changed.empty())
       {
         return;
@@ -575,10 +580,11 @@ private:
 
 }
 
-TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options)
+TetrahedronMesh Improve(
+  TetrahedronMesh mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
 {
   Improver improver(std::move(mesh), options);
-  improver.Run();
+  improver.Run(parallelFor);
   return improver.Take();
 }
 

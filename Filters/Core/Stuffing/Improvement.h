@@ -2,6 +2,7 @@
 #ifndef isodiamond_Improvement_h
 #define isodiamond_Improvement_h
 
+#include "Field/Parallel.h"
 #include "Stuffing/TetrahedronMesh.h"
 
 namespace isodiamond
@@ -33,7 +34,8 @@ struct ImprovementOptions
  * of before (LocalMesh.h). Klingner & Shewchuk, "Aggressive tetrahedral mesh improvement" (2007),
  * do the same with more of it.
  */
-TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options);
+TetrahedronMesh Improve(
+  TetrahedronMesh mesh, const ImprovementOptions& options, const ParallelFor& parallelFor);
 
 }
 

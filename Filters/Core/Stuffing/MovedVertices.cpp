@@ -13,6 +13,9 @@ namespace
  *  tetrahedra; from 0.3 on more of them are bad. */
 constexpr double NearPart = 0.25;
 
+/** Moves between two looks at whether to go on. */
+constexpr std::size_t MovesOfStep = 1024;
+
 /** The least sine of a dihedral angle that a move may leave in a whole tetrahedron. */
 constexpr double LeastSine = 0.1;
 
@@ -39,7 +42,7 @@ MovedVertices::MovedVertices(const Background& background)
   }
 }
 
-void MovedVertices::MoveAll()
+void MovedVertices::MoveAll(const ParallelFor& parallelFor)
 {
   std::vector<Goal> goals;
   for (std::uint32_t vertex = 0; vertex < this->Mesh.VertexCount(); ++vertex)
@@ -52,14 +55,15 @@ void MovedVertices::MoveAll()
   std::sort(goals.begin(), goals.end(),
     [](const Goal& a, const Goal& b)
     { return a.Distance != b.Distance ? a.Distance < b.Distance : a.Vertex < b.Vertex; });
-  for (const Goal& before : goals)
-  {
-    // Moves of others took isovertices away.
-    if (const Goal goal = this->NearestTo(before.Vertex); goal.Distance < NearPart)
+  InSteps(parallelFor, goals.size(), MovesOfStep,
+    [&](std::size_t i)
     {
-      this->TryToMove(goal);
-    }
-  }
+      // Moves of others took isovertices away.
+      if (const Goal goal = this->NearestTo(goals[i].Vertex); goal.Distance < NearPart)
+      {
+        this->TryToMove(goal);
+      }
+    });
 }
 
 /** Whether a surface still crosses an edge of a leaf between its vertices. */

@@ -2,6 +2,7 @@
 #ifndef isodiamond_MovedVertices_h
 #define isodiamond_MovedVertices_h
 
+#include "Field/Parallel.h"
 #include "Patches/IntervalPatches.h"
 #include "Stuffing/Background.h"
 #include "Stuffing/SurfaceLinks.h"
@@ -25,7 +26,7 @@ public:
   explicit MovedVertices(const Background& background);
 
   /** Moves all that can be. */
-  void MoveAll();
+  void MoveAll(const ParallelFor& parallelFor);
 
   /** By vertex, see VertexState. */
   const std::vector<std::uint8_t>& States() const { return this->TheStates; }

@@ -49,7 +49,7 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
 
 }
 
-StuffedMesh Stuff(const StuffingInput& input)
+StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
 {
   std::vector<Vector> positions;
   std::vector<Walls::Type> walls;
@@ -69,9 +69,9 @@ StuffedMesh Stuff(const StuffingInput& input)
   options.Axes = AxesOf(input.World);
   MovedVertices vertices(background);
   const TetrahedronMesh plain = input.Allowances.empty() ? TetrahedronMesh() : vertices.Cut();
-  vertices.MoveAll();
+  vertices.MoveAll(parallelFor);
   StuffedMesh result;
-  result.Mesh = Improve(vertices.Cut(), options);
+  result.Mesh = Improve(vertices.Cut(), options, parallelFor);
   if (!input.Allowances.empty())
   {
     result.FarLeaves = FindFarLeaves(plain, result.Mesh, input.Allowances);

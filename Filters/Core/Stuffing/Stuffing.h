@@ -3,6 +3,7 @@
 #define isodiamond_Stuffing_h
 
 #include "Field/GridGeometry.h"
+#include "Field/Parallel.h"
 #include "Lattice/Lattice.h"
 #include "Mesh/CutMesh.h"
 #include "Stuffing/TetrahedronMesh.h"
@@ -43,7 +44,8 @@ struct StuffedMesh
   TetrahedronMesh Mesh;
   std::vector<std::uint32_t> FarLeaves; ///< where a surface is too far away, as it is measured
 };
-StuffedMesh Stuff(const StuffingInput& input);
+/** @param parallelFor is given the work in steps, one after the other: it can tell, and abort */
+StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor);
 
 }
 
