@@ -47,3 +47,14 @@ writer.SetFileName(os.path.join(FOLDER, "volume.vtu"))
 writer.Write()
 angles = run("dihedral_angles.py", made("volume.vtu"))
 assert re.search(r"\d", angles), angles
+
+# With an interpreter that has the libraries, if there is one: ParaView's need not.
+heat = os.path.join(EXAMPLES, "heat.py")
+libraries = ["/usr/bin/python3", "-c", "import getfem, meshio, scipy"]
+if subprocess.run(libraries, check=False, stderr=subprocess.DEVNULL).returncode == 0:
+    told = subprocess.run(
+        ["/usr/bin/python3", heat, made("volume.vtu"), os.path.join(FOLDER, "heat.vtu")],
+        check=True, stdout=subprocess.PIPE, text=True,
+    ).stdout
+    assert int(re.search(r"(\d+) steps", told).group(1)) > 10, told
+    made("heat.vtu")
