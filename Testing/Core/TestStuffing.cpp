@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceTestTools.h"
 #include "IntervalTestTools.h"
 #include "RandomTestTools.h"
 #include "TopologyTestTools.h"
@@ -6,6 +7,7 @@
 #include "Mesh/IntervalExtraction.h"
 #include "Stuffing/LocalMesh.h"
 #include "Stuffing/Stuffing.h"
+#include "Stuffing/SurfaceDistance.h"
 
 #include <gtest/gtest.h>
 
@@ -304,6 +306,60 @@ TEST(Stuffing, LeavesOutWhatIsHidden)
   // The cells are inside, so just their volume is missing.
   EXPECT_NEAR(
     test::TotalVolume(whole.AsVolume()) - test::TotalVolume(stuffed.AsVolume()), 27.0, 1e-9);
+}
+
+TEST(SurfaceDistance, IsNoLessThanThatOfBruteForce)
+{
+  const test::Field field = GyroidField(17, 1.5);
+  const test::Built built = BuildVolume(field, { -0.2, 0.6 });
+  Query query;
+  query.Tolerance = 0.5;
+  const RefinedSet refined(*built.Hierarchy, query, SerialFor);
+  const CutMesh leaves = IntervalExtraction(refined, SerialFor).Leaves(nullptr);
+  const Stuffed stuffed(*built.Hierarchy, query);
+  // The mesh without any move, of the same points.
+  TetrahedronMesh plain = stuffed.Mesh;
+  plain.Tetrahedra.clear();
+  plain.Origins.clear();
+  plain.Positions.resize(stuffed.Plain.Points.size());
+  plain.Surfaces = stuffed.Plain.Surfaces;
+  for (const std::array<std::int32_t, 4>& corners : stuffed.Plain.Tetrahedra)
+  {
+    plain.Tetrahedra.push_back(
+      { static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[1]),
+        static_cast<std::uint32_t>(corners[2]), static_cast<std::uint32_t>(corners[3]) });
+    plain.Origins.push_back(0); // one allowance for all
+  }
+  const auto isFar = [&](double allowance)
+  {
+    return !FindFarLeaves(
+      plain, stuffed.Mesh, std::vector<double>(leaves.Tetrahedra.size(), allowance))
+              .empty();
+  };
+  const test::Volume after = stuffed.AsVolume();
+  const auto isFarByForce = [&](double allowance)
+  {
+    test::Promise promise;
+    promise.Tolerance = allowance;
+    bool isFar = false;
+    for (const int surface : { -1, 1 })
+    {
+      isFar = isFar ||
+        !FaultOf(promise, test::Placed(stuffed.Plain, surface, AffineMap()),
+          test::Placed(after, surface, AffineMap()))
+           .empty();
+    }
+    return isFar;
+  };
+  double least = 0.01; // that is far enough by brute force
+  while (isFarByForce(least))
+  {
+    EXPECT_TRUE(isFar(least)) << least;
+    least *= 1.1;
+  }
+  EXPECT_GT(least, 0.1);
+  EXPECT_FALSE(isFar(1.5 * least));
+  EXPECT_FALSE(isFar(HUGE_VAL));
 }
 
 TEST(LocalMesh, CollapsesOnlyWhatKeepsTheTopology)

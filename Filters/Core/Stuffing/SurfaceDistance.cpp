@@ -84,6 +84,118 @@ bool HasTriangle(const SurfaceMesh& surface, Triangle points)
   return std::binary_search(surface.Known.begin(), surface.Known.end(), points);
 }
 
+/** Triangles of a surface around one, and whether another triangle is near to them. */
+class Neighbourhood
+{
+public:
+  /** @param reach how far from a place triangles are of interest */
+  Neighbourhood(const SurfaceMesh& surface, const Connectivity& links, std::uint32_t start,
+    const Vector& place, double reach)
+  {
+    // Over the surface: what is near through space alone is not looked at.
+    std::vector<std::uint32_t> all = { start };
+    for (std::size_t i = 0; i < all.size() && this->Near.size() < MostTriangles; ++i)
+    {
+      const auto [a, b, c] = surface.Mesh.Corners(all[i]);
+      const TriangleDistance distance(a, b, c);
+      if (i > 0 && distance.Squared(place) > reach * reach)
+      {
+        continue;
+      }
+      this->Near.push_back({ all[i], distance });
+      for (int edge = 0; edge < 3; ++edge)
+      {
+        const std::uint32_t next = links.Neighbour(all[i], edge);
+        if (next != Connectivity::None && std::find(all.begin(), all.end(), next) == all.end())
+        {
+          all.push_back(next);
+        }
+      }
+    }
+  }
+
+  /** Whether each part of a triangle lies within what one of these allows: what is so near to a
+   *  triangle is convex, so corners tell.
+   *  @param allowanceOf (triangle) @param far receives the triangle nearest to a part that is not
+   */
+  template <typename AllowanceOf>
+  bool Covers(const std::array<Vector, 3>& corners, AllowanceOf&& allowanceOf, std::uint32_t& far,
+    int depth = 0) const
+  {
+    const auto covers = [&](const Item& item, const Vector* points, int count)
+    {
+      const double allowance = allowanceOf(item.Triangle);
+      return std::all_of(points, points + count,
+        [&](const Vector& point) { return item.Distance.Squared(point) <= allowance * allowance; });
+    };
+    const auto covered = [&](const Vector* points, int count)
+    {
+      return std::any_of(this->Near.begin(), this->Near.end(),
+        [&](const Item& item) { return covers(item, points, count); });
+    };
+    if (covered(corners.data(), 3))
+    {
+      return true;
+    }
+    const Vector middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
+    if (depth == MostDepth || !covered(&middle, 1))
+    {
+      far = this->NearestTo(middle);
+      return false;
+    }
+    const std::array<Vector, 3> sides = { 0.5 * (corners[0] + corners[1]),
+      0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0]) };
+    return this->Covers(sides, allowanceOf, far, depth + 1) &&
+      this->Covers({ corners[0], sides[0], sides[2] }, allowanceOf, far, depth + 1) &&
+      this->Covers({ corners[1], sides[1], sides[0] }, allowanceOf, far, depth + 1) &&
+      this->Covers({ corners[2], sides[2], sides[1] }, allowanceOf, far, depth + 1);
+  }
+
+private:
+  std::uint32_t NearestTo(const Vector& place) const
+  {
+    return std::min_element(this->Near.begin(), this->Near.end(),
+      [&](const Item& a, const Item& b)
+      { return a.Distance.Squared(place) < b.Distance.Squared(place); })
+      ->Triangle;
+  }
+
+  static constexpr std::size_t MostTriangles = 200;
+  static constexpr int MostDepth = 5;
+
+  struct Item
+  {
+    std::uint32_t Triangle;
+    TriangleDistance Distance;
+  };
+  std::vector<Item> Near;
+};
+
+/** Whether a triangle is near to a surface, from a place there on: by walking over it, and where
+ * that says no, which may be too much, by looking at all around. */
+template <typename AllowanceOf>
+bool IsNear(const std::array<Vector, 3>& corners, const SurfaceMesh& surface,
+  const Connectivity& links, const Covering& cover, std::uint32_t start, AllowanceOf&& allowanceOf,
+  std::uint32_t& far)
+{
+  const double allowance = allowanceOf(start);
+  if (cover.Cut(corners, start, UncutPart * allowance,
+        [&](std::uint32_t triangle, double distance, double /*area*/)
+        { return distance <= allowanceOf(triangle); }))
+  {
+    return true;
+  }
+  const Vector middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
+  double reach = 0.0;
+  for (const Vector& corner : corners)
+  {
+    reach = std::max(reach, std::sqrt(Dot(corner - middle, corner - middle)));
+  }
+  return std::isfinite(allowance) &&
+    Neighbourhood(surface, links, start, middle, reach + allowance)
+      .Covers(corners, allowanceOf, far);
+}
+
 /** Compares one surface of two meshes. */
 class Comparison
 {
@@ -125,26 +237,32 @@ private:
     for (std::uint32_t i = 0; i < count; ++i)
     {
       const Triangle& points = this->Stuffed.Mesh.Triangles[i];
-      if (HasTriangle(this->Plain, points) || !this->PlainLinks.IsUsed(points[0]))
+      if (HasTriangle(this->Plain, points))
       {
         continue;
       }
-      const std::uint32_t start = cover.NearestAt(points[0], this->Stuffed.Mesh.Middle(i));
-      bool isMarked = false;
-      const bool isCovered =
-        cover.Cut(this->Stuffed.Mesh.Corners(i), start, UncutPart * this->AllowanceAt(start),
-          [&](std::uint32_t plain, double distance, double /*area*/)
-          {
-            if (distance > this->AllowanceAt(plain))
-            {
-              this->Mark(plain);
-              isMarked = true;
-            }
-            return !isMarked;
-          });
-      if (!isCovered && !isMarked)
+      // From where least is allowed: what begins in a cell that is not asked would all be near.
+      std::uint32_t start = Connectivity::None;
+      for (const std::uint32_t point : points)
       {
-        this->Mark(start);
+        if (this->PlainLinks.IsUsed(point))
+        {
+          const std::uint32_t at = cover.NearestAt(point, this->Stuffed.Mesh.Middle(i));
+          const bool isLess =
+            start == Connectivity::None || this->AllowanceAt(at) < this->AllowanceAt(start);
+          start = isLess ? at : start;
+        }
+      }
+      if (start == Connectivity::None)
+      {
+        continue;
+      }
+      std::uint32_t far = start;
+      if (!IsNear(
+            this->Stuffed.Mesh.Corners(i), this->Plain, this->PlainLinks, cover, start,
+            [&](std::uint32_t plain) { return this->AllowanceAt(plain); }, far))
+      {
+        this->Mark(far);
       }
     }
   }
@@ -187,20 +305,13 @@ private:
     }
   }
 
-  void MeasureForth(const Covering& cover, std::uint32_t triangle, std::uint32_t& place)
+  void MeasureForth(const Covering& cover, std::uint32_t triangle, std::uint32_t place)
   {
     const double allowed = this->AllowanceAt(triangle);
-    if (!std::isfinite(allowed))
-    {
-      return;
-    }
-    const bool isNear = cover.Cut(this->Plain.Mesh.Corners(triangle), place, UncutPart * allowed,
-      [&](std::uint32_t stuffed, double distance, double /*area*/)
-      {
-        place = stuffed;
-        return distance <= allowed;
-      });
-    if (!isNear)
+    if (std::isfinite(allowed) &&
+      !IsNear(
+        this->Plain.Mesh.Corners(triangle), this->Stuffed, this->StuffedLinks, cover, place,
+        [&](std::uint32_t /*stuffed*/) { return allowed; }, place))
     {
       this->Mark(triangle);
     }
