@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondAlgorithm.h"
 
+#include "Private/Arrays.h"
 #include "Private/Format.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
@@ -120,10 +121,8 @@ void vtkIsodiamondAlgorithm::NoteTolerance(
   if (aimed)
   {
     vtkIsodiamond::WarnIfAbove(this, *aimed, this->TargetNumberOfTriangles);
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(vtkIsodiamond::format::AchievedTolerance);
-    array->InsertNextValue(tolerance);
-    output->GetFieldData()->AddArray(array);
+    vtkIsodiamond::AddNumber<vtkDoubleArray>(
+      output->GetFieldData(), vtkIsodiamond::format::AchievedTolerance, tolerance);
   }
 }
 
@@ -140,15 +139,10 @@ void vtkIsodiamondAlgorithm::NoteDihedralAngles(
   this->SmallestDihedralAngle =
     isFirst ? smallest : std::min(this->SmallestDihedralAngle, smallest);
   this->LargestDihedralAngle = std::max(this->LargestDihedralAngle, largest);
-  const auto add = [&](const char* name, double angle)
-  {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(name);
-    array->InsertNextValue(angle);
-    output->GetFieldData()->AddArray(array);
-  };
-  add(vtkIsodiamond::format::SmallestDihedralAngle, smallest);
-  add(vtkIsodiamond::format::LargestDihedralAngle, largest);
+  vtkIsodiamond::AddNumber<vtkDoubleArray>(
+    output->GetFieldData(), vtkIsodiamond::format::SmallestDihedralAngle, smallest);
+  vtkIsodiamond::AddNumber<vtkDoubleArray>(
+    output->GetFieldData(), vtkIsodiamond::format::LargestDihedralAngle, largest);
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 
 #include "Mesh/CellCounts.h"
 #include "Patches/WorldLengths.h"
+#include "Private/Arrays.h"
 #include "Private/Cache.h"
 #include "Private/Format.h"
 #include "Private/Input.h"
@@ -165,10 +166,8 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       this->NumberOfRemovedPieces += this->RemovedFromBlock;
       if (this->MinimumPieceSize > 0)
       {
-        vtkNew<vtkIdTypeArray> removed;
-        removed->SetName(vtkIsodiamond::format::NumberOfRemovedPieces);
-        removed->InsertNextValue(this->RemovedFromBlock);
-        output->GetFieldData()->AddArray(removed);
+        vtkIsodiamond::AddNumber<vtkIdTypeArray>(output->GetFieldData(),
+          vtkIsodiamond::format::NumberOfRemovedPieces, this->RemovedFromBlock);
       }
     });
 }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs in ParaView's window: shows one of the plugin's filters, by the name in $ISODIAMONDS_PANEL, on
 the data named in $ISODIAMONDS_DATA. docs/panels.sh starts it and takes the picture."""
+import math
 import os
 
 from paraview.simple import *
@@ -84,8 +85,8 @@ def contour_region():
 
 def interval_volume():
     region = IsodiamondIntervalVolume(volume)
-    low, high = region.Isorange
-    region.Isorange = [low + 0.6 * (high - low), high]
+    highest = volume.PointData[0].GetRange()[1]
+    region.Isorange = [region.Isorange[0], math.ceil(highest / 10) * 10]  # all above the lower value
     region.ErrorTolerance = 0.5
     show(region)
 
@@ -103,7 +104,8 @@ def hierarchy():
 
 def extract():
     extracted = IsodiamondExtract(built(ComputeNormals=1))
-    extracted.ErrorTolerance = extracted.GetProperty("ErrorTolerance").GetDomain("range").GetMaximum(0) / 5
+    largest = extracted.GetProperty("ErrorTolerance").GetDomain("range").GetMaximum(0)
+    extracted.ErrorTolerance = float(f"{largest / 5:.1g}")
     show(extracted)
 
 

@@ -3,6 +3,8 @@
 #define vtkIsodiamond_Arrays_h
 
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
 #include <cstddef>
@@ -47,6 +49,16 @@ vtkSmartPointer<Array> NewArray(const char* name, vtkIdType count, int component
   array->SetNumberOfComponents(components);
   AllocateTuples(array, count);
   return array;
+}
+
+/** Adds a number to field data, for who looks at them. */
+template <typename Array>
+void AddNumber(vtkFieldData* fieldData, const char* name, typename Array::ValueType number)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->InsertNextValue(number);
+  fieldData->AddArray(array);
 }
 
 /**

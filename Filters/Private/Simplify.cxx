@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Simplify.h"
 
-#include "Private/Cells.h"
 #include "Private/PlacedTolerance.h"
 #include "Private/Simulation.h"
 #include "Private/Tuples.h"
+#include "Private/UsedPoints.h"
 #include "Simplification/MeshOptimizer.h"
 
 #include "vtkCellArray.h"
@@ -26,11 +26,7 @@ constexpr double HierarchyPart = 0.3;
 isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& tolerance)
 {
   isodiamond::AllowedMesh result;
-  result.Mesh.Positions.resize(mesh.Points->GetNumberOfPoints());
-  for (std::size_t i = 0; i < result.Mesh.Positions.size(); ++i)
-  {
-    mesh.Points->GetPoint(static_cast<vtkIdType>(i), result.Mesh.Positions[i].data());
-  }
+  result.Mesh.Positions = PositionsOf(mesh.Points);
   const vtkIdType count = mesh.Cells->GetNumberOfCells();
   result.Mesh.Triangles.reserve(count);
   result.Allowances.reserve(count);
@@ -86,36 +82,10 @@ void SimplifyMesh(const WorldQuery& query, const Measure& measure,
 {
   const isodiamond::AllowedMesh simple = isodiamond::Simplify(
     ToCore(mesh, PlacedTolerance(query, measure, world)), isodiamond::MeshOptimizer(), parallelFor);
-  // Only the points that are left, in their order.
-  std::vector<vtkIdType> newIds(simple.Mesh.Positions.size(), -1);
-  for (const isodiamond::Triangle& triangle : simple.Mesh.Triangles)
-  {
-    for (const std::uint32_t point : triangle)
-    {
-      newIds[point] = 0;
-    }
-  }
-  std::vector<vtkIdType> kept;
-  for (std::size_t i = 0; i < newIds.size(); ++i)
-  {
-    if (newIds[i] == 0)
-    {
-      newIds[i] = static_cast<vtkIdType>(kept.size());
-      kept.push_back(static_cast<vtkIdType>(i));
-    }
-  }
-  mesh.Cells = WriteCells(static_cast<std::int64_t>(simple.Mesh.Triangles.size()), 3, parallelFor,
-    [&](auto* connectivity)
-    {
-      using Id = std::remove_pointer_t<decltype(connectivity)>;
-      for (const isodiamond::Triangle& triangle : simple.Mesh.Triangles)
-      {
-        connectivity = std::transform(triangle.begin(), triangle.end(), connectivity,
-          [&](std::uint32_t point) { return static_cast<Id>(newIds[point]); });
-      }
-    });
-  mesh.Points = PointsOf(mesh.Points, kept);
-  KeepTuples(mesh.PointData, kept);
+  const UsedPoints used(simple.Mesh.Triangles, simple.Mesh.Positions.size());
+  mesh.Cells = used.Write(simple.Mesh.Triangles, parallelFor);
+  mesh.Points = PointsOf(mesh.Points, used.Kept);
+  KeepTuples(mesh.PointData, used.Kept);
   mesh.CellData->Initialize();
 }
 

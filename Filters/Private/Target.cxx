@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Target.h"
 
+#include "Private/Arrays.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -44,14 +46,6 @@ double RoundTolerance(double largest, int i)
     power /= 10.0;
   }
   return digits[digit] * power;
-}
-
-void AddCount(const std::string& name, std::int64_t count, vtkFieldData* output)
-{
-  vtkNew<vtkIdTypeArray> array;
-  array->SetName(name.c_str());
-  array->InsertNextValue(count);
-  output->AddArray(array);
 }
 
 }
@@ -176,9 +170,10 @@ void WriteCounts(const std::vector<const isodiamond::CellCounts*>& counts, const
     const double tolerance = RoundTolerance(largest / unit, i);
     std::ostringstream number;
     number << tolerance;
-    AddCount(prefix + number.str(), CellsAt(counts, tolerance * unit), output);
+    AddNumber<vtkIdTypeArray>(
+      output, (prefix + number.str()).c_str(), CellsAt(counts, tolerance * unit));
   }
-  AddCount(prefix + "0", CellsAt(counts, 0.0), output);
+  AddNumber<vtkIdTypeArray>(output, (prefix + "0").c_str(), CellsAt(counts, 0.0));
 }
 
 }

@@ -39,8 +39,10 @@ struct Stuffed
       points.push_back(world(point));
     }
     const CutMesh leaves = extraction.Leaves(hidden);
+    const std::vector<Vector> vertices = VerticesInWorld(leaves, world);
     const double move = std::max(0.25 * world.SmallestStep(), 0.5 * query.Tolerance);
-    this->Mesh = Stuff({ leaves, points, world, hierarchy.SampleGrid(), move }, SerialFor).Mesh;
+    this->Mesh =
+      Stuff({ leaves, vertices, points, world, hierarchy.SampleGrid(), move }, SerialFor).Mesh;
   }
 
   /** As a volume with the points that are used. */
@@ -67,20 +69,6 @@ struct Stuffed
       volume.Levels.push_back(0);
     }
     return volume;
-  }
-
-  /** The smallest and the largest dihedral angle. */
-  std::array<double, 2> Angles() const
-  {
-    std::array<double, 2> all = { 180.0, 0.0 };
-    for (const Corners& corners : this->Mesh.Tetrahedra)
-    {
-      const std::array<double, 2> angles =
-        DihedralAngles(this->Mesh.Positions[corners[0]], this->Mesh.Positions[corners[1]],
-          this->Mesh.Positions[corners[2]], this->Mesh.Positions[corners[3]]);
-      all = { std::min(all[0], angles[0]), std::max(all[1], angles[1]) };
-    }
-    return all;
   }
 
   /** Tetrahedra with an angle below 15 or above 165 degrees. */
@@ -210,7 +198,7 @@ TEST(Stuffing, HasTheAnglesThatSolversLikeOnSmoothFields)
       Query query;
       query.Tolerance = tolerance;
       const Stuffed stuffed(*built.Hierarchy, query);
-      const auto [smallest, largest] = stuffed.Angles();
+      const auto [smallest, largest] = DihedralAngles(stuffed.Mesh);
       EXPECT_GE(smallest, 15.0) << field.Name << " at " << tolerance;
       EXPECT_LE(largest, 165.0) << field.Name << " at " << tolerance;
       const test::Volume volume = stuffed.AsVolume();
@@ -272,7 +260,7 @@ TEST(Stuffing, IsAMirrorImageInAMirroredWorld)
   const Stuffed here(*built.Hierarchy, Query{});
   const Stuffed there(*built.Hierarchy, Query{}, mirror);
   EXPECT_EQ(here.Mesh.Tetrahedra.size(), there.Mesh.Tetrahedra.size());
-  EXPECT_GT(there.Angles()[0], 15.0);
+  EXPECT_GT(DihedralAngles(there.Mesh)[0], 15.0);
   for (const Corners& corners : there.Mesh.Tetrahedra)
   {
     ASSERT_GT(SmallestSine(there.Mesh, corners), 0.0);

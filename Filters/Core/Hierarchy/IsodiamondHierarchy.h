@@ -108,12 +108,10 @@ struct EncodingHeader
   std::int64_t CreationCount = 0;
 };
 
-/** A diamond by its centre, which has 21 bits on an axis. */
+/** A diamond by its centre. */
 inline std::uint64_t CentreCode(const Place& place)
 {
-  const Point centre = Centre(place);
-  return static_cast<std::uint64_t>(centre[0]) | static_cast<std::uint64_t>(centre[1]) << 21 |
-    static_cast<std::uint64_t>(centre[2]) << 42;
+  return PackedPoint(Centre(place));
 }
 
 /** The diamond of such a code, which is not 0. */

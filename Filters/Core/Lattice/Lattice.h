@@ -33,6 +33,13 @@ inline constexpr Point operator*(std::int32_t factor, const Point& a)
   return { factor * a[0], factor * a[1], factor * a[2] };
 }
 
+/** A point of the lattice as a number, with 21 bits for each coordinate: see Grid::MaximumDepth. */
+inline constexpr std::uint64_t PackedPoint(const Point& point)
+{
+  return static_cast<std::uint64_t>(point[0]) | static_cast<std::uint64_t>(point[1]) << 21 |
+    static_cast<std::uint64_t>(point[2]) << 42;
+}
+
 /** Parity pattern of a point: bit i is set where coordinate i is odd. */
 inline constexpr int Parity(const Point& position)
 {

@@ -23,8 +23,7 @@ public:
     {
       this->Grow();
     }
-    const std::uint64_t key = std::uint64_t(position[0]) | std::uint64_t(position[1]) << 21 |
-      std::uint64_t(position[2]) << 42;
+    const std::uint64_t key = PackedPoint(position);
     Slot& slot = this->Find(key);
     if (slot.Key == key)
     {
@@ -184,6 +183,18 @@ private:
   const PatchPointTable<AgePointPlaces>& Places;
 };
 
+}
+
+std::vector<Vector> VerticesInWorld(const CutMesh& mesh, const GridGeometry& world)
+{
+  std::vector<Vector> positions;
+  positions.reserve(mesh.Vertices.size());
+  for (const CutMesh::Vertex& vertex : mesh.Vertices)
+  {
+    const Point& at = vertex.Position;
+    positions.push_back(world({ 1.0 * at[0], 1.0 * at[1], 1.0 * at[2] }));
+  }
+  return positions;
 }
 
 std::optional<Place> DiamondOf(const CutMesh& mesh, std::size_t leaf, const Grid& grid)

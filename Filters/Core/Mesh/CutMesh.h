@@ -2,6 +2,7 @@
 #ifndef isodiamond_CutMesh_h
 #define isodiamond_CutMesh_h
 
+#include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
 #include "Mesh/ExtractionPasses.h"
 
@@ -50,6 +51,9 @@ inline constexpr int CutEdge(int younger, int older)
 {
   return younger + older - (younger == 0 ? 1 : 0);
 }
+
+/** Where the vertices are in the world. */
+std::vector<Vector> VerticesInWorld(const CutMesh& mesh, const GridGeometry& world);
 
 /** The diamond that a leaf lies in, around its longest edge; none at full resolution. */
 std::optional<Place> DiamondOf(const CutMesh& mesh, std::size_t leaf, const Grid& grid);

@@ -233,8 +233,12 @@ std::vector<std::vector<PatchTetrahedron>> FindPatches(const PatchStates& states
     {
       const bool isAnother = ((diagonals & 1) == 0 || HasDiagonals(states, 0)) &&
         ((diagonals & 2) == 0 || HasDiagonals(states, 1));
+      if (!isAnother)
+      {
+        continue;
+      }
       PatchSearch search(states, BoundaryOf(states, diagonals));
-      if (isAnother && search.Run(size))
+      if (search.Run(size))
       {
         found.push_back(search.Result());
       }
@@ -289,14 +293,11 @@ int SafeOrientation(const PatchStates& states, const PatchTetrahedron& points)
 
 std::vector<PatchPoint> FacePolygon(const PatchStates& states, int opposite)
 {
-  // Anticlockwise from outside of a positive tetrahedron.
-  constexpr std::array<std::array<int, 3>, 4> faces = { { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 },
-    { 0, 2, 1 } } };
   std::vector<PatchPoint> polygon;
   for (int i = 0; i < 3; ++i)
   {
-    const int from = faces[opposite][i];
-    const int to = faces[opposite][(i + 1) % 3];
+    const int from = FacesOfTetrahedron[opposite][i];
+    const int to = FacesOfTetrahedron[opposite][(i + 1) % 3];
     if (IsInRange(states[from]))
     {
       polygon.push_back(PatchPoint::Vertex(from));

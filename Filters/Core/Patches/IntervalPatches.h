@@ -28,6 +28,11 @@
 namespace isodiamond
 {
 
+/** The faces of a positive tetrahedron by the vertices opposite to them, each anticlockwise from
+ *  outside. */
+inline constexpr std::array<std::array<int, 3>, 4> FacesOfTetrahedron = { { { 1, 2, 3 },
+  { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } } };
+
 /** A point of a case: a vertex, or an isovertex by edge and surface. */
 class PatchPoint
 {

@@ -170,6 +170,49 @@ private:
   std::vector<TriangleDistance> Distances;
 };
 
+/**
+ * Visits the triangles of a mesh, each with a triangle of another one nearby: those with a place
+ * first, then those at points that the other mesh has, too, then their neighbours, from where each
+ * of them ended.
+ *
+ * @param links,otherLinks of the mesh, and of the other one, which cover is over
+ * @param places by triangle: of the other mesh; None where nothing is known
+ * @param waiting triangles with a place
+ * @param visit (triangle, place): may change the place to where it ended
+ */
+template <typename Visit>
+void ForEachFromPlace(const TriangleMesh& mesh, const Connectivity& links,
+  const Connectivity& otherLinks, const Covering& cover, std::vector<std::uint32_t>& places,
+  std::vector<std::uint32_t>& waiting, Visit&& visit)
+{
+  const auto count = static_cast<std::uint32_t>(mesh.Triangles.size());
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    for (const std::uint32_t point : mesh.Triangles[i])
+    {
+      if (places[i] == Connectivity::None && otherLinks.IsUsed(point))
+      {
+        places[i] = cover.NearestAt(point, mesh.Middle(i));
+        waiting.push_back(i);
+      }
+    }
+  }
+  for (std::size_t at = 0; at < waiting.size(); ++at)
+  {
+    const std::uint32_t i = waiting[at];
+    visit(i, places[i]);
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const std::uint32_t neighbour = links.Neighbour(i, edge);
+      if (neighbour != Connectivity::None && places[neighbour] == Connectivity::None)
+      {
+        places[neighbour] = places[i];
+        waiting.push_back(neighbour);
+      }
+    }
+  }
+}
+
 }
 
 #endif

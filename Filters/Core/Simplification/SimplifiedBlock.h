@@ -284,40 +284,19 @@ private:
   {
     const Covering cover(next.Mesh, links);
     const TriangleMesh& original = this->Original.Mesh;
-    const auto count = static_cast<std::uint32_t>(original.Triangles.size());
-    places.assign(count, None);
+    places.assign(original.Triangles.size(), None);
     std::vector<std::uint32_t> waiting;
     this->ReuseLone(next, places, waiting);
-    for (std::uint32_t i = 0; i < count; ++i)
-    {
-      for (const std::uint32_t point : original.Triangles[i])
-      {
-        if (places[i] == None && links.IsUsed(point))
-        {
-          places[i] = cover.NearestAt(point, original.Middle(i));
-          waiting.push_back(i);
-        }
-      }
-    }
     bool areNear = true;
-    for (std::size_t at = 0; at < waiting.size(); ++at)
-    {
-      const std::uint32_t i = waiting[at];
-      if (!this->IsReused[i] && !this->IsNearForth(next, cover, i, places[i]))
+    ForEachFromPlace(original, this->Links, links, cover, places, waiting,
+      [&](std::uint32_t i, std::uint32_t& place)
       {
-        areNear = false;
-        this->Wrong[this->Places[i]] = true;
-      }
-      for (int edge = 0; edge < 3; ++edge)
-      {
-        const std::uint32_t neighbour = this->Links.Neighbour(i, edge);
-        if (neighbour != None && places[neighbour] == None)
+        if (!this->IsReused[i] && !this->IsNearForth(next, cover, i, place))
         {
-          places[neighbour] = places[i];
-          waiting.push_back(neighbour);
+          areNear = false;
+          this->Wrong[this->Places[i]] = true;
         }
-      }
-    }
+      });
     return areNear; // each piece of the original has a point that stayed: their topology is one
   }
 

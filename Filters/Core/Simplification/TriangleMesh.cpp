@@ -5,31 +5,11 @@ namespace isodiamond
 {
 
 Connectivity::Connectivity(const TriangleMesh& mesh)
-  : First(mesh.Positions.size() + 1)
-  , Items(3 * mesh.Triangles.size())
+  : Cells(mesh.Positions.size(), mesh.Triangles.size(),
+      [&](std::size_t triangle) { return mesh.Triangles[triangle]; })
   , Neighbours(mesh.Triangles.size(), Triangle{ None, None, None })
 {
-  // Count, sum up, fill in.
-  for (const Triangle& triangle : mesh.Triangles)
-  {
-    for (const std::uint32_t point : triangle)
-    {
-      ++this->First[point + 1];
-    }
-  }
-  for (std::size_t i = 1; i < this->First.size(); ++i)
-  {
-    this->First[i] += this->First[i - 1];
-  }
-  std::vector<std::uint32_t> next(this->First.begin(), this->First.end() - 1);
   const auto count = static_cast<std::uint32_t>(mesh.Triangles.size());
-  for (std::uint32_t i = 0; i < count; ++i)
-  {
-    for (const std::uint32_t point : mesh.Triangles[i])
-    {
-      this->Items[next[point]++] = i;
-    }
-  }
   for (std::uint32_t i = 0; i < count; ++i)
   {
     const Triangle& triangle = mesh.Triangles[i];

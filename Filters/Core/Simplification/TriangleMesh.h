@@ -3,6 +3,7 @@
 #define isodiamond_TriangleMesh_h
 
 #include "Field/Vector.h"
+#include "Simplification/CellsAtPoints.h"
 
 #include <array>
 #include <cstdint>
@@ -52,15 +53,9 @@ public:
   const std::vector<std::uint32_t>& FaultyPoints() const { return this->Faulty; }
 
   /** The triangles at a point. */
-  const std::uint32_t* begin(std::uint32_t point) const
-  {
-    return this->Items.data() + this->First[point];
-  }
-  const std::uint32_t* end(std::uint32_t point) const
-  {
-    return this->Items.data() + this->First[point + 1];
-  }
-  bool IsUsed(std::uint32_t point) const { return this->First[point] < this->First[point + 1]; }
+  const std::uint32_t* begin(std::uint32_t point) const { return this->Cells[point].begin(); }
+  const std::uint32_t* end(std::uint32_t point) const { return this->Cells[point].end(); }
+  bool IsUsed(std::uint32_t point) const { return this->begin(point) != this->end(point); }
 
   /** The triangle across an edge, None at the border. */
   std::uint32_t Neighbour(std::uint32_t triangle, int edge) const
@@ -69,8 +64,7 @@ public:
   }
 
 private:
-  std::vector<std::uint32_t> First; ///< by point, into the items
-  std::vector<std::uint32_t> Items;
+  CellsAtPoints Cells;
   std::vector<Triangle> Neighbours;
   std::vector<std::uint32_t> Faulty;
 };

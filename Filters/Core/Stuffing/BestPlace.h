@@ -2,6 +2,7 @@
 #ifndef isodiamond_BestPlace_h
 #define isodiamond_BestPlace_h
 
+#include "Patches/IntervalPatches.h"
 #include "Stuffing/TetrahedronMesh.h"
 
 #include <algorithm>
@@ -19,10 +20,8 @@ public:
   void Add(const TetrahedronMesh& mesh, const Corners& corners, std::uint32_t point)
   {
     const auto own = std::find(corners.begin(), corners.end(), point) - corners.begin();
-    // Even permutations bring it to the front.
-    static constexpr std::array<std::array<int, 3>, 4> others = { { { 1, 2, 3 }, { 0, 3, 2 },
-      { 0, 1, 3 }, { 0, 2, 1 } } };
-    const std::array<int, 3>& face = others[own];
+    // The point, and the face opposite to it from outside: an even permutation.
+    const std::array<int, 3>& face = FacesOfTetrahedron[own];
     this->Faces.push_back({ mesh.Positions[corners[face[0]]], mesh.Positions[corners[face[1]]],
       mesh.Positions[corners[face[2]]] });
   }

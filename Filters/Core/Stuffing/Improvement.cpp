@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stuffing/Improvement.h"
 
-#include "Patches/PatchDistance.h"
 #include "Stuffing/BestPlace.h"
 #include "Stuffing/LocalMesh.h"
+#include "Stuffing/RingFilling.h"
+#include "Stuffing/SurfaceChanges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +24,6 @@ constexpr int MostPasses = 10;
 constexpr double LeastGain = 1e-3;
 /** A new point has to be worth it. */
 constexpr double LeastGainOfPoint = 0.01;
-/** Edges with more tetrahedra around them stay. */
-constexpr std::size_t MostAround = 7;
-/** The least cosine between the normals of a surface's triangles whose common edge is turned. */
-constexpr double LeastCosine = 0.5;
 
 /** Tries between two looks at whether to go on: some milliseconds. */
 constexpr std::size_t TriesOfStep = 16;
@@ -262,7 +259,7 @@ private:
     for (const std::uint32_t tetrahedron : this->Mesh.StarOf(from))
     {
       Corners corners = this->Mesh.CornersOf(tetrahedron);
-      if (!LocalMesh::Has(corners, to))
+      if (!Has(corners, to))
       {
         std::replace(corners.begin(), corners.end(), from, to);
         sine = std::min(sine, this->Mesh.SineOf(corners));
@@ -273,7 +270,7 @@ private:
       }
     }
     if (this->IsBetter(sine, this->Mesh.WorstAround(from)) && this->Mesh.CanCollapse(from, to) &&
-      this->StaysNear(from, to))
+      StaysNear(this->Mesh, from, to, this->Options.SurfaceMove))
     {
       this->Best = Change();
       this->Best.Kind = Change::Collapse;
@@ -283,71 +280,13 @@ private:
     }
   }
 
-  /** Whether a surface stays near to where it was, and is not folded, when a point on it goes. */
-  bool StaysNear(std::uint32_t from, std::uint32_t to) const
-  {
-    if (this->Mesh.Mesh().Surfaces[from] == 0)
-    {
-      return true;
-    }
-    using Sides = std::array<Vector, 3>;
-    std::vector<Sides> before;
-    std::vector<Sides> after;
-    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(from))
-    {
-      const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-      for (const std::uint32_t apex : corners)
-      {
-        std::vector<std::uint32_t> face;
-        std::copy_if(corners.begin(), corners.end(), std::back_inserter(face),
-          [&](std::uint32_t corner) { return corner != apex; });
-        if (apex == from || this->Mesh.PlaceOfFace(face[0], face[1], face[2]) < Walls::Fixed ||
-          this->Mesh.CountAt(face[0], face[1], face[2]) != 1)
-        {
-          continue;
-        }
-        const bool stays = std::find(face.begin(), face.end(), to) == face.end();
-        before.push_back(
-          { this->Mesh.At(face[0]), this->Mesh.At(face[1]), this->Mesh.At(face[2]) });
-        std::replace(face.begin(), face.end(), from, to);
-        if (stays)
-        {
-          after.push_back(
-            { this->Mesh.At(face[0]), this->Mesh.At(face[1]), this->Mesh.At(face[2]) });
-          if (Dot(NormalOf(before.back()), NormalOf(after.back())) <= 0.0)
-          {
-            return false;
-          }
-        }
-      }
-    }
-    const auto isNear = [&](const Vector& point, const std::vector<Sides>& triangles)
-    {
-      return std::any_of(triangles.begin(), triangles.end(),
-        [&](const Sides& corners)
-        {
-          return TriangleDistance(corners[0], corners[1], corners[2]).Squared(point) <=
-            this->Options.SurfaceMove * this->Options.SurfaceMove;
-        });
-    };
-    return isNear(this->Mesh.At(from), after) &&
-      std::all_of(after.begin(), after.end(),
-        [&](const Sides& corners)
-        { return isNear((1.0 / 3.0) * (corners[0] + corners[1] + corners[2]), before); });
-  }
-
-  static Vector NormalOf(const std::array<Vector, 3>& corners)
-  {
-    return Cross(corners[1] - corners[0], corners[2] - corners[0]);
-  }
-
   //--- Edges and faces that go ------------------------------------------------
 
   void TryToRemoveEdge(std::uint32_t a, std::uint32_t b)
   {
     LocalMesh::Ring ring;
     if (!this->Mesh.FindRing(a, b, MostAround, ring) || ring.Points.size() < 3 ||
-      (!ring.IsClosed && !this->CanTurn(a, b, ring)))
+      (!ring.IsClosed && !CanTurn(this->Mesh, a, b, ring, this->Options.SurfaceMove)))
     {
       return;
     }
@@ -357,86 +296,11 @@ private:
       before = std::min(before, this->Mesh.SineOf(tetrahedron));
     }
     std::vector<Corners> fresh;
-    const double sine = this->FillRing(a, b, ring.Points, fresh);
+    const double sine = FillRing(this->Mesh, a, b, ring.Points, fresh);
     if (this->IsBetter(sine, before) && sine > before + LeastGain && this->AreNew(ring, fresh))
     {
       this->TakeReplacement(sine, ring.Tetrahedra, std::move(fresh));
     }
-  }
-
-  /** Whether an edge of the boundary can be replaced by the one across, near and on the same. */
-  bool CanTurn(std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring) const
-  {
-    const std::uint32_t c = ring.Points.front();
-    const std::uint32_t d = ring.Points.back();
-    const int place = this->Mesh.PlaceOfFace(a, b, c);
-    if (place == 0 || (place & Walls::Fixed) != 0 || place != this->Mesh.PlaceOfFace(a, b, d) ||
-      place != this->Mesh.PlaceOfFace(a, c, d) || place != this->Mesh.PlaceOfFace(b, c, d))
-    {
-      return false;
-    }
-    if (place < Walls::Fixed)
-    {
-      return true;
-    }
-    const Vector first = NormalOf({ this->Mesh.At(a), this->Mesh.At(b), this->Mesh.At(c) });
-    const Vector second = NormalOf({ this->Mesh.At(b), this->Mesh.At(a), this->Mesh.At(d) });
-    const Vector across =
-      Cross(this->Mesh.At(b) - this->Mesh.At(a), this->Mesh.At(d) - this->Mesh.At(c));
-    const double height =
-      std::abs(Dot(across, this->Mesh.At(c) - this->Mesh.At(a))) / std::sqrt(Dot(across, across));
-    return height <= this->Options.SurfaceMove &&
-      Dot(first, second) > LeastCosine * std::sqrt(Dot(first, first) * Dot(second, second));
-  }
-
-  /** The best way to fill what is around an edge without it: triangles between the points around,
-   *  each with both ends (Klincsek's dynamic programme). @return the smallest sine */
-  double FillRing(std::uint32_t a, std::uint32_t b, const std::vector<std::uint32_t>& ring,
-    std::vector<Corners>& fresh) const
-  {
-    constexpr std::size_t most = MostAround + 1;
-    const int count = static_cast<int>(ring.size());
-    std::array<std::array<double, most>, most> sines{};
-    std::array<std::array<int, most>, most> middles{};
-    for (int i = 0; i + 1 < count; ++i)
-    {
-      sines[i][i + 1] = 1.0;
-    }
-    for (int length = 2; length < count; ++length)
-    {
-      for (int i = 0; i + length < count; ++i)
-      {
-        const int k = i + length;
-        sines[i][k] = -HUGE_VAL;
-        for (int j = i + 1; j < k; ++j)
-        {
-          const double sine = std::min(
-            { sines[i][j], sines[j][k], this->Mesh.SineOf(Corners{ ring[i], ring[j], ring[k], b }),
-              this->Mesh.SineOf(Corners{ ring[i], ring[k], ring[j], a }) });
-          if (sine > sines[i][k])
-          {
-            sines[i][k] = sine;
-            middles[i][k] = j;
-          }
-        }
-      }
-    }
-    std::vector<std::pair<int, int>> open = { { 0, count - 1 } };
-    while (!open.empty())
-    {
-      const auto [i, k] = open.back();
-      open.pop_back();
-      if (k - i < 2)
-      {
-        continue;
-      }
-      const int j = middles[i][k];
-      fresh.push_back({ ring[i], ring[j], ring[k], b });
-      fresh.push_back({ ring[i], ring[k], ring[j], a });
-      open.emplace_back(i, j);
-      open.emplace_back(j, k);
-    }
-    return sines[0][count - 1];
   }
 
   /** Whether edges, and a lone triangle, between points around an edge are not in the mesh yet, and
@@ -456,7 +320,7 @@ private:
         const bool isSide = ring.IsClosed && i == 0 && j + 1 == points.size();
         const bool isUsed = std::any_of(fresh.begin(), fresh.end(),
           [&](const Corners& corners)
-          { return LocalMesh::Has(corners, points[i]) && LocalMesh::Has(corners, points[j]); });
+          { return Has(corners, points[i]) && Has(corners, points[j]); });
         if (!isSide && isUsed && this->Mesh.HasEdge(points[i], points[j]))
         {
           return false;
@@ -470,16 +334,13 @@ private:
   void TryToRemoveFace(std::uint32_t tetrahedron, std::uint32_t apex)
   {
     const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-    std::array<std::uint32_t, 3> face{};
-    std::copy_if(corners.begin(), corners.end(), face.begin(),
-      [&](std::uint32_t corner) { return corner != apex; });
+    Face face = Without(corners, apex);
     const LocalMesh::Star star = this->Mesh.StarOf(face[0]);
     const auto other = std::find_if(star.begin(), star.end(),
       [&](std::uint32_t candidate)
       {
         const Corners& points = this->Mesh.CornersOf(candidate);
-        return candidate != tetrahedron && LocalMesh::Has(points, face[1]) &&
-          LocalMesh::Has(points, face[2]);
+        return candidate != tetrahedron && Has(points, face[1]) && Has(points, face[2]);
       });
     if (other == star.end())
     {

@@ -10,9 +10,6 @@ namespace isodiamond
 namespace
 {
 
-using Edge = std::array<std::uint32_t, 2>;
-using Face = std::array<std::uint32_t, 3>;
-
 /** Sorts, and leaves each once. */
 template <typename Item>
 void MakeSet(std::vector<Item>& items)
@@ -29,17 +26,10 @@ std::vector<Item> Common(const std::vector<Item>& a, const std::vector<Item>& b)
   return common;
 }
 
-Edge MakeEdge(std::uint32_t a, std::uint32_t b)
-{
-  return { std::min(a, b), std::max(a, b) };
-}
-
 /** The face opposite to a corner, sorted. */
 Face Opposite(const Corners& corners, std::uint32_t point)
 {
-  Face face{};
-  std::copy_if(corners.begin(), corners.end(), face.begin(),
-    [&](std::uint32_t corner) { return corner != point; });
+  Face face = Without(corners, point);
   std::sort(face.begin(), face.end());
   return face;
 }
@@ -60,7 +50,7 @@ struct Link
       for (int i = 0; i < 3; ++i)
       {
         this->Points.push_back(face[i]);
-        this->Edges.push_back(MakeEdge(face[i], face[(i + 1) % 3]));
+        this->Edges.push_back(SortedEdge(face[i], face[(i + 1) % 3]));
       }
     }
     MakeSet(this->Points);
@@ -80,7 +70,7 @@ std::vector<Edge> BoundaryLink(const LocalMesh& mesh, std::uint32_t point)
     {
       if (mesh.CountAt(point, face[i], face[(i + 1) % 3]) == 1)
       {
-        edges.push_back(MakeEdge(face[i], face[(i + 1) % 3]));
+        edges.push_back(SortedEdge(face[i], face[(i + 1) % 3]));
       }
     }
   }
@@ -139,8 +129,8 @@ bool CanCollapseOnBoundary(const LocalMesh& mesh, std::uint32_t from, std::uint3
 
 LocalMesh::LocalMesh(TetrahedronMesh mesh)
   : TheMesh(std::move(mesh))
-  , First(TheMesh.Positions.size() + 1)
-  , Stars(4 * TheMesh.Tetrahedra.size())
+  , Stars(TheMesh.Positions.size(), TheMesh.Tetrahedra.size(),
+      [&](std::size_t tetrahedron) { return this->TheMesh.Tetrahedra[tetrahedron]; })
   , Changed(TheMesh.Positions.size(), None)
   , BlendOf(TheMesh.Positions.size(), None)
 {
@@ -148,22 +138,6 @@ LocalMesh::LocalMesh(TetrahedronMesh mesh)
   for (const Corners& corners : this->TheMesh.Tetrahedra)
   {
     this->Sines.push_back(this->SineOf(corners));
-    for (const std::uint32_t point : corners)
-    {
-      ++this->First[point + 1];
-    }
-  }
-  for (std::size_t i = 1; i < this->First.size(); ++i)
-  {
-    this->First[i] += this->First[i - 1];
-  }
-  std::vector<std::uint32_t> next(this->First.begin(), this->First.end() - 1);
-  for (std::uint32_t i = 0; i < this->TheMesh.Tetrahedra.size(); ++i)
-  {
-    for (const std::uint32_t point : this->TheMesh.Tetrahedra[i])
-    {
-      this->Stars[next[point]++] = i;
-    }
   }
 }
 
@@ -174,7 +148,7 @@ LocalMesh::Star LocalMesh::StarOf(std::uint32_t point) const
     const std::vector<std::uint32_t>& star = this->ChangedStars[this->Changed[point]];
     return { star.data(), star.data() + star.size() };
   }
-  return { this->Stars.data() + this->First[point], this->Stars.data() + this->First[point + 1] };
+  return this->Stars[point];
 }
 
 std::vector<std::uint32_t>& LocalMesh::OwnStarOf(std::uint32_t point)
@@ -215,31 +189,24 @@ int LocalMesh::CountAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
 
 int LocalMesh::PlaceOfFace(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
 {
-  const std::vector<Walls::Type>& walls = this->TheMesh.OnWalls;
-  const std::vector<std::int8_t>& surfaces = this->TheMesh.Surfaces;
-  const int common = walls[a] & walls[b] & walls[c];
-  if (common == 0 && surfaces[a] != 0 && surfaces[a] == surfaces[b] && surfaces[b] == surfaces[c])
+  const Face face = { a, b, c };
+  const Walls::Type walls = WallsOfFace(this->TheMesh, face);
+  const int surface = SurfaceOfFace(this->TheMesh, face);
+  if (walls == 0 && surface != 0)
   {
-    return surfaces[a] < 0 ? LowerSurface : UpperSurface;
+    return surface < 0 ? LowerSurface : UpperSurface;
   }
-  return common;
+  return walls;
 }
 
 bool LocalMesh::IsAmbiguous(const Corners& corners) const
 {
-  for (const std::uint32_t apex : corners)
-  {
-    const Face face = Opposite(corners, apex);
-    const std::int8_t surface = this->TheMesh.Surfaces[face[0]];
-    if (surface != 0 && surface == this->TheMesh.Surfaces[face[1]] &&
-      surface == this->TheMesh.Surfaces[face[2]] &&
-      (this->TheMesh.OnWalls[face[0]] & this->TheMesh.OnWalls[face[1]] &
-        this->TheMesh.OnWalls[face[2]]) != 0)
+  return std::any_of(corners.begin(), corners.end(),
+    [&](std::uint32_t apex)
     {
-      return true;
-    }
-  }
-  return false;
+      const Face face = Without(corners, apex);
+      return SurfaceOfFace(this->TheMesh, face) != 0 && WallsOfFace(this->TheMesh, face) != 0;
+    });
 }
 
 bool LocalMesh::CanCollapse(std::uint32_t from, std::uint32_t to) const
@@ -258,11 +225,8 @@ bool LocalMesh::CanCollapse(std::uint32_t from, std::uint32_t to) const
     const Corners& corners = this->CornersOf(tetrahedron);
     if (Has(corners, to))
     {
-      const Face face = Opposite(corners, from);
-      Edge edge{};
-      std::copy_if(
-        face.begin(), face.end(), edge.begin(), [&](std::uint32_t corner) { return corner != to; });
-      edges.push_back(edge);
+      const Edge edge = Without(corners, from, to);
+      edges.push_back(SortedEdge(edge[0], edge[1]));
       continue;
     }
     Corners fresh = corners;
@@ -290,9 +254,7 @@ bool LocalMesh::FindRing(std::uint32_t a, std::uint32_t b, std::size_t most, Rin
     const Corners& corners = this->CornersOf(tetrahedron);
     if (Has(corners, b))
     {
-      Edge step{};
-      std::copy_if(corners.begin(), corners.end(), step.begin(),
-        [&](std::uint32_t corner) { return corner != a && corner != b; });
+      Edge step = Without(corners, a, b);
       if (SixVolumes(this->At(a), this->At(b), this->At(step[0]), this->At(step[1])) < 0.0)
       {
         std::swap(step[0], step[1]);

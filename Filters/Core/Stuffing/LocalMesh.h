@@ -2,6 +2,7 @@
 #ifndef isodiamond_LocalMesh_h
 #define isodiamond_LocalMesh_h
 
+#include "Simplification/CellsAtPoints.h"
 #include "Stuffing/TetrahedronMesh.h"
 
 #include <algorithm>
@@ -35,20 +36,10 @@ public:
   double SineOf(const Corners& corners) const { return SmallestSine(this->TheMesh, corners); }
 
   /** The tetrahedra at a point. */
-  struct Star
-  {
-    const std::uint32_t* First;
-    const std::uint32_t* Last;
-    const std::uint32_t* begin() const { return this->First; }
-    const std::uint32_t* end() const { return this->Last; }
-  };
+  using Star = CellsAtPoints::Cells;
   Star StarOf(std::uint32_t point) const;
   double WorstAround(std::uint32_t point) const;
 
-  static bool Has(const Corners& corners, std::uint32_t point)
-  {
-    return std::find(corners.begin(), corners.end(), point) != corners.end();
-  }
   bool HasEdge(std::uint32_t a, std::uint32_t b) const;
   /** How many tetrahedra have a triangle. */
   int CountAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
@@ -99,9 +90,9 @@ private:
   void NoteShares(std::uint32_t point, const std::vector<Share>& shares);
 
   TetrahedronMesh TheMesh;
-  std::vector<double> Sines;               ///< by tetrahedron
-  std::vector<std::uint32_t> First, Stars; ///< as it was at first
-  std::vector<std::uint32_t> Changed;      ///< by point: into ChangedStars, or None
+  std::vector<double> Sines;          ///< by tetrahedron
+  CellsAtPoints Stars;                ///< as they were at first
+  std::vector<std::uint32_t> Changed; ///< by point: into ChangedStars, or None
   std::vector<std::vector<std::uint32_t>> ChangedStars;
   std::vector<std::uint32_t> BlendOf; ///< by point: into Blended, or None
 };

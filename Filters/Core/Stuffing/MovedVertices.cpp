@@ -29,15 +29,14 @@ Walls::Type CommonWalls(Walls::Type a, Walls::Type b)
 
 MovedVertices::MovedVertices(const Background& background)
   : Mesh(background)
-  , TheStates(background.VertexCount())
+  , States(background.VertexCount())
   , Goals(background.VertexCount(), CutMesh::None)
-  , Links(background, TheStates)
+  , Links(background, States)
 {
   this->Positions.reserve(background.VertexCount());
   for (std::uint32_t vertex = 0; vertex < background.VertexCount(); ++vertex)
   {
-    this->TheStates[vertex] =
-      static_cast<std::uint8_t>(2 * background.Leaves().Vertices[vertex].Sign);
+    this->States[vertex] = static_cast<std::uint8_t>(2 * background.Leaves().Vertices[vertex].Sign);
     this->Positions.push_back(background.PositionOf(vertex));
   }
 }
@@ -70,8 +69,8 @@ void MovedVertices::MoveAll(const ParallelFor& parallelFor)
 bool MovedVertices::IsCut(std::uint32_t tetrahedron, int younger, int older, int surface) const
 {
   const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-  const int a = this->TheStates[corners[younger]];
-  const int b = this->TheStates[corners[older]];
+  const int a = this->States[corners[younger]];
+  const int b = this->States[corners[older]];
   const int on = StateOn(surface);
   return (a < on && b > on) || (a > on && b < on);
 }
@@ -82,47 +81,45 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
   Goal nearest;
   nearest.Vertex = vertex;
   nearest.Distance = HUGE_VAL;
-  const int state = this->TheStates[vertex];
+  const int state = this->States[vertex];
   const Walls::Type walls = this->Mesh.WallsOf(vertex);
   if (state % 2 != 0 || (walls & Walls::Fixed) != 0)
   {
     return nearest;
   }
   const Vector& at = this->Mesh.PositionOf(vertex);
-  this->Mesh.ForEachAt(vertex,
-    [&](std::uint32_t tetrahedron)
+  for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
+  {
+    const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+    const int own =
+      static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+    for (int other = 0; other < 4; ++other)
     {
-      const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-      const int own =
-        static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
-      for (int other = 0; other < 4; ++other)
+      const int younger = std::min(own, other);
+      const int older = std::max(own, other);
+      const Vector edge = this->Mesh.PositionOf(corners[other]) - at;
+      for (int surface = 0; surface < 2 && other != own; ++surface)
       {
-        const int younger = std::min(own, other);
-        const int older = std::max(own, other);
-        const Vector edge = this->Mesh.PositionOf(corners[other]) - at;
-        for (int surface = 0; surface < 2 && other != own; ++surface)
+        const bool isBehind =
+          (state == BelowLower && surface == 1) || (state == AboveUpper && surface == 0);
+        if (isBehind || !this->IsCut(tetrahedron, younger, older, surface))
         {
-          const bool isBehind =
-            (state == BelowLower && surface == 1) || (state == AboveUpper && surface == 0);
-          if (isBehind || !this->IsCut(tetrahedron, younger, older, surface))
-          {
-            continue;
-          }
-          const std::uint32_t point =
-            this->Mesh.Leaves().Tetrahedra[tetrahedron].Cuts[CutEdge(younger, older)][surface];
-          const Vector way = this->Mesh.PointAt(point) - at;
-          const double distance = std::sqrt(Dot(way, way) / Dot(edge, edge));
-          if (distance < nearest.Distance ||
-            (distance == nearest.Distance && point < nearest.Point))
-          {
-            nearest.Distance = distance;
-            nearest.Point = point;
-            nearest.Surface = surface;
-            nearest.OnWalls = CommonWalls(walls, this->Mesh.WallsOf(corners[other]));
-          }
+          continue;
+        }
+        const std::uint32_t point =
+          this->Mesh.Leaves().Tetrahedra[tetrahedron].Cuts[CutEdge(younger, older)][surface];
+        const Vector way = this->Mesh.PointAt(point) - at;
+        const double distance = std::sqrt(Dot(way, way) / Dot(edge, edge));
+        if (distance < nearest.Distance || (distance == nearest.Distance && point < nearest.Point))
+        {
+          nearest.Distance = distance;
+          nearest.Point = point;
+          nearest.Surface = surface;
+          nearest.OnWalls = CommonWalls(walls, this->Mesh.WallsOf(corners[other]));
         }
       }
-    });
+    }
+  }
   return nearest;
 }
 
@@ -130,7 +127,8 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
  *  cuts on a line that is not straight any more positive. */
 bool MovedVertices::AreAllRound(std::uint32_t vertex) const
 {
-  return this->Mesh.AllAt(vertex,
+  const CellsAtPoints::Cells star = this->Mesh.StarOf(vertex);
+  return std::all_of(star.begin(), star.end(),
     [&](std::uint32_t tetrahedron)
     {
       const Corners& corners = this->Mesh.CornersOf(tetrahedron);
@@ -150,7 +148,7 @@ bool MovedVertices::ArePiecesPositive(std::uint32_t tetrahedron) const
     for (int older = younger + 1; older < 4; ++older)
     {
       const bool isMoved =
-        this->TheStates[corners[younger]] % 2 != 0 || this->TheStates[corners[older]] % 2 != 0;
+        this->States[corners[younger]] % 2 != 0 || this->States[corners[older]] % 2 != 0;
       isBent = isBent ||
         (isMoved &&
           (this->IsCut(tetrahedron, younger, older, 0) ||
@@ -178,9 +176,9 @@ bool MovedVertices::TryToMove(const Goal& goal)
   {
     return false; // it would leave a wall
   }
-  const std::uint8_t state = this->TheStates[vertex];
+  const std::uint8_t state = this->States[vertex];
   const Vector position = this->Positions[vertex];
-  this->TheStates[vertex] = static_cast<std::uint8_t>(StateOn(goal.Surface));
+  this->States[vertex] = static_cast<std::uint8_t>(StateOn(goal.Surface));
   this->Goals[vertex] = goal.Point;
   this->Positions[vertex] = this->Mesh.PointAt(goal.Point);
   if (this->AreAllRound(vertex) &&
@@ -188,7 +186,7 @@ bool MovedVertices::TryToMove(const Goal& goal)
   {
     return true;
   }
-  this->TheStates[vertex] = state;
+  this->States[vertex] = state;
   this->Goals[vertex] = CutMesh::None;
   this->Positions[vertex] = position;
   return false;
@@ -198,8 +196,8 @@ const std::vector<std::vector<PatchTetrahedron>>& MovedVertices::PatchesOf(
   std::uint32_t tetrahedron) const
 {
   const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-  return MovedPatches()[MovedCase({ this->TheStates[corners[0]], this->TheStates[corners[1]],
-    this->TheStates[corners[2]], this->TheStates[corners[3]] })];
+  return MovedPatches()[MovedCase({ this->States[corners[0]], this->States[corners[1]],
+    this->States[corners[2]], this->States[corners[3]] })];
 }
 
 /** The point of the mesh at a vertex in range. */

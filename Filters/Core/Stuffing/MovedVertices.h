@@ -28,9 +28,6 @@ public:
   /** Moves all that can be. */
   void MoveAll(const ParallelFor& parallelFor);
 
-  /** By vertex, see VertexState. */
-  const std::vector<std::uint8_t>& States() const { return this->TheStates; }
-
   /** What is in range, as tetrahedra of points. */
   TetrahedronMesh Cut() const;
 
@@ -56,7 +53,7 @@ private:
   bool IsCut(std::uint32_t tetrahedron, int younger, int older, int surface) const;
 
   const Background& Mesh;
-  std::vector<std::uint8_t> TheStates;
+  std::vector<std::uint8_t> States; ///< by vertex, see VertexState
   std::vector<std::uint32_t> Goals; ///< by vertex: the point that it was moved to, or None
   std::vector<Vector> Positions;
   SurfaceLinks Links;

@@ -51,18 +51,14 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
 
 StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
 {
-  std::vector<Vector> positions;
   std::vector<Walls::Type> walls;
-  positions.reserve(input.Leaves.Vertices.size());
   walls.reserve(input.Leaves.Vertices.size());
   for (const CutMesh::Vertex& vertex : input.Leaves.Vertices)
   {
-    const Point& at = vertex.Position;
-    positions.push_back(input.World({ 1.0 * at[0], 1.0 * at[1], 1.0 * at[2] }));
     walls.push_back(WallsOf(vertex, input.SampleGrid));
   }
   const Background background(
-    input.Leaves, std::move(positions), std::move(walls), input.Points, input.World.Mirrors());
+    input.Leaves, input.Vertices, std::move(walls), input.Points, input.World.Mirrors());
   ImprovementOptions options;
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;

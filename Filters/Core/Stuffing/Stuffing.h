@@ -15,7 +15,8 @@ namespace isodiamond
 struct StuffingInput
 {
   const CutMesh& Leaves;
-  const std::vector<Vector>& Points; ///< of the interval volume's mesh, in the world
+  const std::vector<Vector>& Vertices; ///< positions of the leaves' vertices in the world
+  const std::vector<Vector>& Points;   ///< of the interval volume's mesh, in the world
   const GridGeometry& World;
   const Grid& SampleGrid;
   double SurfaceMove = 0.0; ///< see ImprovementOptions

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stuffing/SurfaceDistance.h"
 
+#include "Patches/IntervalPatches.h"
 #include "Simplification/Covering.h"
 
 #include <algorithm>
@@ -30,32 +31,19 @@ struct SurfaceMesh
   std::vector<Triangle> Known; ///< sorted points, sorted
 };
 
-SurfaceMesh SurfaceOf(const TetrahedronMesh& mesh, std::int8_t surface)
+SurfaceMesh SurfaceOf(const TetrahedronMesh& mesh, int surface)
 {
-  constexpr std::array<std::array<int, 3>, 4> faces = { { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 },
-    { 0, 2, 1 } } };
   std::vector<OwnedTriangle> all;
   for (std::uint32_t i = 0; i < mesh.Tetrahedra.size(); ++i)
   {
     const Corners& corners = mesh.Tetrahedra[i];
-    for (const std::array<int, 3>& face : faces)
+    for (const std::array<int, 3>& face : FacesOfTetrahedron)
     {
-      OwnedTriangle triangle;
-      int walls = ~0;
-      bool isOn = true;
-      for (int k = 0; k < 3; ++k)
+      const Triangle points = { corners[face[0]], corners[face[1]], corners[face[2]] };
+      if (SurfaceOfFace(mesh, points) == surface && WallsOfFace(mesh, points) == 0)
       {
-        const std::uint32_t point = corners[face[k]];
-        triangle.Points[k] = point;
-        isOn = isOn && mesh.Surfaces[point] == surface;
-        walls &= mesh.OnWalls[point];
-      }
-      if (isOn && walls == 0)
-      {
-        triangle.Sorted = triangle.Points;
-        std::sort(triangle.Sorted.begin(), triangle.Sorted.end());
-        triangle.Owner = i;
-        all.push_back(triangle);
+        all.push_back({ points, points, i });
+        std::sort(all.back().Sorted.begin(), all.back().Sorted.end());
       }
     }
   }
@@ -267,54 +255,25 @@ private:
     }
   }
 
-  /** From the volume's triangles to the new ones: those at points that stayed first, then their
-   *  neighbours, each beginning where the one before ended. */
+  /** From the volume's triangles to the new ones. */
   void MeasureForth()
   {
     const Covering cover(this->Stuffed.Mesh, this->StuffedLinks);
-    const auto count = static_cast<std::uint32_t>(this->Plain.Mesh.Triangles.size());
-    std::vector<std::uint32_t> places(count, Connectivity::None);
+    std::vector<std::uint32_t> places(this->Plain.Mesh.Triangles.size(), Connectivity::None);
     std::vector<std::uint32_t> waiting;
-    for (std::uint32_t i = 0; i < count; ++i)
-    {
-      for (const std::uint32_t point : this->Plain.Mesh.Triangles[i])
+    ForEachFromPlace(this->Plain.Mesh, this->PlainLinks, this->StuffedLinks, cover, places, waiting,
+      [&](std::uint32_t triangle, std::uint32_t place)
       {
-        if (places[i] == Connectivity::None && this->StuffedLinks.IsUsed(point))
+        const double allowed = this->AllowanceAt(triangle);
+        if (std::isfinite(allowed) &&
+          !HasTriangle(this->Stuffed, this->Plain.Mesh.Triangles[triangle]) &&
+          !IsNear(
+            this->Plain.Mesh.Corners(triangle), this->Stuffed, this->StuffedLinks, cover, place,
+            [&](std::uint32_t /*stuffed*/) { return allowed; }, place))
         {
-          places[i] = cover.NearestAt(point, this->Plain.Mesh.Middle(i));
-          waiting.push_back(i);
+          this->Mark(triangle);
         }
-      }
-    }
-    for (std::size_t at = 0; at < waiting.size(); ++at)
-    {
-      const std::uint32_t i = waiting[at];
-      if (!HasTriangle(this->Stuffed, this->Plain.Mesh.Triangles[i]))
-      {
-        this->MeasureForth(cover, i, places[i]);
-      }
-      for (int edge = 0; edge < 3; ++edge)
-      {
-        const std::uint32_t neighbour = this->PlainLinks.Neighbour(i, edge);
-        if (neighbour != Connectivity::None && places[neighbour] == Connectivity::None)
-        {
-          places[neighbour] = places[i];
-          waiting.push_back(neighbour);
-        }
-      }
-    }
-  }
-
-  void MeasureForth(const Covering& cover, std::uint32_t triangle, std::uint32_t place)
-  {
-    const double allowed = this->AllowanceAt(triangle);
-    if (std::isfinite(allowed) &&
-      !IsNear(
-        this->Plain.Mesh.Corners(triangle), this->Stuffed, this->StuffedLinks, cover, place,
-        [&](std::uint32_t /*stuffed*/) { return allowed; }, place))
-    {
-      this->Mark(triangle);
-    }
+      });
   }
 
   void Mark(std::uint32_t plain)
@@ -339,7 +298,7 @@ std::vector<std::uint32_t> FindFarLeaves(const TetrahedronMesh& plain,
   const TetrahedronMesh& stuffed, const std::vector<double>& allowances)
 {
   std::vector<std::uint32_t> far;
-  for (const std::int8_t surface : { std::int8_t{ -1 }, std::int8_t{ 1 } })
+  for (const int surface : { -1, 1 })
   {
     const SurfaceMesh before = SurfaceOf(plain, surface);
     const SurfaceMesh after = SurfaceOf(stuffed, surface);

@@ -10,27 +10,6 @@ namespace isodiamond
 namespace
 {
 
-using Edge = std::array<std::uint32_t, 2>;
-
-Edge SortedEdge(std::uint32_t a, std::uint32_t b)
-{
-  return { std::min(a, b), std::max(a, b) };
-}
-
-/** The corners of a tetrahedron but one. */
-std::array<std::uint32_t, 3> Without(const Corners& corners, std::uint32_t vertex)
-{
-  std::array<std::uint32_t, 3> others{};
-  std::copy_if(corners.begin(), corners.end(), others.begin(),
-    [&](std::uint32_t corner) { return corner != vertex; });
-  return others;
-}
-
-bool HasCorner(const Corners& corners, std::uint32_t vertex)
-{
-  return std::find(corners.begin(), corners.end(), vertex) != corners.end();
-}
-
 /** Walks from a triangle, given by the two of its edges where sides change, over one of these.
  *  @return how many triangles it passes, negative if it does not come back */
 int Walk(const std::vector<std::array<Edge, 2>>& triangles, int side)
@@ -72,23 +51,22 @@ bool SurfaceLinks::IsInside(std::uint32_t vertex, int surface) const
 bool SurfaceLinks::HasOneCycle(std::uint32_t vertex, int surface) const
 {
   std::vector<std::array<Edge, 2>> mixed;
-  this->Mesh.ForEachAt(vertex,
-    [&](std::uint32_t tetrahedron)
+  for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
+  {
+    const auto others = Without(this->Mesh.CornersOf(tetrahedron), vertex);
+    for (int i = 0; i < 3; ++i)
     {
-      const auto others = Without(this->Mesh.CornersOf(tetrahedron), vertex);
-      for (int i = 0; i < 3; ++i)
+      // The one whose side is not that of the two others.
+      const std::uint32_t lone = others[i];
+      const std::uint32_t a = others[(i + 1) % 3];
+      const std::uint32_t b = others[(i + 2) % 3];
+      const bool side = this->IsInside(lone, surface);
+      if (this->IsInside(a, surface) != side && this->IsInside(b, surface) != side)
       {
-        // The one whose side is not that of the two others.
-        const std::uint32_t lone = others[i];
-        const std::uint32_t a = others[(i + 1) % 3];
-        const std::uint32_t b = others[(i + 2) % 3];
-        const bool side = this->IsInside(lone, surface);
-        if (this->IsInside(a, surface) != side && this->IsInside(b, surface) != side)
-        {
-          mixed.push_back({ SortedEdge(lone, a), SortedEdge(lone, b) });
-        }
+        mixed.push_back({ SortedEdge(lone, a), SortedEdge(lone, b) });
       }
-    });
+    }
+  }
   if (mixed.empty())
   {
     return false;
@@ -111,55 +89,50 @@ bool SurfaceLinks::HasOneRun(std::uint32_t vertex, std::uint32_t other, int surf
   int changes = 0;
   std::vector<std::uint32_t> seen; // vertices on the surface with a neighbour inside
   bool isOneSided = true;
-  this->Mesh.ForEachAt(vertex,
-    [&](std::uint32_t tetrahedron)
+  for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
+  {
+    const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+    if (!Has(corners, other))
     {
-      const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-      if (!HasCorner(corners, other))
+      continue;
+    }
+    const Edge ends = Without(corners, vertex, other);
+    const std::array<bool, 2> inside = { this->IsInside(ends[0], surface),
+      this->IsInside(ends[1], surface) };
+    anyInside = anyInside || inside[0] || inside[1];
+    changes += inside[0] != inside[1] ? 1 : 0;
+    for (int i = 0; i < 2; ++i)
+    {
+      if (inside[i] && this->States[ends[1 - i]] == StateOn(surface))
       {
-        return;
+        const std::uint32_t third = ends[1 - i];
+        const bool isTwice = std::find(seen.begin(), seen.end(), third) != seen.end();
+        isOneSided = isOneSided && !isTwice && (walls & this->Mesh.WallsOf(third)) == 0;
+        seen.push_back(third);
       }
-      const auto three = Without(corners, vertex);
-      Edge ends{};
-      std::copy_if(three.begin(), three.end(), ends.begin(),
-        [&](std::uint32_t corner) { return corner != other; });
-      const std::array<bool, 2> inside = { this->IsInside(ends[0], surface),
-        this->IsInside(ends[1], surface) };
-      anyInside = anyInside || inside[0] || inside[1];
-      changes += inside[0] != inside[1] ? 1 : 0;
-      for (int i = 0; i < 2; ++i)
-      {
-        if (inside[i] && this->States[ends[1 - i]] == StateOn(surface))
-        {
-          const std::uint32_t third = ends[1 - i];
-          const bool isTwice = std::find(seen.begin(), seen.end(), third) != seen.end();
-          isOneSided = isOneSided && !isTwice && (walls & this->Mesh.WallsOf(third)) == 0;
-          seen.push_back(third);
-        }
-      }
-    });
+    }
+  }
   return !anyInside || (isOneSided && changes == (walls == 0 ? 2 : 1));
 }
 
 /** The same of all edges on a surface opposite to a vertex, in its tetrahedra. */
 bool SurfaceLinks::HaveOneRunEach(std::uint32_t vertex, int surface) const
 {
-  return this->Mesh.AllAt(vertex,
-    [&](std::uint32_t tetrahedron)
+  for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
+  {
+    const Face others = Without(this->Mesh.CornersOf(tetrahedron), vertex);
+    for (int i = 0; i < 3; ++i)
     {
-      const auto others = Without(this->Mesh.CornersOf(tetrahedron), vertex);
-      for (int i = 0; i < 3; ++i)
+      const std::uint32_t a = others[i];
+      const std::uint32_t b = others[(i + 1) % 3];
+      if (this->States[a] == StateOn(surface) && this->States[b] == StateOn(surface) &&
+        !this->HasOneRun(a, b, surface))
       {
-        const std::uint32_t a = others[i];
-        const std::uint32_t b = others[(i + 1) % 3];
-        if (this->States[a] == StateOn(surface) && this->States[b] == StateOn(surface) &&
-          !this->HasOneRun(a, b, surface))
-        {
-          return false;
-        }
+        return false;
       }
-      return true;
-    });
+    }
+  }
+  return true;
 }
 
 bool SurfaceLinks::CanBeOn(std::uint32_t vertex, int surface, bool wasInside) const
@@ -169,18 +142,17 @@ bool SurfaceLinks::CanBeOn(std::uint32_t vertex, int surface, bool wasInside) co
     return false;
   }
   std::vector<std::uint32_t> others; // on the surface
-  this->Mesh.ForEachAt(vertex,
-    [&](std::uint32_t tetrahedron)
+  for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
+  {
+    for (const std::uint32_t corner : this->Mesh.CornersOf(tetrahedron))
     {
-      for (const std::uint32_t corner : this->Mesh.CornersOf(tetrahedron))
+      if (corner != vertex && this->States[corner] == StateOn(surface) &&
+        std::find(others.begin(), others.end(), corner) == others.end())
       {
-        if (corner != vertex && this->States[corner] == StateOn(surface) &&
-          std::find(others.begin(), others.end(), corner) == others.end())
-        {
-          others.push_back(corner);
-        }
+        others.push_back(corner);
       }
-    });
+    }
+  }
   return std::all_of(others.begin(), others.end(),
            [&](std::uint32_t other)
            {

@@ -55,4 +55,16 @@ std::array<double, 2> DihedralAngles(
   return { degrees * std::acos(range[1]), degrees * std::acos(range[0]) };
 }
 
+std::array<double, 2> DihedralAngles(const TetrahedronMesh& mesh)
+{
+  std::array<double, 2> all = { 180.0, 0.0 };
+  for (const Corners& corners : mesh.Tetrahedra)
+  {
+    const std::array<double, 2> angles = DihedralAngles(mesh.Positions[corners[0]],
+      mesh.Positions[corners[1]], mesh.Positions[corners[2]], mesh.Positions[corners[3]]);
+    all = { std::min(all[0], angles[0]), std::max(all[1], angles[1]) };
+  }
+  return all;
+}
+
 }

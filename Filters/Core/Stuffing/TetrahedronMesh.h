@@ -4,6 +4,7 @@
 
 #include "Field/Vector.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -13,6 +14,36 @@ namespace isodiamond
 
 /** A tetrahedron by the ids of its points. */
 using Corners = std::array<std::uint32_t, 4>;
+using Face = std::array<std::uint32_t, 3>;
+using Edge = std::array<std::uint32_t, 2>;
+
+inline bool Has(const Corners& corners, std::uint32_t point)
+{
+  return std::find(corners.begin(), corners.end(), point) != corners.end();
+}
+
+///@{
+/** The corners but one, or two, of them, in their order. */
+inline Face Without(const Corners& corners, std::uint32_t point)
+{
+  Face others{};
+  std::copy_if(corners.begin(), corners.end(), others.begin(),
+    [&](std::uint32_t corner) { return corner != point; });
+  return others;
+}
+inline Edge Without(const Corners& corners, std::uint32_t a, std::uint32_t b)
+{
+  Edge others{};
+  std::copy_if(corners.begin(), corners.end(), others.begin(),
+    [&](std::uint32_t corner) { return corner != a && corner != b; });
+  return others;
+}
+///@}
+
+inline Edge SortedEdge(std::uint32_t a, std::uint32_t b)
+{
+  return { std::min(a, b), std::max(a, b) };
+}
 
 /** What a point may not leave: bit 2 a is set on the grid's first layer on axis a, bit 2 a + 1 on
  *  its last; Fixed points stay where they are. */
@@ -49,6 +80,19 @@ struct TetrahedronMesh
   std::vector<BlendedPoint> Blended;  ///< points that were moved or added, by their ids
 };
 
+///@{
+/** The surface, and the walls, that all points of a face are on; 0 for none. */
+inline int SurfaceOfFace(const TetrahedronMesh& mesh, const Face& face)
+{
+  const std::int8_t surface = mesh.Surfaces[face[0]];
+  return surface == mesh.Surfaces[face[1]] && surface == mesh.Surfaces[face[2]] ? surface : 0;
+}
+inline Walls::Type WallsOfFace(const TetrahedronMesh& mesh, const Face& face)
+{
+  return mesh.OnWalls[face[0]] & mesh.OnWalls[face[1]] & mesh.OnWalls[face[2]];
+}
+///@}
+
 /** The smallest sine of the six dihedral angles: large if none is near 0 or 180 degrees. Negative
  *  if the tetrahedron is, NaN never. */
 double SmallestSine(const Vector& a, const Vector& b, const Vector& c, const Vector& d);
@@ -68,6 +112,9 @@ inline double SixVolumes(const Vector& a, const Vector& b, const Vector& c, cons
 /** The smallest and the largest dihedral angle, in degrees. */
 std::array<double, 2> DihedralAngles(
   const Vector& a, const Vector& b, const Vector& c, const Vector& d);
+
+/** The same of all tetrahedra of a mesh; 180 and 0 if there is none. */
+std::array<double, 2> DihedralAngles(const TetrahedronMesh& mesh);
 
 }
 

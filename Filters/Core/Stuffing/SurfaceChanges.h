@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_SurfaceChanges_h
+#define isodiamond_SurfaceChanges_h
+
+#include "Stuffing/LocalMesh.h"
+
+/**
+ * @file SurfaceChanges.h
+ * Whether a change of a mesh leaves its surfaces where they are, or near.
+ */
+namespace isodiamond
+{
+
+/** Whether a surface stays near to where it was, and is not folded, when a point on it goes. */
+bool StaysNear(const LocalMesh& mesh, std::uint32_t from, std::uint32_t to, double distance);
+
+/** Whether an edge of the boundary can be replaced by the one across, near and on the same. */
+bool CanTurn(const LocalMesh& mesh, std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring,
+  double distance);
+
+}
+
+#endif
