@@ -520,7 +520,8 @@ struct Maxima
   test::Built Relevant = test::Build(Model::Relevant, Field());
   test::Field Samples = Field();
   MapBounds None;
-  ErrorMaxima Errors{ *Relevant.Hierarchy, Samples.View(), AffineMap(), 1.0, true, None };
+  ErrorMaxima Errors{ *Relevant.Hierarchy, Samples.View(), AffineMap(), 1.0, true,
+    std::vector<ErrorCode::Type>(Relevant.Hierarchy->Diamonds().Size(), 0), None };
 
   static test::Field Field() { return test::NoiseField({ 9, 9, 9 }, 61); }
 

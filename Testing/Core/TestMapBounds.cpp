@@ -83,7 +83,7 @@ TEST(MapBounds, BoundTheWayBackFromEveryFlatPatch)
     const IsodiamondHierarchy& hierarchy = map.Hierarchy();
     MapBounds bounds(hierarchy.Diamonds().Size(), 1);
     ASSERT_TRUE(bounds.AreWanted());
-    DistanceErrors(hierarchy, field.View(), map.World, true, SerialFor, &bounds);
+    DistanceErrors(hierarchy, field.View(), map.World, true, SerialFor, {}, &bounds);
     const ErrorCode code(DistanceErrorScale(hierarchy.SampleGrid(), map.World));
     int found = 0;
     int coarse = 0;
@@ -134,21 +134,23 @@ TEST(DomainMap, BoundsTheWayBackFromAllPatches)
         {
           return;
         }
+        NumberedPatches around;
+        SpineNeighbourhood(hierarchy).FindPatches(diamond, 0, around);
         test::SurfaceTriangles patches;
-        SpineNeighbourhood(hierarchy).ForEachTetrahedron(diamond, true,
-          [&](int, const HalfPlace& tetrahedron)
+        for (const NumberedPatch& patch : around)
+        {
+          for (const reference::SurfaceTriangle& triangle :
+            map.PatchOfTetrahedron(patch.Tetrahedron))
           {
-            for (const reference::SurfaceTriangle& triangle : map.PatchOfTetrahedron(tetrahedron))
-            {
-              patches.push_back(triangle);
-            }
-          });
+            patches.push_back(triangle);
+          }
+        }
         // With and without a reason to leave the border of a patch.
         const double least = domain.Bound(
-          diamond, [](double) { return false; },
+          diamond, around, [](double) { return false; },
           [](const Vector&, double squared) { return squared < Infinity; });
         const double bound = domain.Bound(
-          diamond, [](double) { return true; },
+          diamond, around, [](double) { return true; },
           [](const Vector&, double squared) { return squared < Infinity; });
         if (patches.empty())
         {

@@ -168,7 +168,7 @@ public:
   {
     MapBounds bounds(this->Hierarchy.Diamonds().Size(), this->Hierarchy.Region().SurfaceCount());
     const std::vector<ErrorCode::Type> before =
-      DistanceErrors(this->Hierarchy, this->Samples, world, preserve, SerialFor, &bounds);
+      DistanceErrors(this->Hierarchy, this->Samples, world, preserve, SerialFor, {}, &bounds);
     const BeforeWayBack known{ hidden, seen.Compared % 3 != 0 ? &bounds : nullptr, {} };
     std::vector<ErrorCode::Type> raised = before;
     RaiseByWayBack(this->Hierarchy, world, known, raised, SerialFor);

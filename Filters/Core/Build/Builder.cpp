@@ -122,15 +122,16 @@ DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const 
   return own;
 }
 
-/** The distance metric; inside of an interval volume the field's. */
+/** The distance metric; inside of an interval volume the field's.
+ *  @param own what is always subdivided already */
 DiamondCodes OwnDistanceCodes(const Source& source, const IsodiamondHierarchy& relevant,
-  const BuildSigns& signs, const BuildOptions& options, bool refineInterior, MapBounds& bounds,
+  const BuildSigns& signs, const BuildOptions& options, DiamondCodes own, MapBounds& bounds,
   const ParallelFor& parallelFor)
 {
   const DiamondSet& members = relevant.Diamonds();
-  DiamondCodes own(members.Size(), refineInterior);
-  own.Surface = DistanceErrors(
-    relevant, source.Samples, options.World, options.PreserveFeatures, parallelFor, &bounds);
+  const bool refineInterior = !own.Interior.empty();
+  own.Surface = DistanceErrors(relevant, source.Samples, options.World, options.PreserveFeatures,
+    parallelFor, std::move(own.Surface), &bounds);
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
@@ -355,9 +356,10 @@ public:
   {
     this->Report("Measuring errors", 0.25, 0.5);
     MapBounds bounds(this->Members.Size(), this->Header.Region.SurfaceCount());
-    DiamondCodes own = OwnDistanceCodes(this->Origin, relevant, this->SignsToGoBy(), this->Options,
-      this->Interior, bounds, this->For);
+    DiamondCodes own(this->Members.Size(), this->Interior);
     this->SubdivideAlways(own);
+    own = OwnDistanceCodes(this->Origin, relevant, this->SignsToGoBy(), this->Options,
+      std::move(own), bounds, this->For);
     this->Report("Measuring errors", 0.5, 0.8);
     const BeforeWayBack known{ this->Options.Hidden, &bounds,
       ActivationThresholds(this->Origin.SampleGrid, this->Members, own.Surface, this->For) };

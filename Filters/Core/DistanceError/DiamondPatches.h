@@ -84,40 +84,54 @@ public:
   /** The tetrahedra that are there, a mask. */
   std::uint32_t AreThere() const { return this->There; }
 
-  /** A bound of the squared distance to the patches of all tetrahedra that share an edge or a
-   *  triangle: these have in common where the surface crosses it. Infinite if it does not.
-   *  @param around the edge, or the triangle's, as a mask */
-  double BoundToBorder(std::uint32_t around, const Vector& point)
+  /** Where the patches of all tetrahedra that share an edge or a triangle meet it: a point or a
+   *  line, or nowhere. */
+  struct Border
   {
-    std::array<Vector, 3> crossings;
-    int count = 0;
+    int Count = 0; ///< of its ends
+    Vector Start{};
+    Vector Side{}; ///< from there to the other end
+
+    /** The squared distance; infinite to nowhere. */
+    double Squared(const Vector& point) const
+    {
+      if (this->Count == 0)
+      {
+        return std::numeric_limits<double>::infinity();
+      }
+      const Vector p = point - this->Start;
+      const double along = Dot(p, this->Side);
+      const double place = along > 0.0 ? std::min(along / Dot(this->Side, this->Side), 1.0) : 0.0;
+      const Vector rest = p - place * this->Side;
+      return Dot(rest, rest);
+    }
+  };
+
+  /** @param around the edge, or the triangle's, as a mask */
+  Border BorderIn(std::uint32_t around)
+  {
+    Border border;
     ForEachBit(around,
       [&](int edge)
       {
         if (this->IsCrossed(edge))
         {
-          crossings[count++] = this->InWorld(this->Corner(edge));
+          const Vector crossing = this->InWorld(this->Corner(edge));
+          (border.Count == 0 ? border.Start : border.Side) = crossing;
+          ++border.Count;
         }
       });
-    if (count == 0)
-    {
-      return std::numeric_limits<double>::infinity();
-    }
-    const Vector p = point - crossings[0];
-    const Vector side = count > 1 ? crossings[1] - crossings[0] : Vector{};
-    const double along = Dot(p, side);
-    const double place = along > 0.0 ? std::min(along / Dot(side, side), 1.0) : 0.0;
-    const Vector rest = p - place * side;
-    return Dot(rest, rest);
+    border.Side = border.Count > 1 ? border.Side - border.Start : Vector{};
+    return border;
   }
 
-  /** The same for one tetrahedron, with the edges numbered as its own. */
-  double SquaredToBorder(int tetrahedron, std::uint32_t edges, const Vector& point)
+  /** The same of one tetrahedron, with the edges numbered as its own. */
+  Border BorderIn(int tetrahedron, std::uint32_t edges)
   {
     std::uint32_t around = 0;
     ForEachBit(
       edges, [&](int edge) { around |= 1U << this->Edges->OfTetrahedron[tetrahedron][edge]; });
-    return this->BoundToBorder(around, point);
+    return this->BorderIn(around);
   }
 
   /** Bounds of the distances to the patch of a tetrahedron; null if it has none. */

@@ -22,11 +22,12 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world)
 
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
-  const ParallelFor& parallelFor, MapBounds* bounds)
+  const ParallelFor& parallelFor, std::vector<ErrorCode::Type> codes, MapBounds* bounds)
 {
   MapBounds none;
+  codes.resize(relevant.Diamonds().Size(), 0);
   ErrorMaxima errors(relevant, samples, world, DistanceErrorScale(relevant.SampleGrid(), world),
-    preserveFeatures, bounds != nullptr ? *bounds : none);
+    preserveFeatures, codes, bounds != nullptr ? *bounds : none);
   for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
   {
     for (const auto ends : { IsovertexClusters::Ends::Finite, IsovertexClusters::Ends::NotFinite })

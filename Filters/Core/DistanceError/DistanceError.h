@@ -47,12 +47,15 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world);
  * @param world from index space to the world; lengths count there
  * @param preserveFeatures otherwise isovertices without a patch to count with count with the
  *        diameter of the diamond, so that features that are thinner than the tolerance may vanish
+ * @param codes by rank, that errors are not less than: what is always subdivided need not be
+ *        measured; empty for none
  * @param bounds of the way back, to be filled if they are wanted; null for none
  * @return codes by rank, scaled by DistanceErrorScale(); 0 without an isovertex in the domain
  */
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
-  const ParallelFor& parallelFor, MapBounds* bounds = nullptr);
+  const ParallelFor& parallelFor, std::vector<ErrorCode::Type> codes = {},
+  MapBounds* bounds = nullptr);
 
 /** What is known before the way back is measured, which is less work the more it is. */
 struct BeforeWayBack

@@ -6,6 +6,7 @@
 #include "DistanceError/IsovertexClusters.h"
 #include "DistanceError/SpineEdges.h"
 #include "DistanceError/SpineNeighbourhood.h"
+#include "DistanceError/TriangleWalk.h"
 #include "Patches/PatchDistance.h"
 
 #include <algorithm>
@@ -25,10 +26,10 @@ namespace isodiamond
  *
  * As of one tetrahedron (MapBounds), but isovertices inside of the domain may go to any triangle of
  * the patches around; those on its border have to stay on it. Where the ends of an edge go to
- * different triangles, which share a side, some point of the edge goes to that side. So a triangle
- * of full resolution is mapped in pieces, each to one triangle of the patches, and no point moves
- * farther than the pieces' corners do. As it takes border to border, all of the patches is covered:
- * these hold no closed surface, as there is no vertex inside of the domain of a spine.
+ * different triangles, some points of the edge go to the sides between these (TriangleWalk.h). So a
+ * triangle of full resolution is mapped in pieces, each to one triangle of the patches, and no
+ * point moves farther than the pieces' corners do. As it takes border to border, all of the patches
+ * is covered: these hold no closed surface, as there is no vertex inside of the domain of a spine.
  */
 template <typename Lengths>
 class DomainMap
@@ -37,7 +38,6 @@ public:
   /** Hierarchy and lengths must outlive it. */
   DomainMap(const IsodiamondHierarchy& hierarchy, const Lengths& lengths, int surface)
     : Hierarchy(hierarchy)
-    , Neighbourhood(hierarchy)
     , InWorld(lengths)
     , Surface(surface)
   {
@@ -46,15 +46,26 @@ public:
   /**
    * How far a point of the diamond's patches can be from the surface; infinite if nothing is found.
    *
+   * @param patches of all tetrahedra around the spine
    * @param isNear tells whether a squared distance needs no other place to go to
    * @param mayMove tells of a place of the patches and a squared distance whether something may go
    *        so far, to there
    */
   template <typename IsNear, typename MayMove>
-  double Bound(const Place& diamond, const IsNear& isNear, const MayMove& mayMove)
+  double Bound(const Place& diamond, const NumberedPatches& patches, const IsNear& isNear,
+    const MayMove& mayMove)
   {
     this->Greatest = 0.0;
-    this->FindPatches(diamond);
+    this->Count = 0;
+    this->HasNeighbours = false;
+    this->There = 0;
+    this->Crossed = 0;
+    this->Domain = &FineDomainOf(diamond);
+    const SpineEdges& edges = SpineEdgesOf(diamond.Position);
+    for (const NumberedPatch& patch : patches)
+    {
+      this->AddPatch(edges, patch);
+    }
     return this->TakeIsovertices(diamond, isNear, mayMove) && this->TakeEdges(mayMove)
       ? std::sqrt(this->Greatest)
       : std::numeric_limits<double>::infinity();
@@ -92,40 +103,31 @@ private:
     return mayMove(image.Position, image.Squared);
   }
 
-  void FindPatches(const Place& diamond)
+  void AddPatch(const SpineEdges& edges, const NumberedPatch& patch)
   {
-    const SpineEdges& edges = SpineEdgesOf(diamond.Position);
-    this->Count = 0;
-    this->There = 0;
-    this->Crossed = 0;
-    this->Neighbourhood.ForEachTetrahedron(diamond, true,
-      [&](int number, const HalfPlace& tetrahedron)
+    this->There |= 1U << patch.Number;
+    for (int i = 0; i < patch.Patch.TriangleCount; ++i)
+    {
+      PatchTriangle& triangle = this->Triangles[this->Count++];
+      triangle.Tetrahedron = patch.Number;
+      triangle.CornerMask = 0;
+      triangle.HasDistance = false;
+      for (int j = 0; j < 3; ++j)
       {
-        this->There |= 1U << number;
-        const SurfacePatch patch =
-          PatchOf(this->Hierarchy, tetrahedron.Rank, *tetrahedron.Half, this->Surface);
-        for (int i = 0; i < patch.TriangleCount; ++i)
+        const std::uint8_t edge = patch.Patch.Triangles[i][j];
+        const int corner = edges.OfTetrahedron[patch.Number][edge];
+        triangle.Corners[j] = corner;
+        triangle.CornerMask |= 1U << corner;
+        if (((this->Crossed >> corner) & 1U) == 0)
         {
-          PatchTriangle& triangle = this->Triangles[this->Count++];
-          triangle.Tetrahedron = number;
-          triangle.CornerMask = 0;
-          triangle.HasDistance = false;
-          for (int j = 0; j < 3; ++j)
-          {
-            const std::uint8_t edge = patch.Triangles[i][j];
-            const int corner = edges.OfTetrahedron[number][edge];
-            triangle.Corners[j] = corner;
-            triangle.CornerMask |= 1U << corner;
-            if (((this->Crossed >> corner) & 1U) == 0)
-            {
-              this->Corners[corner] =
-                this->InWorld(IsovertexOn(this->Hierarchy, tetrahedron, edge, this->Surface));
-              this->Crossed |= 1U << corner;
-            }
-          }
+          this->Corners[corner] =
+            this->InWorld(IsovertexOn(this->Hierarchy, patch.Tetrahedron, edge, this->Surface));
+          this->Crossed |= 1U << corner;
+          this->TrianglesAt[corner] = 0;
         }
-      });
-    this->Domain = &FineDomainOf(diamond);
+        this->TrianglesAt[corner] |= 1U << (this->Count - 1);
+      }
+    }
   }
 
   /** Decides where the isovertices of full resolution go. @return whether all may */
@@ -234,11 +236,8 @@ private:
 
   std::uint32_t TrianglesWith(std::uint32_t corners) const
   {
-    std::uint32_t triangles = 0;
-    for (int i = 0; i < this->Count; ++i)
-    {
-      triangles |= (corners & ~this->Triangles[i].CornerMask) == 0 ? 1U << i : 0U;
-    }
+    std::uint32_t triangles = ~0U;
+    ForEachBit(corners, [&](int corner) { triangles &= this->TrianglesAt[corner]; });
     return triangles;
   }
 
@@ -273,8 +272,7 @@ private:
     return true;
   }
 
-  /** Whether all of a triangle goes to one triangle of the patches, or to two with a common side.
-   */
+  /** Whether all of a triangle of full resolution goes to the patches, in pieces. */
   template <typename MayMove>
   bool IsMapped(const std::array<const Isovertex*, 3>& corners, const MayMove& mayMove)
   {
@@ -282,57 +280,90 @@ private:
     {
       return true;
     }
-    std::uint32_t both = 0;
+    this->FindNeighbours();
+    std::optional<ReducedWalk> border;
     for (int i = 0; i < 3; ++i)
     {
       const Isovertex& from = *corners[i];
       const Isovertex& to = *corners[(i + 1) % 3];
-      if ((from.On & to.On) == 0)
+      const bool isForward = &from < &to; // one way for both triangles at the edge
+      TriangleWalk way;
+      if (!this->Neighbours.FindWalk(
+            isForward ? from.On : to.On, isForward ? to.On : from.On, way) ||
+        !this->IsTakenAlong(way, from, to, mayMove))
       {
-        const std::uint32_t pair = this->NeighboursAmong(from.On, to.On);
-        if (pair == 0 || (both != 0 && pair != both) ||
-          !this->IsTaken(this->OnSide(pair, from, to), mayMove))
-        {
-          return false;
-        }
-        both = pair;
+        return false;
+      }
+      if (!isForward)
+      {
+        std::reverse(way.Triangles.begin(), way.Triangles.begin() + way.Count);
+      }
+      if (!border)
+      {
+        border.emplace(way.Triangles[0]);
+      }
+      if (!this->GoOn(*border, way.Triangles[0], from.On))
+      {
+        return false;
+      }
+      std::for_each(way.Triangles.begin(), way.Triangles.begin() + way.Count,
+        [&](std::uint8_t triangle) { border->Add(triangle); });
+    }
+    return this->GoOn(*border, border->First(), corners[0]->On) && border->IsNothing();
+  }
+
+  /** Whether an edge may go where it passes from triangle to triangle. */
+  template <typename MayMove>
+  bool IsTakenAlong(
+    const TriangleWalk& way, const Isovertex& from, const Isovertex& to, const MayMove& mayMove)
+  {
+    for (int i = 1; i < way.Count; ++i)
+    {
+      const std::uint32_t shared = this->Triangles[way.Triangles[i - 1]].CornerMask &
+        this->Triangles[way.Triangles[i]].CornerMask;
+      if (!this->IsTaken(OnOther(from.Position, to.Position, this->Corners[LowestBit(shared)],
+                           this->Corners[LowestBit(shared & (shared - 1))]),
+            mayMove))
+      {
+        return false;
       }
     }
-    bool isInBoth = true;
-    for (int i = 0; i < 3; ++i)
+    return true;
+  }
+
+  /** Goes on to a triangle at a place that lies on both, by triangles that it lies on. */
+  bool GoOn(ReducedWalk& walk, std::uint8_t triangle, std::uint32_t place) const
+  {
+    if (walk.Last() == triangle)
     {
-      const std::uint32_t common = corners[i]->On & corners[(i + 1) % 3]->On;
-      isInBoth = isInBoth && (common == 0 || (common & both) != 0);
+      return true;
     }
-    return isInBoth;
+    TriangleWalk between;
+    const bool isThere =
+      this->Neighbours.FindWalk(1U << walk.Last(), 1U << triangle, between, place);
+    for (int i = 1; isThere && i < between.Count; ++i)
+    {
+      walk.Add(between.Triangles[i]);
+    }
+    return isThere;
   }
 
-  /** The first two of some triangles and of others that share a side, a mask; 0 if there are none.
-   */
-  std::uint32_t NeighboursAmong(std::uint32_t some, std::uint32_t others) const
+  /** Which of the patches' triangles share a side: two corners. */
+  void FindNeighbours()
   {
-    std::uint32_t pair = 0;
-    ForEachBit(some,
-      [&](int i)
-      {
-        ForEachBit(others,
-          [&](int j)
-          {
-            const bool isNeighbour =
-              PopCount(this->Triangles[i].CornerMask & this->Triangles[j].CornerMask) == 2;
-            pair = pair == 0 && isNeighbour ? (1U << i) | (1U << j) : pair;
-          });
-      });
-    return pair;
-  }
-
-  /** Where an edge meets the side that two triangles share. */
-  Image OnSide(std::uint32_t pair, const Isovertex& from, const Isovertex& to) const
-  {
-    const std::uint32_t shared = this->Triangles[LowestBit(pair)].CornerMask &
-      this->Triangles[LowestBit(pair & (pair - 1))].CornerMask;
-    return OnOther(from.Position, to.Position, this->Corners[LowestBit(shared)],
-      this->Corners[LowestBit(shared & (shared - 1))]);
+    if (this->HasNeighbours)
+    {
+      return;
+    }
+    this->HasNeighbours = true;
+    for (int i = 0; i < this->Count; ++i)
+    {
+      const std::array<int, 3>& corners = this->Triangles[i].Corners;
+      const std::uint32_t first = this->TrianglesAt[corners[0]];
+      const std::uint32_t second = this->TrianglesAt[corners[1]];
+      const std::uint32_t third = this->TrianglesAt[corners[2]];
+      this->Neighbours.Set(i, ((first & second) | (second & third) | (third & first)) & ~(1U << i));
+    }
   }
 
   /** The point of a segment that is nearest. */
@@ -358,15 +389,17 @@ private:
   }
 
   const IsodiamondHierarchy& Hierarchy;
-  SpineNeighbourhood Neighbourhood;
   const Lengths& InWorld;
   int Surface;
   double Greatest = 0.0; ///< squared, of how far anything moves
   std::uint32_t There = 0;
   std::uint32_t Crossed = 0; ///< of the spine's edges
   std::array<Vector, SpineEdges::MostEdges> Corners{};
+  std::array<std::uint32_t, SpineEdges::MostEdges> TrianglesAt{}; ///< the corners, masks
   int Count = 0;
-  std::array<PatchTriangle, 16> Triangles;
+  std::array<PatchTriangle, MostPatchTriangles> Triangles;
+  bool HasNeighbours = false;
+  TriangleNeighbours Neighbours;
   const FineDomain* Domain = nullptr;
   Point WindowBrick{};
   std::optional<BrickWindow> Window;     ///< of the bricks of scale 0 around that one

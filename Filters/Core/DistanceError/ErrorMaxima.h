@@ -36,17 +36,19 @@ class ErrorMaxima
 {
 public:
   /** Hierarchy, samples and bounds must outlive it.
+   *  @param codes by rank, to start from
    *  @param bounds of the way back, to be filled if they are wanted
    *  @throws std::invalid_argument without distances */
   ErrorMaxima(const IsodiamondHierarchy& hierarchy, const AnySamples& samples,
-    const GridGeometry& world, double scale, bool preserveFeatures, MapBounds& bounds)
+    const GridGeometry& world, double scale, bool preserveFeatures,
+    const std::vector<ErrorCode::Type>& codes, MapBounds& bounds)
     : Source(hierarchy)
     , Finite(samples)
     , InWorld(WorldLengthsOf(world))
     , Code(scale)
     , PreserveFeatures(preserveFeatures)
     , Bounds(bounds)
-    , Codes(hierarchy.Diamonds().Size())
+    , Codes(codes.begin(), codes.end())
   {
   }
 

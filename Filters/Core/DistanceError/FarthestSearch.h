@@ -88,7 +88,7 @@ public:
       return 0.0;
     }
     farthest.IsAny = true;
-    const double squared = this->Patches.BoundToBorder(around, this->InWorld(position));
+    const double squared = this->Patches.BorderIn(around).Squared(this->InWorld(position));
     const float bound = 1.01F * this->Patches.LengthsOfBounds().Squared(squared) + 1e-20F;
     if (!(bound <= this->Patches.LengthsOfBounds().Squared(farthest.Squared)))
     {
@@ -113,14 +113,27 @@ public:
     int tetrahedron, const HalfPlace& place, const FinePosition* positions, std::size_t count)
   {
     const ClosedTetrahedron closed(place);
+    std::array<Border, 15> borders; // by corners around
+    std::uint32_t known = 0;
     double greatest = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t first = 0; first < count; first += Width)
     {
-      const std::uint32_t edges = EdgesBetween(closed.CornersAround(positions[i]));
-      if (edges != 0)
+      const int some = static_cast<int>(std::min<std::size_t>(count - first, Width));
+      const std::array<std::uint32_t, Width> corners =
+        closed.CornersAround(positions + first, some);
+      for (int i = 0; i < some; ++i)
       {
-        greatest = std::max(
-          greatest, this->Patches.SquaredToBorder(tetrahedron, edges, this->InWorld(positions[i])));
+        if (corners[i] == 0b1111)
+        {
+          continue;
+        }
+        Border& border = borders[corners[i]];
+        if (((known >> corners[i]) & 1U) == 0)
+        {
+          known |= 1U << corners[i];
+          border = this->Patches.BorderIn(tetrahedron, EdgesBetween(corners[i]));
+        }
+        greatest = std::max(greatest, border.Squared(this->InWorld(positions[first + i])));
       }
     }
     return greatest;
@@ -176,6 +189,7 @@ public:
 
 private:
   static constexpr int Width = PatchBound<Lengths>::Width;
+  using Border = typename DiamondPatches<Lengths>::Border;
 
   struct Candidate
   {

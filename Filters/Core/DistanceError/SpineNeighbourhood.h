@@ -4,11 +4,36 @@
 
 #include "Hierarchy/IsodiamondHierarchy.h"
 #include "Lattice/DiamondTetrahedra.h"
+#include "Patches/SurfacePatch.h"
 
+#include <array>
 #include <cstdint>
 
 namespace isodiamond
 {
+
+/** The patch of one of the tetrahedra around a spine. */
+struct NumberedPatch
+{
+  int Number = 0;
+  HalfPlace Tetrahedron;
+  SurfacePatch Patch; ///< can be empty
+};
+
+/** Those of all that are there. */
+class NumberedPatches
+{
+public:
+  void Clear() { this->Count = 0; }
+  void Add(const NumberedPatch& patch) { this->All[this->Count++] = patch; }
+  bool IsEmpty() const { return this->Count == 0; }
+  const NumberedPatch* begin() const { return this->All.data(); }
+  const NumberedPatch* end() const { return this->All.data() + this->Count; }
+
+private:
+  int Count = 0;
+  std::array<NumberedPatch, 8> All;
+};
 
 /** The tetrahedra around the spine of a diamond in an RI: its own, and those that can take their
  *  place in a mesh. */
@@ -48,6 +73,18 @@ public:
         {
           body(number, tetrahedron);
         }
+      });
+  }
+
+  /** Replaces patches by those of the tetrahedra that have samples at all of their vertices. */
+  void FindPatches(const Place& diamond, int surface, NumberedPatches& patches) const
+  {
+    patches.Clear();
+    this->ForEachTetrahedron(diamond, true,
+      [&](int number, const HalfPlace& tetrahedron)
+      {
+        patches.Add({ number, tetrahedron,
+          PatchOf(this->Hierarchy, tetrahedron.Rank, *tetrahedron.Half, surface) });
       });
   }
 

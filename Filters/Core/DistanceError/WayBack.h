@@ -70,38 +70,28 @@ public:
     this->FoundCount = 0;
     this->HasNearby = false;
     this->Nearby.Clear();
-    this->HardCount = 0;
-    this->Neighbourhood.ForEachTetrahedron(diamond, true,
-      [&](int number, const HalfPlace& tetrahedron)
+    this->Hard.Clear();
+    this->Neighbourhood.FindPatches(diamond, this->Surface, this->Patches);
+    for (const NumberedPatch& patch : this->Patches)
+    {
+      if (patch.Patch.TriangleCount > 0 && !(isWhole && this->IsBounded(patch, rank)))
       {
-        const HardPatch patch{ tetrahedron,
-          PatchOf(this->Hierarchy, tetrahedron.Rank, *tetrahedron.Half, this->Surface) };
-        if (patch.Patch.TriangleCount > 0 && !(isWhole && this->IsBounded(patch, rank, number)))
-        {
-          this->Hard[this->HardCount++] = patch;
-        }
-      });
-    const bool isMapped =
-      this->HardCount > 0 && isWhole && diamond.Scale <= 1 && this->IsDomainMapped(diamond);
-    if (isMapped || this->HardCount == 0)
-    {
-      return std::max(error, this->Bound);
+        this->Hard.Add(patch);
+      }
     }
-    for (int i = 0; i < this->HardCount; ++i)
+    const bool isMapped =
+      !this->Hard.IsEmpty() && isWhole && diamond.Scale <= 1 && this->IsDomainMapped(diamond);
+    if (!isMapped)
     {
-      this->MeasureFrom(this->Hard[i]);
+      for (const NumberedPatch& patch : this->Hard)
+      {
+        this->MeasureFrom(patch);
+      }
     }
     return std::max(error, this->Bound);
   }
 
 private:
-  /** A patch that is still to be measured. */
-  struct HardPatch
-  {
-    HalfPlace Tetrahedron;
-    SurfacePatch Patch;
-  };
-
   /** How much more than what is known bounds can be: of maps; of maps that something in the way
    *  has been compared with; of pieces. */
   static constexpr double MapPrecision = 1.0 / 16.0;
@@ -132,11 +122,11 @@ private:
   }
 
   /** Whether the isovertices in a tetrahedron bound the way back from its patch. */
-  bool IsBounded(const HardPatch& hard, std::uint32_t rank, int number)
+  bool IsBounded(const NumberedPatch& hard, std::uint32_t rank)
   {
     const double limit = (1.0 + MapPrecision) * this->Known;
     double bound = this->Bounds != nullptr
-      ? this->Code.Decode(this->Bounds->Of(this->Surface, rank, number))
+      ? this->Code.Decode(this->Bounds->Of(this->Surface, rank, hard.Number))
       : HUGE_VAL;
     if (bound <= limit && hard.Patch.TriangleCount == 2)
     {
@@ -159,25 +149,26 @@ private:
 
   double BoundByMap(const Place& diamond, double precision)
   {
-    const auto isNear = [&](double squared)
+    const auto isWithin = [&](double squared, double part)
     {
-      const double limit = (1.0 + precision) * this->Known;
+      const double limit = (1.0 + part) * this->Known;
       return squared <= limit * limit;
     };
-    const double bound = this->Map.Bound(diamond, isNear,
+    const auto isNear = [&](double squared) { return isWithin(squared, precision); };
+    const double bound = this->Map.Bound(diamond, this->Patches, isNear,
       [&](const Vector& place, double squared)
       {
         if (!isNear(squared) && squared < HUGE_VAL)
         {
           this->FindNearest(place, this->Known);
         }
-        return std::sqrt(squared) <= (1.0 + ComparedPrecision) * this->Known;
+        return isWithin(squared, ComparedPrecision);
       });
     this->Bound = bound < HUGE_VAL ? std::max(this->Bound, bound) : this->Bound;
     return bound;
   }
 
-  std::array<Vector, 6> CornersOf(const HardPatch& hard) const
+  std::array<Vector, 6> CornersOf(const NumberedPatch& hard) const
   {
     std::array<Vector, 6> corners; // by edge
     std::uint32_t known = 0;
@@ -195,7 +186,7 @@ private:
     return corners;
   }
 
-  void MeasureFrom(const HardPatch& hard)
+  void MeasureFrom(const NumberedPatch& hard)
   {
     const SurfacePatch& patch = hard.Patch;
     const std::array<Vector, 6> corners = this->CornersOf(hard);
@@ -495,10 +486,10 @@ private:
     const double reach = std::min(1.25 * this->Known, 0.5 * this->InWorld.TypicalStep());
     std::array<Vector, 2> all = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL },
       { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
-    for (int i = 0; i < this->HardCount; ++i)
+    for (const NumberedPatch& hard : this->Hard)
     {
-      const SurfacePatch& patch = this->Hard[i].Patch;
-      const std::array<Vector, 6> corners = this->CornersOf(this->Hard[i]);
+      const SurfacePatch& patch = hard.Patch;
+      const std::array<Vector, 6> corners = this->CornersOf(hard);
       for (int j = 0; j < patch.TriangleCount; ++j)
       {
         for (const std::uint8_t edge : patch.Triangles[j])
@@ -646,8 +637,8 @@ private:
   int FoundCount = 0;
   std::array<TriangleDistance, MostFound> Found; ///< the last ones, of the diamond
   bool HasNearby = false;                        ///< of the diamond
-  int HardCount = 0;
-  std::array<HardPatch, 8> Hard;
+  NumberedPatches Patches;                       ///< of the diamond
+  NumberedPatches Hard;                          ///< those that are still to be measured
   std::vector<ConvexPolygon> Pieces;
   std::vector<Vector> Seen; ///< corners of pieces that were looked at
 };

@@ -60,6 +60,10 @@ public:
     }
   }
 
+  /** A point on it, and its normal, of any length. */
+  const FinePosition& Start() const { return this->Origin; }
+  const std::array<std::int32_t, 3>& Across() const { return this->Normal; }
+
   /** Positive on one side, negative on the other, 0 on the plane. */
   std::int32_t Side(const FinePosition& position) const
   {
