@@ -6,8 +6,9 @@
 For each volume: the first Apply at full resolution; then the first tolerance, half a voxel, which
 measures errors; then another one, a voxel; and a first Apply at half a voxel at once. All as the
 panel starts them, but without normals and scalars, which vtkContourFilter makes none of here,
-either. Medians of some runs, each with a new filter; in times of vtkContourFilter, which has one
-thread. RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are synthetic and, where Debian's
+either. Beside it Contour and Decimate (vtkDecimatePro) for as many triangles as half a voxel has.
+Medians of some runs, each with a new filter; in times of vtkContourFilter, which has one thread, as
+vtkDecimatePro has. RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are synthetic and, where Debian's
 mricron-data is installed, an MRI head.
 """
 import argparse
@@ -17,7 +18,7 @@ import statistics
 import numpy
 from isodiamonds import vtkIsodiamondContour
 from simplifiers import timed
-from vtkmodules.vtkFiltersCore import vtkContourFilter
+from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkDecimatePro
 from volumes import HEAD, HEAD_ISOVALUE, head, image_of, phantom, raw_volume
 
 
@@ -35,12 +36,23 @@ def at(contour, tolerance):
 
 
 def waits(image, isovalue, threads):
-    """Milliseconds: full resolution first, the first tolerance, the next one; a tolerance first."""
+    """Milliseconds: full resolution first, the first tolerance, the next one; a tolerance first.
+    And how many triangles that has."""
     voxel = min(image.GetSpacing())
     first, second = (configured(vtkIsodiamondContour(), image, isovalue) for _ in range(2))
     for contour in (first, second):
         contour.SetNumberOfThreads(threads)
-    return [at(first, 0), at(first, voxel / 2), at(first, voxel), at(second, voxel / 2)]
+    times = [at(first, 0), at(first, voxel / 2), at(first, voxel), at(second, voxel / 2)]
+    return times, second.GetOutput().GetNumberOfPolys()
+
+
+def contour_and_decimate(contour, triangles):
+    """Milliseconds of both filters, for a number of triangles."""
+    decimate = vtkDecimatePro()
+    decimate.SetInputConnection(contour.GetOutputPort())
+    decimate.SetTargetReduction(1 - triangles / contour.GetOutput().GetNumberOfPolys())
+    contour.Modified()
+    return timed(decimate)
 
 
 def gyroid(size):
@@ -72,14 +84,16 @@ def main():
         volumes.append(("MRI head", head(), HEAD_ISOVALUE))
     volumes.extend(arguments.raw)
     print("| volume | threads | vtkContourFilter, ms | full resolution | first tolerance | next "
-          "| half a voxel at once |")
-    print("|---|---:|---:|---:|---:|---:|---:|")
+          "| half a voxel at once | Contour + Decimate |")
+    print("|---|---:|---:|---:|---:|---:|---:|---:|")
     for name, image, isovalue in volumes:
         reference = configured(vtkContourFilter(), image, isovalue)
         unit = statistics.median(timed(reference) for _ in range(arguments.runs))
+        decimated = contour_and_decimate(reference, waits(image, isovalue, 2)[1])
         for threads in (1, 2):
-            runs = [waits(image, isovalue, threads) for _ in range(arguments.runs)]
-            ratios = [f"{statistics.median(column) / unit:.2f}" for column in zip(*runs)]
+            runs = [waits(image, isovalue, threads)[0] for _ in range(arguments.runs)]
+            times = [statistics.median(column) for column in zip(*runs)] + [decimated]
+            ratios = [f"{time / unit:.2f}" for time in times]
             print("|", " | ".join([name, str(threads), f"{unit:.0f}", *ratios]), "|", flush=True)
 
 

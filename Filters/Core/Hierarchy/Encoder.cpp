@@ -108,23 +108,55 @@ public:
     return this->Samples.Pointer()[this->Samples.Index(Centre(place))];
   }
 
-  /** The number of isovertices of a diamond. */
-  int CountIsovertices(const Place& place) const
+  /** The edges of a diamond with an isovertex. */
+  std::uint16_t CrossedEdges(const Place& place) const
   {
-    int count = 0;
-    this->ForEachCrossedEdge(
-      place, [&](int /*vertex*/, int sign, int otherSign) { count += std::abs(sign - otherSign); });
+    std::uint32_t crossed = 0;
+    const Point centre = Centre(place);
+    if (this->TheGrid.IsSampled(centre))
+    {
+      const int half = 1 << place.Scale;
+      const bool isWhole = this->TheGrid.IsSampled(centre + Point{ half, half, half }) &&
+        this->TheGrid.IsSampled(centre + Point{ -half, -half, -half });
+      const int sign = this->Sign(place);
+      const int parity = Parity(place.Position);
+      const ParityTable& shape = tables::Parities[parity];
+      for (int i = 0; i < shape.VertexCount; ++i)
+      {
+        if (isWhole || this->TheGrid.IsSampled(centre + half * shape.Offsets[i]))
+        {
+          crossed |= (this->SignOfVertex(place, i) != sign ? 1U : 0U) << i;
+        }
+      }
+    }
+    return static_cast<std::uint16_t>(crossed);
+  }
+
+  /** The number of isovertices of a diamond. @param crossed its CrossedEdges() */
+  int CountIsovertices(const Place& place, std::uint16_t crossed) const
+  {
+    int count = PopCount(crossed);
+    if (this->Region.IsVolume() && crossed != 0)
+    {
+      const int sign = this->Sign(place);
+      ForEachBit(crossed,
+        [&](int vertex)
+        { count += std::abs(sign - this->SignOfVertex(place, vertex)) == 2 ? 1 : 0; });
+    }
     return count;
   }
 
   /** Writes the coefficients of a diamond: those on surface 0, then 1. @return the end */
-  std::uint8_t* WriteIsovertices(const Place& place, std::uint8_t* next) const
+  std::uint8_t* WriteIsovertices(
+    const Place& place, std::uint16_t crossed, std::uint8_t* next) const
   {
     std::array<std::uint8_t, MaximumVertices> upper{};
     int upperCount = 0;
-    this->ForEachCrossedEdge(place,
-      [&](int vertex, int sign, int otherSign)
+    const int sign = this->Sign(place);
+    ForEachBit(crossed,
+      [&](int vertex)
       {
+        const int otherSign = this->SignOfVertex(place, vertex);
         const auto edge = this->Edge(place, vertex);
         if (std::abs(sign - otherSign) == 2)
         {
@@ -145,34 +177,14 @@ public:
   }
 
 private:
-  /** Calls body(vertex, sign of the centre, sign of the vertex) for edges with an isovertex. */
-  template <typename Body>
-  void ForEachCrossedEdge(const Place& place, Body&& body) const
+  /** The sign of a vertex that has a sample. */
+  int SignOfVertex(const Place& place, int vertex) const
   {
     const Point centre = Centre(place);
-    if (!this->TheGrid.IsSampled(centre))
-    {
-      return;
-    }
     const int half = 1 << place.Scale;
-    const bool isWhole = this->TheGrid.IsSampled(centre + Point{ half, half, half }) &&
-      this->TheGrid.IsSampled(centre + Point{ -half, -half, -half });
-    const std::int64_t middle = this->Samples.Index(centre);
-    const int sign = this->SignOf(centre, middle);
     const int parity = Parity(place.Position);
-    const ParityTable& shape = tables::Parities[parity];
-    for (int i = 0; i < shape.VertexCount; ++i)
-    {
-      if (isWhole || this->TheGrid.IsSampled(centre + half * shape.Offsets[i]))
-      {
-        const int otherSign =
-          this->SignOf(centre + half * shape.Offsets[i], middle + half * this->Strides[parity][i]);
-        if (sign != otherSign)
-        {
-          body(i, sign, otherSign);
-        }
-      }
-    }
+    return this->SignOf(centre + half * tables::Parities[parity].Offsets[vertex],
+      this->Samples.Index(centre) + half * this->Strides[parity][vertex]);
   }
 
   /** An edge in unit steps, or for linear isovertices in one. */
@@ -221,14 +233,15 @@ void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const Sample
       });
   };
 
-  // Count: records, and what every brick holds.
+  // Count what every brick holds. Records have the crossed edges first.
   std::vector<BrickOffset> next(brickCount + 1);
   encoding.Arrays.Records.resize(set.Size());
   forEachDiamond(
     [&](std::int64_t i, const Place& place, std::uint32_t rank)
     {
-      encoding.Arrays.Records[rank] = Record::Pack(code, reader.Sign(place));
-      next[i + 1].Isovertices += reader.CountIsovertices(place);
+      const std::uint16_t crossed = reader.CrossedEdges(place);
+      encoding.Arrays.Records[rank] = crossed;
+      next[i + 1].Isovertices += reader.CountIsovertices(place, crossed);
       next[i + 1].InsideValues += reader.IsInside(place) ? 1 : 0;
     });
 
@@ -248,10 +261,12 @@ void EncodeDiamonds(const EncodingHeader& header, const Grid& grid, const Sample
   encoding.Arrays.Isovertices.resize(next[brickCount].Isovertices);
   std::uint8_t* isovertices = encoding.Arrays.Isovertices.data();
   forEachDiamond(
-    [&](std::int64_t i, const Place& place, std::uint32_t /*rank*/)
+    [&](std::int64_t i, const Place& place, std::uint32_t rank)
     {
+      std::uint16_t& record = encoding.Arrays.Records[rank];
       next[i].Isovertices =
-        reader.WriteIsovertices(place, isovertices + next[i].Isovertices) - isovertices;
+        reader.WriteIsovertices(place, record, isovertices + next[i].Isovertices) - isovertices;
+      record = Record::Pack(code, reader.Sign(place));
       if (reader.IsInside(place))
       {
         insideValues[next[i].InsideValues++] = reader.Value(place);

@@ -94,6 +94,87 @@ IsodiamondHierarchy::IsodiamondHierarchy(
   this->FindHighestThresholds();
 }
 
+/** The signs of lattice points in a brick and next to it, at the brick's scale. Diamonds share
+ * their vertices: each sign is looked up once. */
+class IsodiamondHierarchy::BrickSigns
+{
+public:
+  BrickSigns(const IsodiamondHierarchy& hierarchy, int scale, const Brick& brick)
+    : Hierarchy(hierarchy)
+    , Scale(scale)
+    , Window(hierarchy.Set.Level(scale), hierarchy.Set.Level(scale).Box.Origin(brick.BoxIndex))
+  {
+    const Point low = hierarchy.Set.Level(scale).Box.Origin(brick.BoxIndex) + Point{ -1, -1, -1 };
+    const Point high = low + Point{ Width - 1, Width - 1, Width - 1 };
+    const int h = 1 << scale;
+    this->IsWhole = hierarchy.TheGrid.IsSampled(h * low) && hierarchy.TheGrid.IsSampled(h * high);
+    for (int parity = 1; parity < 8; ++parity)
+    {
+      const ParityTable& shape = tables::Parities[parity];
+      for (int i = 0; i < shape.VertexCount; ++i)
+      {
+        this->Strides[parity][i] = this->IndexOf(shape.Offsets[i]);
+      }
+    }
+    this->First = this->IndexOf(low);
+    this->Signs.fill(Unknown);
+    hierarchy.Set.ForEachInBrick(scale, brick,
+      [&](const Place& place, std::uint32_t rank) {
+        this->Signs[this->IndexOf(place.Position)] = static_cast<std::int8_t>(hierarchy.Sign(rank));
+      });
+  }
+
+  /** Of the vertices of a diamond that have samples. */
+  DiamondSigns Of(const Place& diamond, std::int64_t rank)
+  {
+    const Grid& grid = this->Hierarchy.TheGrid;
+    const bool hasCentre = this->IsWhole || grid.IsSampled(Centre(diamond));
+    DiamondSigns signs(this->Hierarchy.Region(), hasCentre ? this->Hierarchy.Sign(rank) : -1);
+    const int parity = Parity(diamond.Position);
+    const ParityTable& shape = tables::Parities[parity];
+    const int index = this->IndexOf(diamond.Position);
+    for (int i = 0; i < shape.VertexCount; ++i)
+    {
+      if (this->IsWhole || grid.IsSampled(VertexAt(diamond, shape.Offsets[i])))
+      {
+        std::int8_t& sign = this->Signs[index + this->Strides[parity][i]];
+        if (sign == Unknown)
+        {
+          sign = this->LookUp(diamond.Position + shape.Offsets[i]);
+        }
+        signs.AddVertex(i, sign);
+      }
+    }
+    return signs;
+  }
+
+private:
+  static constexpr std::int8_t Unknown = -1;
+  static constexpr int Width = 10;
+
+  std::int8_t LookUp(const Point& position) const
+  {
+    const std::int64_t rank =
+      Parity(position) != 0 ? this->Window.Rank(position) : std::int64_t{ DiamondSet::None };
+    return static_cast<std::int8_t>(rank != DiamondSet::None
+        ? this->Hierarchy.Sign(rank)
+        : this->Hierarchy.SignAt({ this->Scale, position }));
+  }
+
+  int IndexOf(const Point& position) const
+  {
+    return position[0] + Width * (position[1] + Width * position[2]) - this->First;
+  }
+
+  const IsodiamondHierarchy& Hierarchy;
+  int Scale;
+  BrickWindow Window;
+  int First = 0;        ///< index of the first point, without the offset
+  bool IsWhole = false; ///< whether all points have samples
+  std::array<std::array<int, MaximumVertices>, 8> Strides{}; ///< by parity and vertex, of indices
+  std::array<std::int8_t, Width * Width * Width> Signs;
+};
+
 void IsodiamondHierarchy::DeriveAllEdges(const ParallelFor& parallelFor)
 {
   this->EdgesAndKinds.resize(this->Set.Size());
@@ -104,11 +185,18 @@ void IsodiamondHierarchy::DeriveAllEdges(const ParallelFor& parallelFor)
     ForEachIndex(parallelFor, bricks.size(), 16,
       [&](std::int64_t i)
       {
-        const BrickLevel& level = this->Set.Level(scale);
-        const BrickWindow window(level, level.Box.Origin(bricks[i].BoxIndex));
+        BrickSigns signs(*this, scale, bricks[i]);
         this->Set.ForEachInBrick(scale, bricks[i],
           [&](const Place& place, std::uint32_t rank)
-          { this->DeriveDiamond(window, place, rank); });
+          {
+            const DiamondSigns ofDiamond = signs.Of(place, rank);
+            this->EdgesAndKinds[rank] = static_cast<std::uint16_t>(ofDiamond.CrossedEdges(0) |
+              (static_cast<std::uint32_t>(ofDiamond.KindOfDiamond()) << 12));
+            if (this->Region().IsVolume())
+            {
+              this->EdgesOfUpper[rank] = static_cast<std::uint16_t>(ofDiamond.CrossedEdges(1));
+            }
+          });
       });
   }
 }
@@ -316,31 +404,6 @@ int IsodiamondHierarchy::SignAt(const Place& place) const
       return this->Sign(rank);
     }
     position = { position[0] & ~1, position[1] & ~1, position[2] & ~1 };
-  }
-}
-
-void IsodiamondHierarchy::DeriveDiamond(
-  const BrickWindow& window, const Place& place, std::int64_t rank)
-{
-  const bool hasCentre = this->TheGrid.IsSampled(Centre(place));
-  DiamondSigns signs(this->Region(), hasCentre ? this->Sign(rank) : -1);
-  const ParityTable& shape = tables::Parities[Parity(place.Position)];
-  for (int i = 0; i < shape.VertexCount; ++i)
-  {
-    if (this->TheGrid.IsSampled(VertexAt(place, shape.Offsets[i])))
-    {
-      const Point vertex = place.Position + shape.Offsets[i];
-      const std::int64_t found =
-        Parity(vertex) != 0 ? window.Rank(vertex) : std::int64_t{ DiamondSet::None };
-      signs.AddVertex(
-        i, found != DiamondSet::None ? this->Sign(found) : this->SignAt({ place.Scale, vertex }));
-    }
-  }
-  this->EdgesAndKinds[rank] = static_cast<std::uint16_t>(
-    signs.CrossedEdges(0) | (static_cast<std::uint32_t>(signs.KindOfDiamond()) << 12));
-  if (this->Region().IsVolume())
-  {
-    this->EdgesOfUpper[rank] = static_cast<std::uint16_t>(signs.CrossedEdges(1));
   }
 }
 

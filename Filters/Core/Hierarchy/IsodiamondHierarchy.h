@@ -274,6 +274,8 @@ public:
   std::int64_t DerivedSize() const;
 
 private:
+  class BrickSigns;
+
   void ReadBricks();
   void CheckRecords() const;
   void CheckFollowers() const;
@@ -283,7 +285,6 @@ private:
   void CountInsideValues();
   void FindHighestThresholds();
   int SignAt(const Place& place) const;
-  void DeriveDiamond(const BrickWindow& window, const Place& place, std::int64_t rank);
 
   EncodingView View;
   Grid TheGrid;
