@@ -13,8 +13,8 @@ if(BUILD_TESTING)
   # What the tests use besides: here, because imported targets belong to the folder that finds them.
   isodiamonds_find(VTK
     "what its rendering tests need (Debian: libglew-dev libfreetype-dev), or BUILD_TESTING=OFF"
-    COMPONENTS CommonExecutionModel FiltersCore FiltersExtraction FiltersGeneral ImagingCore IOXML
-      InteractionStyle RenderingCore RenderingFreeType RenderingOpenGL2 TestingRendering
+    COMPONENTS CommonExecutionModel FiltersCore FiltersExtraction FiltersGeneral ImagingCore IOImage IOXML
+      InteractionStyle RenderingCore RenderingFreeType RenderingOpenGL2
     PATHS "${VTK_DIR}" NO_DEFAULT_PATH) # the VTK that ParaView brought
 endif()
 
