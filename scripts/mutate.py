@@ -269,13 +269,20 @@ def measure_tests(jobs):
 class Hunt:
     """Looks for faults with the tests that reach them, first those that found many in little time."""
 
-    def __init__(self, tests, seconds):
+    def __init__(self, tests, faults, seconds):
         self.tests, self.seconds = tests, seconds
         self.runs, self.finds = collections.Counter(), collections.Counter()
+        # Of what a test reaches, the part that is in a file: most for the file that it is about.
+        self.part = collections.Counter()
+        path_of = {fault.number: fault.path for fault in faults}
+        for name, (_, numbers) in tests.items():
+            for number in numbers & path_of.keys():
+                self.part[name, path_of[number]] += 1 / len(numbers)
 
     def price(self, name, path):
         """The seconds that a fault costs which this test finds."""
         chance = (self.finds[name] + 1) / (self.runs[name] + 4) + self.finds[name, path] / (self.runs[name, path] + 1)
+        chance += self.part[name, path]
         return (self.tests[name][0] + 0.05) / chance
 
     def look_for(self, fault):
@@ -331,7 +338,7 @@ def main():
         asked = [fault for fault in asked if results.get(fault.key, "") in ("", "-")]
     print(f"{len(asked)} faults", flush=True)
 
-    hunt = Hunt(tests, options.seconds)
+    hunt = Hunt(tests, faults, options.seconds)
     reasons = {tuple(line.split(" | ")[:2]) for line in HARMLESS.read_text().splitlines()}
 
     def is_harmless(fault):

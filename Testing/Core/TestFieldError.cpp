@@ -192,15 +192,29 @@ TEST(FieldError, IsZeroForALinearField)
   }
 }
 
+namespace
+{
+
+/** NaN where cubes of samples are not whole, and all else alike. */
+test::Field LastIsNaN(const std::array<int, 3>& dims)
+{
+  test::Field field = test::WaveField(dims);
+  std::fill(field.Samples.begin(), field.Samples.end(), 1.0F);
+  field.Samples.back() = std::numeric_limits<float>::quiet_NaN();
+  return field;
+}
+
+}
+
 // Parts of a domain that cannot matter are passed over.
 TEST(FieldError, OfLargeDomainsEqualsAVisitToEverySample)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const test::Field& field :
-    { test::NoiseField({ 65, 33, 33 }, 3), test::WaveField({ 40, 70, 33 }),
-      test::SphereField({ 64, 49, 65 }), test::SparseField({ 65, 65, 33 }, 4),
-      test::NoiseField({ 41, 73, 57 }, 6), test::BrokenField({ 33, 40, 33 }, 5),
-      test::SpikeField({ 65, 65, 65 }, 1e30), test::SpikeField({ 65, 33, 65 }, nan) })
+  for (const test::Field& field : { test::NoiseField({ 65, 33, 33 }, 3),
+         test::WaveField({ 40, 70, 33 }), test::SphereField({ 64, 49, 65 }),
+         test::SparseField({ 65, 65, 33 }, 4), test::NoiseField({ 41, 73, 57 }, 6),
+         test::BrokenField({ 33, 40, 33 }, 5), test::SpikeField({ 65, 65, 65 }, 1e30),
+         test::SpikeField({ 65, 33, 65 }, nan), LastIsNaN({ 40, 38, 37 }) })
   {
     SCOPED_TRACE(field.Name);
     const Grid grid(field.Dims);

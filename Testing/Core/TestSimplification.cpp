@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Simplification against brute force, with decimation of all kinds, some of it malicious.
 #include "DistanceTestTools.h"
+#include "Simplification/Covering.h"
 #include "Simplification/MeshOptimizer.h"
 #include "Simplification/SameTopology.h"
 #include "Simplification/Simplification.h"
@@ -444,6 +445,60 @@ TEST(Simplification, LeavesWhatHasNoAllowance)
   hardly.Allowances.assign(hardly.Allowances.size(), 1e-300);
   EXPECT_TRUE(Simplify(hardly, Reckless(1, 4), SerialFor).Mesh.Triangles == before.Mesh.Triangles);
   EXPECT_TRUE(Simplify({}, Reckless(1, 4), SerialFor).Mesh.Triangles.empty());
+}
+
+// A triangle twice: no decimation can be told from a change of topology there.
+TEST(Simplification, LeavesMeshesWithFaultsAsTheyAre)
+{
+  AllowedMesh before = MeshOf(test::WaveField({ 9, 9, 9 }), 0.0, 0.5);
+  const std::vector<Triangle> sound = before.Mesh.Triangles;
+  before.Allowances.push_back(0.5);
+  for (std::size_t i = 0; i < sound.size(); i += 7)
+  {
+    for (const bool first : { true, false })
+    {
+      before.Mesh.Triangles = sound;
+      before.Mesh.Triangles.insert(
+        first ? before.Mesh.Triangles.begin() : before.Mesh.Triangles.end(), sound[i]);
+      const AllowedMesh after = Simplify(
+        before, [&](const TriangleMesh&, double) { return sound; }, SerialFor);
+      EXPECT_EQ(after.Mesh.Triangles.size(), before.Mesh.Triangles.size()) << i;
+    }
+  }
+}
+
+// Over a strip, and a long one, where it gives up.
+TEST(Covering, UsesAllOfATriangleOrTellsThatItDoesNot)
+{
+  for (const std::uint32_t length : { 20U, 45U, 200U })
+  {
+    TriangleMesh strip;
+    for (std::uint32_t x = 0; x <= length; ++x)
+    {
+      strip.Positions.push_back({ static_cast<double>(x), 0.0, 0.0 });
+      strip.Positions.push_back({ static_cast<double>(x), 1.0, 0.0 });
+    }
+    for (std::uint32_t i = 0; i < 2 * length; i += 2)
+    {
+      strip.Triangles.push_back({ i, i + 2, i + 3 });
+      strip.Triangles.push_back({ i, i + 3, i + 1 });
+    }
+    const Connectivity links(strip);
+    const Covering covering(strip, links);
+    const std::array<Vector, 3> corners = { { { 0.2, 0.3, 0.1 }, { length - 0.3, 0.4, 0.2 },
+      { 0.5 * length, 0.7, 0.1 } } };
+    const Vector normal = Cross(corners[1] - corners[0], corners[2] - corners[0]);
+    double area = 0.0;
+    const bool isAll = covering.Cut(corners, 0, 0.0,
+      [&](std::uint32_t, double distance, double part)
+      {
+        EXPECT_LE(distance, 0.2 + 1e-9);
+        area += part;
+        return true;
+      });
+    EXPECT_EQ(isAll, length < 100);
+    EXPECT_EQ(isAll, std::abs(area - 0.5 * std::sqrt(Dot(normal, normal))) < 1e-9);
+  }
 }
 
 TEST(Simplification, TellsOtherTopology)
