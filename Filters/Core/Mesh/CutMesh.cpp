@@ -95,8 +95,7 @@ bool IsCornerOf(const HiddenCells& hidden, const Point& sample)
 {
   for (int corner = 0; corner < 8; ++corner)
   {
-    const Point cell = sample + Point{ -(corner & 1), -((corner >> 1) & 1), -(corner >> 2) };
-    if (cell[0] >= 0 && cell[1] >= 0 && cell[2] >= 0 && hidden(cell))
+    if (hidden(sample + Point{ -(corner & 1), -((corner >> 1) & 1), -(corner >> 2) }))
     {
       return true;
     }

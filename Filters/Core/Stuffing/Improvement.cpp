@@ -359,7 +359,7 @@ private:
     std::vector<Corners> fresh;
     for (int i = 0; i < 3; ++i)
     {
-      fresh.push_back({ far, apex, face[(i + 1) % 3], face[i] });
+      fresh.push_back({ far, apex, face[i], face[(i + 1) % 3] });
       sine = std::min(sine, this->Mesh.SineOf(fresh.back()));
     }
     const double before = std::min(this->Mesh.SineOf(tetrahedron), this->Mesh.SineOf(*other));

@@ -1,0 +1,442 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What Stuffing is made of, one by one, on small meshes where it is known what should happen.
+#include "CoreTestTools.h"
+#include "RandomTestTools.h"
+
+#include "Stuffing/BestPlace.h"
+#include "Stuffing/Improvement.h"
+#include "Stuffing/LocalMesh.h"
+#include "Stuffing/RingFilling.h"
+#include "Stuffing/SurfaceChanges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace isodiamond;
+
+namespace
+{
+
+/** Tetrahedra of points, turned so that they are positive. */
+TetrahedronMesh MeshOf(const std::vector<Vector>& points, std::vector<Corners> tetrahedra)
+{
+  TetrahedronMesh mesh;
+  mesh.Positions = points;
+  mesh.Surfaces.assign(points.size(), 0);
+  mesh.OnWalls.assign(points.size(), 0);
+  for (Corners& corners : tetrahedra)
+  {
+    if (SixVolumes(points[corners[0]], points[corners[1]], points[corners[2]], points[corners[3]]) <
+      0.0)
+    {
+      std::swap(corners[2], corners[3]);
+    }
+    mesh.Tetrahedra.push_back(corners);
+    mesh.Origins.push_back(static_cast<std::uint32_t>(mesh.Origins.size()));
+  }
+  return mesh;
+}
+
+/** The sine that is nearest to 0, by angles. */
+double WorstSine(const std::vector<Vector>& points, const std::vector<Corners>& tetrahedra)
+{
+  const double degree = std::acos(-1.0) / 180.0;
+  double worst = 1.0;
+  for (const Corners& t : tetrahedra)
+  {
+    const auto [least, most] =
+      DihedralAngles(points[t[0]], points[t[1]], points[t[2]], points[t[3]]);
+    const bool isPositive =
+      SixVolumes(points[t[0]], points[t[1]], points[t[2]], points[t[3]]) > 0.0;
+    const double sine = std::min(std::sin(degree * least), std::sin(degree * most));
+    worst = std::min(worst, isPositive ? sine : -sine);
+  }
+  return worst;
+}
+
+/** Point 0 among those of an octahedron, somewhere. */
+TetrahedronMesh Octahedron(test::Random& random)
+{
+  std::vector<Vector> points = { { test::Uniform(random, -0.4, 0.4),
+    test::Uniform(random, -0.4, 0.4), test::Uniform(random, -0.4, 0.4) } };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double side : { -1.0, 1.0 })
+    {
+      Vector point{};
+      for (double& coordinate : point)
+      {
+        coordinate = test::Uniform(random, -0.2, 0.2);
+      }
+      point[axis] += side;
+      points.push_back(point);
+    }
+  }
+  std::vector<Corners> tetrahedra;
+  for (std::uint32_t i = 0; i < 8; ++i)
+  {
+    tetrahedra.push_back({ 0, 1 + i % 2, 3 + i / 2 % 2, 5 + i / 4 });
+  }
+  return MeshOf(points, tetrahedra);
+}
+
+PointStar StarOf(const TetrahedronMesh& mesh, std::uint32_t point)
+{
+  PointStar star;
+  for (const Corners& corners : mesh.Tetrahedra)
+  {
+    star.Add(mesh, corners, point);
+  }
+  return star;
+}
+
+constexpr std::array<Vector, 3> UnitAxes = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+
+/** All ways to make triangles of a polygon's corners from one to another. */
+std::vector<std::vector<Face>> Triangulations(int first, int last)
+{
+  if (last - first < 2)
+  {
+    return { {} };
+  }
+  std::vector<std::vector<Face>> all;
+  for (int middle = first + 1; middle < last; ++middle)
+  {
+    for (const std::vector<Face>& left : Triangulations(first, middle))
+    {
+      for (const std::vector<Face>& right : Triangulations(middle, last))
+      {
+        std::vector<Face> faces = left;
+        faces.insert(faces.end(), right.begin(), right.end());
+        faces.push_back({ static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(middle),
+          static_cast<std::uint32_t>(last) });
+        all.push_back(faces);
+      }
+    }
+  }
+  return all;
+}
+
+/** Six triangles of the lower surface around point 0, at a height, over point 7. */
+TetrahedronMesh Tent(double height)
+{
+  std::vector<Vector> points = { { 0.0, 0.0, height } };
+  std::vector<Corners> tetrahedra;
+  for (std::uint32_t i = 0; i < 6; ++i)
+  {
+    const double angle = i * std::acos(-1.0) / 3.0;
+    points.push_back({ std::cos(angle), std::sin(angle), 0.0 });
+    tetrahedra.push_back({ 0, 1 + i, 1 + (i + 1) % 6, 7 });
+  }
+  points.push_back({ 0.0, 0.0, -1.0 });
+  TetrahedronMesh mesh = MeshOf(points, tetrahedra);
+  std::fill_n(mesh.Surfaces.begin(), 7, -1);
+  return mesh;
+}
+
+/** Two triangles of the upper surface with the edge from point 0 to point 1, which is higher than
+ *  points 2 and 3, over point 4. */
+TetrahedronMesh Roof(double height)
+{
+  TetrahedronMesh mesh = MeshOf({ { 0.0, -1.0, height }, { 0.0, 1.0, height }, { 1.0, 0.0, 0.0 },
+                                  { -1.0, 0.0, 0.0 }, { 0.0, 0.0, -1.0 } },
+    { { 0, 1, 2, 4 }, { 0, 1, 3, 4 } });
+  std::fill_n(mesh.Surfaces.begin(), 4, 1);
+  return mesh;
+}
+
+bool CanTurnRoof(const TetrahedronMesh& mesh, double distance)
+{
+  const LocalMesh local(mesh);
+  LocalMesh::Ring ring;
+  EXPECT_TRUE(local.FindRing(0, 1, 7, ring));
+  EXPECT_FALSE(ring.IsClosed);
+  return CanTurn(local, 0, 1, ring, distance);
+}
+
+}
+
+TEST(RingFilling, IsTheBestOfAll)
+{
+  test::Random random(5);
+  for (int round = 0; round < 200; ++round)
+  {
+    const int count = 3 + round % 5;
+    std::vector<Vector> points = { { 0.0, 0.0, -1.0 }, { 0.1, 0.2, 1.0 } };
+    std::vector<std::uint32_t> ring;
+    std::vector<Corners> tetrahedra;
+    for (int i = 0; i < count; ++i)
+    {
+      const double angle = (i + test::Uniform(random, -0.2, 0.2)) * 2.0 * std::acos(-1.0) / count;
+      const double radius = test::Uniform(random, 0.6, 1.5);
+      points.push_back(
+        { radius * std::cos(angle), radius * std::sin(angle), test::Uniform(random, -0.4, 0.4) });
+      ring.push_back(static_cast<std::uint32_t>(2 + i));
+      tetrahedra.push_back({ 0, 1, ring.back(), static_cast<std::uint32_t>(2 + (i + 1) % count) });
+    }
+    const LocalMesh mesh(MeshOf(points, tetrahedra));
+    std::vector<Corners> fresh;
+    const double sine = FillRing(mesh, 0, 1, ring, fresh);
+    double best = -HUGE_VAL;
+    for (const std::vector<Face>& faces : Triangulations(0, count - 1))
+    {
+      std::vector<Corners> made;
+      for (const Face& face : faces)
+      {
+        made.push_back({ ring[face[0]], ring[face[1]], ring[face[2]], 1 });
+        made.push_back({ ring[face[0]], ring[face[2]], ring[face[1]], 0 });
+      }
+      best = std::max(best, WorstSine(points, made));
+    }
+    EXPECT_NEAR(sine, best, 1e-9);
+    EXPECT_EQ(fresh.size(), 2U * (count - 2));
+    EXPECT_NEAR(WorstSine(points, fresh), best, 1e-9);
+  }
+}
+
+TEST(BestPlace, IsBetterAndTellsItsSine)
+{
+  test::Random random(6);
+  int better = 0;
+  for (int round = 0; round < 200; ++round)
+  {
+    TetrahedronMesh mesh = Octahedron(random);
+    const double before = WorstSine(mesh.Positions, mesh.Tetrahedra);
+    PointStar star = StarOf(mesh, 0);
+    const Vector from = mesh.Positions[0];
+    const PlacedPoint best = BestPlace(star, from, 0, UnitAxes, 1.0);
+    mesh.Positions[0] = best.Place;
+    EXPECT_NEAR(WorstSine(mesh.Positions, mesh.Tetrahedra), best.Sine, 1e-9);
+    EXPECT_GE(best.Sine, before - 1e-9);
+    EXPECT_GT(best.Sine, 0.25);
+    better += best.Sine > before + 0.05 ? 1 : 0;
+    // What is good enough is left alone.
+    const PlacedPoint same = BestPlace(star, best.Place, Walls::Fixed, UnitAxes, 1.0);
+    EXPECT_EQ(same.Place, best.Place);
+    EXPECT_NEAR(same.Sine, best.Sine, 1e-12);
+  }
+  EXPECT_GT(better, 100);
+}
+
+TEST(BestPlace, StaysOnWalls)
+{
+  test::Random random(7);
+  int moved = 0;
+  for (int walls = 1; walls < 64; ++walls)
+  {
+    const TetrahedronMesh mesh = Octahedron(random);
+    PointStar star = StarOf(mesh, 0);
+    const Vector from = mesh.Positions[0];
+    const PlacedPoint best = BestPlace(star, from, static_cast<Walls::Type>(walls), UnitAxes, 1.0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (((walls >> (2 * axis)) & 3) != 0)
+      {
+        EXPECT_NEAR(best.Place[axis], from[axis], 1e-12);
+      }
+    }
+    const bool isCorner = (walls & 3) != 0 && (walls & 12) != 0 && (walls & 48) != 0;
+    EXPECT_TRUE(!isCorner || best.Place == from);
+    moved += best.Place == from ? 0 : 1;
+  }
+  EXPECT_GT(moved, 30); // of 36
+}
+
+// Where a world has no directions points stay, even where they are wrong.
+TEST(BestPlace, IsAlwaysAPlace)
+{
+  test::Random random(8);
+  TetrahedronMesh mesh = Octahedron(random);
+  PointStar star = StarOf(mesh, 0);
+  const Vector outside = { 5.0, 4.0, 3.0 };
+  const PlacedPoint best = BestPlace(star, outside, 1, {}, 1.0);
+  EXPECT_EQ(best.Place, outside);
+  EXPECT_LT(best.Sine, 0.0);
+}
+
+TEST(SurfaceChanges, StayNearByTheHeightOfWhatGoes)
+{
+  for (const double height : { 0.1, 0.3 })
+  {
+    const LocalMesh tent(Tent(height));
+    for (std::uint32_t to = 1; to <= 6; ++to)
+    {
+      EXPECT_TRUE(StaysNear(tent, 0, to, 1.01 * height));
+      EXPECT_FALSE(StaysNear(tent, 0, to, 0.99 * height));
+    }
+    EXPECT_TRUE(StaysNear(tent, 7, 1, 0.0)); // on no surface
+  }
+}
+
+// A corner of the rim is pulled in: from beside it a triangle would be turned over.
+TEST(SurfaceChanges, FoldNothing)
+{
+  TetrahedronMesh mesh = Tent(0.05);
+  mesh.Positions[3] = 0.2 * mesh.Positions[3];
+  const LocalMesh tent(mesh);
+  EXPECT_FALSE(StaysNear(tent, 0, 2, 10.0));
+  EXPECT_TRUE(StaysNear(tent, 0, 6, 10.0));
+}
+
+TEST(SurfaceChanges, TurnEdgesThatAreFlat)
+{
+  EXPECT_TRUE(CanTurnRoof(Roof(0.5), 0.51));
+  EXPECT_FALSE(CanTurnRoof(Roof(0.5), 0.49));
+  EXPECT_TRUE(CanTurnRoof(Roof(0.57), 10.0)); // to 60 degrees between the two sides
+  EXPECT_FALSE(CanTurnRoof(Roof(0.585), 10.0));
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    TetrahedronMesh mesh = Roof(0.1);
+    mesh.Surfaces[i] = -1;
+    EXPECT_FALSE(CanTurnRoof(mesh, 10.0));
+  }
+  TetrahedronMesh wall = Roof(0.0);
+  std::fill_n(wall.Surfaces.begin(), 4, 0);
+  EXPECT_FALSE(CanTurnRoof(wall, 10.0));
+  std::fill_n(wall.OnWalls.begin(), 4, 2);
+  EXPECT_TRUE(CanTurnRoof(wall, 0.0));
+  TetrahedronMesh curved = wall; // what a wall is like is the grid's, and not measured
+  curved.Positions = Roof(0.5).Positions;
+  EXPECT_TRUE(CanTurnRoof(curved, 0.0));
+  wall.OnWalls[3] = 4;
+  EXPECT_FALSE(CanTurnRoof(wall, 0.0));
+  std::fill_n(wall.OnWalls.begin(), 4, Walls::Fixed);
+  EXPECT_FALSE(CanTurnRoof(wall, 10.0));
+}
+
+// Two tetrahedra on both sides of a triangle: nothing would be left of them.
+TEST(LocalMesh, CollapsesNoEdgeWhoseEndsHaveMoreInCommonOnTheBoundary)
+{
+  const LocalMesh mesh(
+    MeshOf({ { 1, 0, 0 }, { -0.5, 0.8, 0 }, { -0.5, -0.8, 0 }, { 0, 0, 1 }, { 0, 0, -1 } },
+      { { 0, 1, 2, 3 }, { 0, 1, 2, 4 } }));
+  EXPECT_FALSE(mesh.CanCollapse(0, 1));
+  EXPECT_FALSE(mesh.CanCollapse(1, 2));
+}
+
+TEST(LocalMesh, CollapsesAPointInside)
+{
+  test::Random random(11);
+  for (std::uint32_t to = 1; to <= 6; ++to)
+  {
+    LocalMesh mesh(Octahedron(random));
+    EXPECT_TRUE(mesh.CanCollapse(0, to));
+    std::vector<std::uint32_t> changed;
+    mesh.Collapse(0, to, changed);
+    EXPECT_EQ(changed.size(), 4U);
+    EXPECT_EQ(mesh.StarOf(to).end() - mesh.StarOf(to).begin(), 4);
+    EXPECT_EQ(mesh.StarOf(0).end() - mesh.StarOf(0).begin(), 0);
+    const TetrahedronMesh left = mesh.Take();
+    EXPECT_EQ(left.Tetrahedra.size(), 4U);
+    EXPECT_TRUE(std::all_of(left.Tetrahedra.begin(), left.Tetrahedra.end(),
+      [&](const Corners& corners) { return Has(corners, to); }));
+  }
+}
+
+TEST(LocalMesh, TellsWhatCouldBeOnASurfaceOrOnAWall)
+{
+  test::Random random(12);
+  for (const int surface : { -1, 0, 1 })
+  {
+    for (const int wall : { 0, 1, 32 })
+    {
+      TetrahedronMesh mesh = Octahedron(random);
+      for (const std::uint32_t point : { 1U, 3U, 5U })
+      {
+        mesh.Surfaces[point] = static_cast<std::int8_t>(surface);
+        mesh.OnWalls[point] = static_cast<Walls::Type>(wall);
+      }
+      EXPECT_EQ(LocalMesh(mesh).IsAmbiguous({ 0, 1, 3, 5 }), surface != 0 && wall != 0);
+      EXPECT_FALSE(LocalMesh(mesh).IsAmbiguous({ 0, 2, 3, 5 }));
+      const int place = LocalMesh(mesh).PlaceOfFace(1, 3, 5);
+      EXPECT_EQ(place,
+        wall != 0        ? wall
+          : surface == 0 ? 0
+          : surface == 1 ? LocalMesh::UpperSurface
+                         : LocalMesh::LowerSurface);
+    }
+  }
+}
+
+// Of two flat tetrahedra whose points stay: three, around an edge through their common face.
+TEST(Improvement, RemovesFaces)
+{
+  test::Random random(13);
+  int removed = 0;
+  for (int round = 0; round < 300; ++round)
+  {
+    std::vector<Vector> points = { { 0.0, 0.0, test::Uniform(random, 0.05, 0.4) },
+      { 0.0, 0.0, test::Uniform(random, -1.0, -0.05) } };
+    for (int i = 0; i < 3; ++i)
+    {
+      const double angle = (i + test::Uniform(random, -0.15, 0.15)) * 2.0 * std::acos(-1.0) / 3.0;
+      points.push_back({ std::cos(angle), std::sin(angle), test::Uniform(random, -0.02, 0.02) });
+    }
+    TetrahedronMesh two = MeshOf(points, { { 2, 3, 4, 0 }, { 2, 3, 4, 1 } });
+    std::fill(two.OnWalls.begin(), two.OnWalls.end(), Walls::Fixed);
+    const TetrahedronMesh three =
+      MeshOf(points, { { 0, 1, 2, 3 }, { 0, 1, 3, 4 }, { 0, 1, 4, 2 } });
+    const double before = WorstSine(points, two.Tetrahedra);
+    const double after = WorstSine(points, three.Tetrahedra);
+    ImprovementOptions options;
+    const double wanted = std::sin(std::acos(-1.0) / 180.0 * options.WantedAngle);
+    const TetrahedronMesh improved = Improve(two, options, SerialFor);
+    const bool shallBe = before < wanted && after > before + 0.01;
+    EXPECT_EQ(improved.Tetrahedra.size(), shallBe ? 3U : 2U) << before << " " << after;
+    EXPECT_NEAR(WorstSine(points, improved.Tetrahedra), shallBe ? after : before, 1e-9);
+    removed += shallBe ? 1 : 0;
+  }
+  EXPECT_GT(removed, 50);
+  EXPECT_LT(removed, 250);
+}
+
+TEST(LocalMesh, FindsRings)
+{
+  test::Random random(9);
+  const TetrahedronMesh octahedron = Octahedron(random);
+  const LocalMesh mesh(octahedron);
+  LocalMesh::Ring ring;
+  for (std::uint32_t point = 1; point <= 6; ++point)
+  {
+    ASSERT_TRUE(mesh.FindRing(0, point, 4, ring));
+    EXPECT_TRUE(ring.IsClosed);
+    EXPECT_EQ(ring.Points.size(), 4U);
+    EXPECT_EQ(ring.Tetrahedra.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      EXPECT_GT(mesh.SineOf(Corners{ 0, point, ring.Points[i], ring.Points[(i + 1) % 4] }), 0.0);
+    }
+    EXPECT_FALSE(mesh.FindRing(0, point, 3, ring));
+  }
+  ASSERT_TRUE(mesh.FindRing(1, 3, 7, ring));
+  EXPECT_FALSE(ring.IsClosed);
+  EXPECT_EQ(ring.Points.size(), 3U);
+  EXPECT_EQ(ring.Points[1], 0U);
+  EXPECT_FALSE(mesh.FindRing(1, 2, 7, ring)); // no edge
+}
+
+// Of the tetrahedron that the new place is in: in parts that are all positive.
+TEST(LocalMesh, BlendsWhatIsAroundTheNewPlace)
+{
+  test::Random random(10);
+  for (int round = 0; round < 50; ++round)
+  {
+    LocalMesh mesh(Octahedron(random));
+    const Vector to = { test::Uniform(random, -0.2, 0.2), test::Uniform(random, -0.2, 0.2),
+      test::Uniform(random, -0.2, 0.2) };
+    const std::vector<Vector> before = mesh.Mesh().Positions;
+    mesh.Move(0, to);
+    ASSERT_EQ(mesh.Mesh().Blended.size(), 1U);
+    Vector sum{};
+    for (const Share& share : mesh.Mesh().Blended[0].Shares)
+    {
+      EXPECT_GE(share.Part, -1e-12);
+      sum = sum + share.Part * before[share.Point];
+    }
+    EXPECT_NEAR(Dot(sum - to, sum - to), 0.0, 1e-20);
+    EXPECT_NEAR(
+      mesh.WorstAround(0), WorstSine(mesh.Mesh().Positions, mesh.Mesh().Tetrahedra), 1e-9);
+  }
+}
