@@ -309,7 +309,7 @@ def main():
     arguments.add_argument("--lines", type=int, default=25, help="of a file for each fault, 3 faults at least")
     arguments.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments.add_argument("--seconds", type=float, default=float("inf"), help="at most for each fault")
-    arguments.add_argument("--again", action="store_true", help="only those that survived the last time")
+    arguments.add_argument("--again", action="store_true", help="only those that survived, or were not looked for, the last time")
     arguments.add_argument("--list", action="store_true", help="only tells what would be planted")
     arguments.add_argument("files", nargs="*")
     options = arguments.parse_args()
@@ -334,15 +334,17 @@ def main():
     tests = measure_tests(options.jobs)
     print(f"{len(tests)} tests, {sum(seconds for seconds, _ in tests.values()):.0f} s")
     asked = sorted((fault for fault in faults if fault in asked), key=lambda fault: fault.number % 1000)  # all files
-    if options.again:
-        asked = [fault for fault in asked if results.get(fault.key, "") in ("", "-")]
-    print(f"{len(asked)} faults", flush=True)
-
-    hunt = Hunt(tests, faults, options.seconds)
     reasons = {tuple(line.split(" | ")[:2]) for line in HARMLESS.read_text().splitlines()}
 
     def is_harmless(fault):
         return (fault.path, fault.words) in reasons
+
+    if options.again:
+        asked = [fault for fault in asked if results.get(fault.key, "") in ("", "-")
+                 and not (fault.key in results and is_harmless(fault))]
+    print(f"{len(asked)} faults", flush=True)
+
+    hunt = Hunt(tests, faults, options.seconds)
 
     def judge(fault):
         found = hunt.look_for(fault)

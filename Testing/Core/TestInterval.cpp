@@ -94,6 +94,20 @@ TEST(IntervalPatches, AreThoseOfVerticesThatDidNotMove)
   }
 }
 
+TEST(IntervalPatches, AreDifferentChoices)
+{
+  std::size_t choices = 0;
+  for (const auto& patches : MovedPatches())
+  {
+    for (std::size_t i = 0; i < patches.size(); ++i)
+    {
+      EXPECT_EQ(std::find(patches.begin() + i + 1, patches.end(), patches[i]), patches.end());
+    }
+    choices += patches.size() > 1 ? 1 : 0;
+  }
+  EXPECT_GT(choices, 0U);
+}
+
 TEST(IntervalPatches, FillWhatIsInRangeWithPositiveTetrahedra)
 {
   std::mt19937 random(7);

@@ -158,6 +158,28 @@ bool CanTurnRoof(const TetrahedronMesh& mesh, double distance)
 
 }
 
+TEST(InSteps, DoesAllInOrderAndSoManyAtOnce)
+{
+  for (const std::size_t count : { 0U, 1U, 16U, 33U })
+  {
+    std::vector<std::size_t> done;
+    std::vector<std::size_t> sizes;
+    const auto step = [&](std::int64_t many, std::int64_t grain,
+                        const std::function<void(std::int64_t, std::int64_t)>& body)
+    {
+      const std::size_t before = done.size();
+      SerialFor(many, grain, body);
+      sizes.push_back(done.size() - before);
+    };
+    InSteps(step, count, 16, [&](std::size_t i) { done.push_back(i); });
+    EXPECT_EQ(done.size(), count);
+    EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+    EXPECT_EQ(sizes.size(), (count + 15) / 16);
+    EXPECT_TRUE(
+      std::all_of(sizes.begin(), sizes.end(), [](std::size_t size) { return size <= 16; }));
+  }
+}
+
 TEST(RingFilling, IsTheBestOfAll)
 {
   test::Random random(5);
