@@ -217,12 +217,10 @@ private:
     this->Mesh.Move(point, change.Place);
   }
 
-  /** Whether a change of what was worst at a sine would be the best one so far. Beyond what is
-   *  wanted it need not get better than it was. */
-  bool IsBetter(double sine, double before, double gain = LeastGain) const
+  /** Whether a change to a sine would be the best one so far. @param enough it has to be more */
+  bool IsBetter(double sine, double enough) const
   {
-    return sine > this->Least && sine > this->Best.Sine &&
-      sine > std::min(before + gain, this->Wanted);
+    return sine > this->Least && sine > this->Best.Sine && sine > enough;
   }
 
   //--- Moves ------------------------------------------------------------------
@@ -241,7 +239,7 @@ private:
     const double before = this->Mesh.WorstAround(point);
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Wanted);
-    if (this->IsBetter(best.Sine, before) && best.Sine > before + LeastGain)
+    if (this->IsBetter(best.Sine, before + LeastGain))
     {
       this->Best = Change();
       this->Best.Kind = Change::Move;
@@ -269,7 +267,9 @@ private:
         }
       }
     }
-    if (this->IsBetter(sine, this->Mesh.WorstAround(from)) && this->Mesh.CanCollapse(from, to) &&
+    // Nothing is left of what was there: beyond what is wanted it need not get better.
+    const double enough = std::min(this->Mesh.WorstAround(from) + LeastGain, this->Wanted);
+    if (this->IsBetter(sine, enough) && this->Mesh.CanCollapse(from, to) &&
       StaysNear(this->Mesh, from, to, this->Options.SurfaceMove))
     {
       this->Best = Change();
@@ -297,7 +297,7 @@ private:
     }
     std::vector<Corners> fresh;
     const double sine = FillRing(this->Mesh, a, b, ring.Points, fresh);
-    if (this->IsBetter(sine, before) && sine > before + LeastGain && this->AreNew(ring, fresh))
+    if (this->IsBetter(sine, before + LeastGain) && this->AreNew(ring, fresh))
     {
       this->TakeReplacement(sine, ring.Tetrahedra, std::move(fresh));
     }
@@ -363,7 +363,7 @@ private:
       sine = std::min(sine, this->Mesh.SineOf(fresh.back()));
     }
     const double before = std::min(this->Mesh.SineOf(tetrahedron), this->Mesh.SineOf(*other));
-    if (this->IsBetter(sine, before) && sine > before + LeastGain && !this->Mesh.HasEdge(apex, far))
+    if (this->IsBetter(sine, before + LeastGain) && !this->Mesh.HasEdge(apex, far))
     {
       this->TakeReplacement(sine, { tetrahedron, *other }, std::move(fresh));
     }
@@ -415,8 +415,7 @@ private:
     const auto walls = static_cast<Walls::Type>(place);
     const PlacedPoint best = BestPlace(
       star, 0.5 * (this->Mesh.At(a) + this->Mesh.At(b)), walls, this->Options.Axes, this->Wanted);
-    if (this->IsBetter(best.Sine, before, LeastGainOfPoint) &&
-      best.Sine > before + LeastGainOfPoint)
+    if (this->IsBetter(best.Sine, before + LeastGainOfPoint))
     {
       split.Kind = Change::Split;
       split.Sine = best.Sine;
