@@ -41,8 +41,10 @@ constexpr Position Camera = { 3.0, -4.0, 2.5 };
 /** Without an array of colours. */
 constexpr Position PlainColour = { 0.55, 0.7, 0.85 };
 
-/** Drivers may differ in so many pixels of a picture. */
-constexpr int MostDifferent = 10;
+/** Drivers may differ in so many pixels of a picture, which are those of thin lines: few of them
+ * make up squares of four. Versions of VTK were seen to differ in 121, and in no square. */
+constexpr int MostDifferent = 250;
+constexpr int MostSquares = 5;
 
 using Pixel = unsigned char[3];
 
@@ -132,9 +134,9 @@ vtkSmartPointer<vtkDataSet> WithoutNearest(vtkDataSet* data, vtkIdType missing)
 
 ViewFault MissingCells(vtkActor* actor, vtkDataSet* data)
 {
-  // A strip of triangles; a few points are like a few others behind them.
+  // A patch of triangles; some points are like others behind them.
   const bool isOfPoints = data->GetCell(0)->GetCellDimension() == 0;
-  const vtkIdType missing = isOfPoints ? data->GetNumberOfCells() / 40 : 8;
+  const vtkIdType missing = isOfPoints ? data->GetNumberOfCells() / 5 : 24;
   return OtherData(actor, "cells are missing", WithoutNearest(data, missing));
 }
 
@@ -290,13 +292,22 @@ vtkSmartPointer<vtkImageData> Difference(vtkImageData* picture, vtkImageData* ot
 
 bool AreLike(vtkImageData* a, vtkImageData* b)
 {
-  const auto countDifferent = [](vtkImageData* picture, vtkImageData* other)
+  const auto isNear = [](vtkImageData* picture, vtkImageData* other)
   {
     const auto difference = Difference(picture, other);
+    const int width = difference->GetDimensions()[0];
     const auto* first = static_cast<unsigned char*>(difference->GetScalarPointer());
-    return std::count(first, first + difference->GetNumberOfPoints(), 255);
+    const vtkIdType count = difference->GetNumberOfPoints();
+    vtkIdType squares = 0;
+    for (vtkIdType i = 0; i + width + 1 < count; ++i)
+    {
+      const bool isSquare = (i + 1) % width != 0 && first[i] != 0 && first[i + 1] != 0 &&
+        first[i + width] != 0 && first[i + width + 1] != 0;
+      squares += isSquare ? 1 : 0;
+    }
+    return squares <= MostSquares && std::count(first, first + count, 255) <= MostDifferent;
   };
-  return countDifferent(a, b) <= MostDifferent && countDifferent(b, a) <= MostDifferent;
+  return isNear(a, b) && isNear(b, a);
 }
 
 int CountChanged(vtkImageData* a, vtkImageData* b)

@@ -51,7 +51,7 @@ vtkSmartPointer<vtkImageData> Baseline(const std::string& name);
  *  differ by 105 of 255 in each part. */
 vtkSmartPointer<vtkImageData> Difference(vtkImageData* picture, vtkImageData* other);
 
-/** Whether each of two pictures is as the other one, but for a few pixels. */
+/** Whether each of two pictures is as the other one, but for some pixels of thin lines. */
 bool AreLike(vtkImageData* a, vtkImageData* b);
 
 /** The number of pixels that have another colour, in pictures of the same driver. */
