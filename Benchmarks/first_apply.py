@@ -8,8 +8,8 @@ measures errors; then another one, a voxel; and a first Apply at half a voxel at
 panel starts them, but without normals and scalars, which vtkContourFilter makes none of here,
 either. Beside it Contour and Decimate (vtkDecimatePro) for as many triangles as half a voxel has.
 Medians of some runs, each with a new filter; in times of vtkContourFilter, which has one thread, as
-vtkDecimatePro has. RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are synthetic and, where Debian's
-mricron-data is installed, an MRI head.
+vtkDecimatePro has. RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are synthetic and, where
+Debian's mricron-data is installed, an MRI head.
 """
 import argparse
 import os
@@ -36,18 +36,19 @@ def at(contour, tolerance):
 
 
 def waits(image, isovalue, threads):
-    """Milliseconds: full resolution first, the first tolerance, the next one; a tolerance first.
-    And how many triangles that has."""
+    """Milliseconds: full resolution first, the first tolerance, the next one; a tolerance first."""
     voxel = min(image.GetSpacing())
     first, second = (configured(vtkIsodiamondContour(), image, isovalue) for _ in range(2))
     for contour in (first, second):
         contour.SetNumberOfThreads(threads)
-    times = [at(first, 0), at(first, voxel / 2), at(first, voxel), at(second, voxel / 2)]
-    return times, second.GetOutput().GetNumberOfPolys()
+    return [at(first, 0), at(first, voxel / 2), at(first, voxel), at(second, voxel / 2)]
 
 
-def contour_and_decimate(contour, triangles):
-    """Milliseconds of both filters, for a number of triangles."""
+def contour_and_decimate(contour, image, isovalue):
+    """Milliseconds of both filters, for as many triangles as ours has at half a voxel."""
+    ours = configured(vtkIsodiamondContour(), image, isovalue)
+    at(ours, min(image.GetSpacing()) / 2)
+    triangles = ours.GetOutput().GetNumberOfPolys()
     decimate = vtkDecimatePro()
     decimate.SetInputConnection(contour.GetOutputPort())
     decimate.SetTargetReduction(1 - triangles / contour.GetOutput().GetNumberOfPolys())
@@ -89,9 +90,9 @@ def main():
     for name, image, isovalue in volumes:
         reference = configured(vtkContourFilter(), image, isovalue)
         unit = statistics.median(timed(reference) for _ in range(arguments.runs))
-        decimated = contour_and_decimate(reference, waits(image, isovalue, 2)[1])
+        decimated = contour_and_decimate(reference, image, isovalue)
         for threads in (1, 2):
-            runs = [waits(image, isovalue, threads)[0] for _ in range(arguments.runs)]
+            runs = [waits(image, isovalue, threads) for _ in range(arguments.runs)]
             times = [statistics.median(column) for column in zip(*runs)] + [decimated]
             ratios = [f"{time / unit:.2f}" for time in times]
             print("|", " | ".join([name, str(threads), f"{unit:.0f}", *ratios]), "|", flush=True)

@@ -36,7 +36,7 @@ std::vector<int> Walk(const TriangleNeighbours& neighbours, std::uint32_t some,
 
 bool IsNothing(const std::vector<int>& steps)
 {
-  ReducedWalk walk(static_cast<std::uint8_t>(steps[0]));
+  ReducedWalk walk;
   for (const int step : steps)
   {
     walk.Add(static_cast<std::uint8_t>(step));

@@ -71,19 +71,9 @@ public:
   }
 
   /** The corners of the least face, edge or vertex of it that a position in it lies on, as a mask:
-   *  bit 0 for the centre, then the vertices. */
-  std::uint32_t CornersAround(const FinePosition& position) const
-  {
-    std::uint32_t corners = 0;
-    for (int opposite = 0; opposite < 4; ++opposite)
-    {
-      corners |= (this->Faces[opposite].Side(position) != 0 ? 1U : 0U) << opposite;
-    }
-    return corners;
-  }
-
-  /** The same of eight positions or fewer, in short loops that compilers make vector instructions
-   *  of. @pre it is of scale 8 at most: numbers of 32 bits are exact then */
+   *  bit 0 for the centre, then the vertices. Of eight positions or fewer, in short loops that
+   *  compilers make vector instructions of. @pre it is of scale 8 at most: numbers of 32 bits are
+   *  exact then */
   std::array<std::uint32_t, 8> CornersAround(const FinePosition* positions, int count) const
   {
     std::array<float, 8> x{};

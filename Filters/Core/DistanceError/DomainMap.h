@@ -281,7 +281,7 @@ private:
       return true;
     }
     this->FindNeighbours();
-    std::optional<ReducedWalk> border;
+    ReducedWalk border;
     for (int i = 0; i < 3; ++i)
     {
       const Isovertex& from = *corners[i];
@@ -298,18 +298,14 @@ private:
       {
         std::reverse(way.Triangles.begin(), way.Triangles.begin() + way.Count);
       }
-      if (!border)
-      {
-        border.emplace(way.Triangles[0]);
-      }
-      if (!this->GoOn(*border, way.Triangles[0], from.On))
+      if (!this->GoOn(border, way.Triangles[0], from.On))
       {
         return false;
       }
       std::for_each(way.Triangles.begin(), way.Triangles.begin() + way.Count,
-        [&](std::uint8_t triangle) { border->Add(triangle); });
+        [&](std::uint8_t triangle) { border.Add(triangle); });
     }
-    return this->GoOn(*border, border->First(), corners[0]->On) && border->IsNothing();
+    return this->GoOn(border, border.First(), corners[0]->On) && border.IsNothing();
   }
 
   /** Whether an edge may go where it passes from triangle to triangle. */
@@ -334,7 +330,7 @@ private:
   /** Goes on to a triangle at a place that lies on both, by triangles that it lies on. */
   bool GoOn(ReducedWalk& walk, std::uint8_t triangle, std::uint32_t place) const
   {
-    if (walk.Last() == triangle)
+    if (!walk.HasBegun() || walk.Last() == triangle)
     {
       return true;
     }

@@ -95,7 +95,7 @@ FineDomain::Owner MakeOwner(
     {
       const int holder = LowestBit(holders);
       std::uint32_t around = 0;
-      ForEachBit(EdgesBetween(tetrahedra[holder].CornersAround(middle)),
+      ForEachBit(EdgesBetween(tetrahedra[holder].CornersAround(&middle, 1)[0]),
         [&](int i) { around |= 1U << SpineEdgesOf(diamond.Position).OfTetrahedron[holder][i]; });
       owner.EdgeMask |= 1U << edge;
       owner.Edges[edge] = { holders, around };

@@ -78,21 +78,20 @@ private:
 class ReducedWalk
 {
 public:
-  explicit ReducedWalk(std::uint8_t first) { this->Triangles[0] = first; }
-
-  /** A step, to a neighbour or nowhere. */
+  /** Begins, or takes a step to a neighbour or nowhere. */
   void Add(std::uint8_t triangle)
   {
     if (this->Count >= 2 && this->Triangles[this->Count - 2] == triangle)
     {
       --this->Count;
     }
-    else if (this->Last() != triangle)
+    else if (this->Count == 0 || this->Last() != triangle)
     {
       this->Triangles[this->Count++] = triangle;
     }
   }
 
+  bool HasBegun() const { return this->Count > 0; }
   std::uint8_t First() const { return this->Triangles[0]; }
   std::uint8_t Last() const { return this->Triangles[this->Count - 1]; }
 
@@ -100,7 +99,7 @@ public:
   bool IsNothing() const { return this->Count == 1; }
 
 private:
-  int Count = 1;
+  int Count = 0;
   /** Of the border of a triangle: three edges, and between them three corners. */
   std::array<std::uint8_t, 6 * MostPatchTriangles> Triangles;
 };

@@ -108,15 +108,7 @@ public:
     const Point high = low + Point{ Width - 1, Width - 1, Width - 1 };
     const int h = 1 << scale;
     this->IsWhole = hierarchy.TheGrid.IsSampled(h * low) && hierarchy.TheGrid.IsSampled(h * high);
-    for (int parity = 1; parity < 8; ++parity)
-    {
-      const ParityTable& shape = tables::Parities[parity];
-      for (int i = 0; i < shape.VertexCount; ++i)
-      {
-        this->Strides[parity][i] = this->IndexOf(shape.Offsets[i]);
-      }
-    }
-    this->First = this->IndexOf(low);
+    this->First = Index(low);
     this->Signs.fill(Unknown);
     hierarchy.Set.ForEachInBrick(scale, brick,
       [&](const Place& place, std::uint32_t rank) {
@@ -130,14 +122,13 @@ public:
     const Grid& grid = this->Hierarchy.TheGrid;
     const bool hasCentre = this->IsWhole || grid.IsSampled(Centre(diamond));
     DiamondSigns signs(this->Hierarchy.Region(), hasCentre ? this->Hierarchy.Sign(rank) : -1);
-    const int parity = Parity(diamond.Position);
-    const ParityTable& shape = tables::Parities[parity];
+    const ParityTable& shape = tables::Parities[Parity(diamond.Position)];
     const int index = this->IndexOf(diamond.Position);
     for (int i = 0; i < shape.VertexCount; ++i)
     {
       if (this->IsWhole || grid.IsSampled(VertexAt(diamond, shape.Offsets[i])))
       {
-        std::int8_t& sign = this->Signs[index + this->Strides[parity][i]];
+        std::int8_t& sign = this->Signs[index + Index(shape.Offsets[i])];
         if (sign == Unknown)
         {
           sign = this->LookUp(diamond.Position + shape.Offsets[i]);
@@ -161,17 +152,17 @@ private:
         : this->Hierarchy.SignAt({ this->Scale, position }));
   }
 
-  int IndexOf(const Point& position) const
+  static int Index(const Point& offset)
   {
-    return position[0] + Width * (position[1] + Width * position[2]) - this->First;
+    return offset[0] + Width * (offset[1] + Width * offset[2]);
   }
+  int IndexOf(const Point& position) const { return Index(position) - this->First; }
 
   const IsodiamondHierarchy& Hierarchy;
   int Scale;
   BrickWindow Window;
-  int First = 0;        ///< index of the first point, without the offset
+  int First = 0;        ///< Index() of the first point
   bool IsWhole = false; ///< whether all points have samples
-  std::array<std::array<int, MaximumVertices>, 8> Strides{}; ///< by parity and vertex, of indices
   std::array<std::int8_t, Width * Width * Width> Signs;
 };
 
