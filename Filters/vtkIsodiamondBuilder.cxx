@@ -5,6 +5,7 @@
 #include "Private/Input.h"
 #include "Private/Piece.h"
 #include "Private/PointData.h"
+#include "Private/Slabs.h"
 #include "Private/State.h"
 #include "Private/Task.h"
 #include "Private/Threads.h"
@@ -50,6 +51,8 @@ void vtkIsodiamondBuilder::PrintSelf(ostream& os, vtkIndent indent)
     os << " \"" << name << "\"";
   }
   os << "\n" << indent << "ComputeNormals: " << (this->ComputeNormals ? "On" : "Off") << "\n";
+  os << indent << "NumberOfBlocks: " << this->NumberOfBlocks << "\n";
+  os << indent << "NumberOfSlabs: " << this->NumberOfSlabs << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
 
@@ -137,8 +140,27 @@ int vtkIsodiamondBuilder::ModifyRequest(vtkInformation* request, int when)
 int vtkIsodiamondBuilder::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  vtkIsodiamond::RequestWhole(inputVector[0]->GetInformationObject(0));
+  vtkInformation* input = inputVector[0]->GetInformationObject(0);
+  this->NumberOfSlabs =
+    this->CanBeCut() ? vtkIsodiamond::CountSlabs(input, this->NumberOfBlocks) : 1;
+  if (this->NumberOfSlabs > 1)
+  {
+    vtkIsodiamond::RequestSlab(input, this->NumberOfSlabs);
+  }
+  else
+  {
+    vtkIsodiamond::RequestWhole(input);
+  }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsodiamondBuilder::CanBeCut() const
+{
+  const bool isVolume = this->Shape == vtkIsodiamondHierarchy::INTERVAL_VOLUME;
+  return this->Model != vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS &&
+    this->ErrorMetric != vtkIsodiamondHierarchy::FIELD &&
+    (isVolume ? !this->RefineInterior : !this->CloseBoundary);
 }
 
 //------------------------------------------------------------------------------
@@ -150,7 +172,10 @@ int vtkIsodiamondBuilder::RequestData(
     [&](vtkIsodiamond::Task& task)
     {
       vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-      vtkIsodiamond::CheckWhole(input, inputVector[0]->GetInformationObject(0), this->Piece);
+      if (this->NumberOfSlabs == 1)
+      {
+        vtkIsodiamond::CheckWhole(input, inputVector[0]->GetInformationObject(0), this->Piece);
+      }
       this->Build(input, task, output);
       if (this->Piece[0] > 0)
       {
@@ -176,8 +201,18 @@ void vtkIsodiamondBuilder::Build(
   {
     this->BuildFromHierarchy(hierarchy, task, output);
   }
+  else if (this->NumberOfSlabs > 1)
+  {
+    this->BuildFromSlabs(task, output);
+  }
   else
   {
+    if (this->NumberOfBlocks > 1)
+    {
+      vtkWarningMacro("The input comes at once, not in blocks: only images from sources that make "
+                      "parts of them do, for relevant and minimal hierarchies by the distance "
+                      "metric, without a refined interior and without closing the boundary.");
+    }
     this->BuildFromImage(vtkImageData::SafeDownCast(input), task, output);
   }
   this->Built = vtkSmartPointer<vtkIsodiamondHierarchy>::New();
@@ -274,6 +309,35 @@ void vtkIsodiamondBuilder::BuildFromImage(
         pointArrays = vtkIsodiamond::MakeStoredPointData(volume,
           { this->ComputeNormals, false, !this->PointArrays.empty(), this->PointArrays }, hierarchy,
           task.For());
+      }
+    });
+  vtkIsodiamond::WriteIsodiamonds(encoding, choice, world, volume.ArrayName, pointArrays, output);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondBuilder::BuildFromSlabs(vtkIsodiamond::Task& task, vtkPolyData* output)
+{
+  const vtkIsodiamond::Choice choice = this->GetChoice();
+  const vtkIsodiamond::Slabs slabs(this->GetInputInformation(0, 0), this->NumberOfSlabs,
+    [this](vtkDataSet* part) { return this->FindInputArray(part); });
+  const vtkIsodiamond::Volume volume = slabs.WholeVolume();
+  const isodiamond::AffineMap& world = *volume.Placement.World.Affine(); // as all images'
+  isodiamond::BuildOptions options = this->GetOptions(world);
+  options.Report = task.Report();
+  isodiamond::Encoding encoding;
+  std::vector<vtkSmartPointer<vtkDataArray>> pointArrays;
+  vtkIsodiamond::RunThreaded(this->NumberOfThreads,
+    [&]
+    {
+      encoding =
+        vtkIsodiamond::BuildInSlabs(slabs, choice.Region(), options, task)
+          .Finish(static_cast<isodiamond::Model>(this->Model), volume.Samples, task.For(), options);
+      if (!this->PointArrays.empty() || this->ComputeNormals)
+      {
+        const isodiamond::IsodiamondHierarchy hierarchy(encoding, task.For());
+        pointArrays = vtkIsodiamond::MakeStoredPointData(slabs,
+          { this->ComputeNormals, false, !this->PointArrays.empty(), this->PointArrays }, hierarchy,
+          task);
       }
     });
   vtkIsodiamond::WriteIsodiamonds(encoding, choice, world, volume.ArrayName, pointArrays, output);

@@ -217,6 +217,22 @@ public:
 
   ///@{
   /**
+   * Into how many slabs of slices an image is cut, so that no more than one of them is in memory:
+   * each is asked for twice, and once more if the hierarchy carries point arrays. The hierarchy is
+   * the same however it is cut. 0: one, or as many as keep the image within the memory that is
+   * free. For relevant and minimal hierarchies by the distance metric, without RefineInterior of an
+   * interval volume, CloseBoundary and blanked cells, of images from sources that make parts of
+   * them; else the image comes at once, with a warning if more than one was asked for. Default: 0.
+   */
+  vtkSetClampMacro(NumberOfBlocks, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfBlocks, int);
+  ///@}
+
+  /** How many slabs the last execution asked for; 1 if the input came at once. */
+  vtkGetMacro(NumberOfSlabs, int);
+
+  ///@{
+  /**
    * Threads to use; 0 for all cores. The result does not depend on it. Default: 0.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
@@ -254,6 +270,7 @@ protected:
   bool CloseBoundary = false;
   std::vector<std::string> PointArrays;
   bool ComputeNormals = false;
+  int NumberOfBlocks = 0;
   int NumberOfThreads = 0;
   int Piece[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
 
@@ -266,10 +283,13 @@ private:
   isodiamond::BuildOptions GetOptions(const isodiamond::AffineMap& world) const;
   void CheckModel() const;
   void WarnWithoutPointArrays();
+  bool CanBeCut() const;
   void BuildFromImage(vtkImageData* image, vtkIsodiamond::Task& task, vtkPolyData* output);
+  void BuildFromSlabs(vtkIsodiamond::Task& task, vtkPolyData* output);
   void BuildFromHierarchy(vtkPolyData* input, vtkIsodiamond::Task& task, vtkPolyData* output);
   void Build(vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output);
 
+  int NumberOfSlabs = 1;
   /** What was built, of what, and when: in parallel extractors ask for the only piece of the
    *  hierarchy, and whoever shows it for one of several. That is the same hierarchy. */
   vtkSmartPointer<vtkIsodiamondHierarchy> Built;

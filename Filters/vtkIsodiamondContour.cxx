@@ -104,8 +104,8 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   options.WithValues = this->ComputeScalars != 0;
   options.PointsPrecision = this->OutputPointsPrecision;
   options.Hidden = &volume.Hidden;
-  options.MorePointData = vtkIsodiamond::FromVolume(volume,
-    { this->ComputeNormals != 0, this->ComputeGradients != 0, this->InterpolateAttributes != 0 });
+  const vtkIsodiamond::VolumePointData wanted{ this->ComputeNormals != 0,
+    this->ComputeGradients != 0, this->InterpolateAttributes != 0 };
   const std::vector<isodiamond::Isoregion> regions = this->GetRegions();
   const auto count = static_cast<double>(regions.size());
   vtkNew<vtkAppendPolyData> append;
@@ -115,7 +115,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   {
     vtkIsodiamond::Task part = task.Part(i / count, (i + 1) / count);
     vtkNew<vtkPolyData> contour;
-    this->ExtractMesh(volume, regions[i], query, options, part).Give(contour);
+    this->ExtractMesh(volume, regions[i], query, wanted, options, part).Give(contour);
     append->AddInputData(contour);
     kibibytes += contour->GetActualMemorySize();
   }

@@ -95,10 +95,10 @@ void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   vtkIsodiamond::MeshOptions options{ volume.Placement.World, volume.ArrayName };
   options.PointsPrecision = this->OutputPointsPrecision;
   options.Hidden = &volume.Hidden;
-  options.MorePointData = vtkIsodiamond::FromVolume(
-    volume, { false, this->ComputeGradients != 0, this->InterpolateAttributes != 0 });
+  const vtkIsodiamond::VolumePointData wanted{ false, this->ComputeGradients != 0,
+    this->InterpolateAttributes != 0 };
   const vtkIsodiamond::Mesh mesh =
-    this->ExtractMesh(volume, this->GetRegions().front(), query, options, task);
+    this->ExtractMesh(volume, this->GetRegions().front(), query, wanted, options, task);
   mesh.Give(vtkUnstructuredGrid::SafeDownCast(output), true);
   this->NoteDihedralAngles(mesh, output);
 }

@@ -9,7 +9,9 @@
 #include "Private/Input.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
+#include "Private/PointData.h"
 #include "Private/Simplify.h"
+#include "Private/Slabs.h"
 #include "Private/Target.h"
 #include "Private/Task.h"
 #include "Private/Threads.h"
@@ -71,6 +73,8 @@ void vtkIsodiamondVolumeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumPieceSize: " << this->MinimumPieceSize << "\n";
   os << indent << "InterpolateAttributes: " << (this->InterpolateAttributes ? "On" : "Off") << "\n";
   os << indent << "CacheSize: " << this->CacheSize << "\n";
+  os << indent << "NumberOfBlocks: " << this->NumberOfBlocks << "\n";
+  os << indent << "NumberOfSlabs: " << this->NumberOfSlabs << "\n";
   os << indent << "NumberOfBuilds: " << this->GetNumberOfBuilds() << "\n";
   os << indent << "NumberOfCachedHierarchies: " << this->GetNumberOfCachedHierarchies() << "\n";
   os << indent << "NumberOfRemovedPieces: " << this->NumberOfRemovedPieces << "\n";
@@ -133,6 +137,28 @@ vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataSe
 }
 
 //------------------------------------------------------------------------------
+bool vtkIsodiamondVolumeAlgorithm::CanBeCut() const
+{
+  return this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && !this->ClosesBoundary() &&
+    this->GetQuery().InteriorTolerance >= VTK_DOUBLE_MAX;
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondVolumeAlgorithm::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInformation* input = inputVector[0]->GetInformationObject(0);
+  this->NumberOfSlabs =
+    this->CanBeCut() ? vtkIsodiamond::CountSlabs(input, this->NumberOfBlocks) : 1;
+  if (this->NumberOfSlabs == 1)
+  {
+    return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  }
+  vtkIsodiamond::RequestSlab(input, this->NumberOfSlabs);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkIsodiamondVolumeAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -143,11 +169,29 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
     {
       vtkIsodiamond::WorldQuery query = this->GetQuery();
       vtkIsodiamond::CheckTolerances(query);
+      vtkInformation* input = inputVector[0]->GetInformationObject(0);
       vtkDataSet* grid = vtkDataSet::GetData(inputVector[0]);
-      vtkIsodiamond::CheckWhole(grid, inputVector[0]->GetInformationObject(0), this->Piece);
-      const vtkIsodiamond::InputArray array = this->FindInputArray(grid);
-      const vtkIsodiamond::Volume volume =
-        vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
+      vtkIsodiamond::InputArray array;
+      std::optional<vtkIsodiamond::Slabs> slabs;
+      vtkIsodiamond::Volume volume;
+      if (this->NumberOfSlabs > 1)
+      {
+        slabs.emplace(input, this->NumberOfSlabs,
+          [this](vtkDataSet* part) { return this->FindInputArray(part); });
+        volume = slabs->WholeVolume();
+      }
+      else
+      {
+        if (this->NumberOfBlocks > 1)
+        {
+          vtkWarningMacro("The input comes at once, not in blocks: only images from sources that "
+                          "make parts of them do, by the distance metric, without an interior "
+                          "tolerance and without closing the boundary.");
+        }
+        vtkIsodiamond::CheckWhole(grid, input, this->Piece);
+        array = this->FindInputArray(grid);
+        volume = vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
+      }
       const double unit = this->GetUnit(volume.Placement.World.SmallestStep());
       query.ErrorTolerance *= unit;
       query.OutsideErrorTolerance *= unit;
@@ -299,12 +343,18 @@ isodiamond::BuildOptions vtkIsodiamondVolumeAlgorithm::GetOptions(
 //------------------------------------------------------------------------------
 vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamond::Volume& volume,
   const isodiamond::Isoregion& region, const vtkIsodiamond::WorldQuery& query,
-  const vtkIsodiamond::MeshOptions& options, vtkIsodiamond::Task& task)
+  const vtkIsodiamond::VolumePointData& wanted, vtkIsodiamond::MeshOptions options,
+  vtkIsodiamond::Task& task)
 {
   constexpr double buildPart = 0.8;
   vtkIsodiamond::Task building = task.Part(0.0, buildPart);
+  const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
   const isodiamond::IsodiamondHierarchy& hierarchy =
-    this->Hierarchies->Get(volume, region, NeedOf(query, volume), building);
+    this->Hierarchies->Get(volume, region, need, building);
+  options.MorePointData = volume.InSlabs
+    ? vtkIsodiamond::FromHierarchy(
+        hierarchy, this->Hierarchies->StoredPointData(volume, region, need, wanted, building))
+    : vtkIsodiamond::FromVolume(volume, wanted);
   this->RemovedFromBlock += hierarchy.Header().RemovedPieces;
   vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
   return vtkIsodiamond::ExtractAsAsked(hierarchy, query, options, extracting);

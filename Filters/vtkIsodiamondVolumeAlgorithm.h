@@ -14,7 +14,8 @@
  * on images and rectilinear grids, however these are spaced; on structured grids tolerances are by
  * the field metric. Full resolution needs no metric.
  *
- * The whole input is requested. In parallel every process makes the whole mesh and keeps its share
+ * The whole input is requested, or slab after slab of it if memory is short (NumberOfBlocks). In
+ * parallel every process makes the whole mesh and keeps its share
  * of the cells: all pieces together are the mesh, with each cell once.
  *
  * @sa vtkIsodiamondContour vtkIsodiamondIntervalVolume
@@ -45,6 +46,7 @@ struct Mesh;
 struct MeshOptions;
 class Task;
 struct Volume;
+struct VolumePointData;
 }
 
 class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondVolumeAlgorithm : public vtkIsodiamondAlgorithm
@@ -153,6 +155,23 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Into how many slabs of slices the input is cut, so that no more than one of them is in memory:
+   * each is asked for three times, for signs, isovertices and point data, when a hierarchy is
+   * built. The mesh is the same however it is cut. 0: one, or as many as keep the input within the
+   * memory that is free. Slabs are for images by the distance metric, without an interior
+   * tolerance, CloseBoundary and blanked cells, from sources that make parts of an image; else the
+   * input comes at once, with a warning if more than one was asked for. Hierarchies are known again
+   * by upstream's modification times then, not by content. Default: 0.
+   */
+  vtkSetClampMacro(NumberOfBlocks, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfBlocks, int);
+  ///@}
+
+  /** How many slabs the last execution asked for; 1 if the input came at once. */
+  vtkGetMacro(NumberOfSlabs, int);
+
+  ///@{
   /** How many hierarchies this filter has built so far, and keeps. */
   vtkIdType GetNumberOfBuilds();
   vtkIdType GetNumberOfCachedHierarchies();
@@ -172,6 +191,8 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   /** Blocks of one execution come after it. */
   int ModifyRequest(vtkInformation* request, int when) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -189,10 +210,12 @@ protected:
   virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) = 0;
 
-  /** The mesh of a region: its hierarchy is one of the cache, refined by a query. */
+  /** The mesh of a region: its hierarchy is one of the cache, refined by a query.
+   *  @param wanted of the volume at the points */
   vtkIsodiamond::Mesh ExtractMesh(const vtkIsodiamond::Volume& volume,
     const isodiamond::Isoregion& region, const vtkIsodiamond::WorldQuery& query,
-    const vtkIsodiamond::MeshOptions& options, vtkIsodiamond::Task& task);
+    const vtkIsodiamond::VolumePointData& wanted, vtkIsodiamond::MeshOptions options,
+    vtkIsodiamond::Task& task);
 
   vtkIsodiamond::InputArray FindInputArray(vtkDataSet* input);
 
@@ -204,6 +227,7 @@ protected:
   int MinimumPieceSize = 0;
   vtkTypeBool InterpolateAttributes = 1;
   int CacheSize = 512;
+  int NumberOfBlocks = 0;
 
 private:
   vtkIsodiamondVolumeAlgorithm(const vtkIsodiamondVolumeAlgorithm&) = delete;
@@ -220,7 +244,10 @@ private:
     const vtkIsodiamond::WorldQuery& query, double unit, vtkIsodiamond::Task& task,
     vtkDataObject* output);
 
+  bool CanBeCut() const;
+
   std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
+  int NumberOfSlabs = 1;
   vtkIdType NumberOfRemovedPieces = 0;
   vtkIdType RemovedFromBlock = 0; ///< counts as soon as all of the block is well
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Cache.h"
 
+#include "Private/Slabs.h"
+
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -45,7 +47,7 @@ bool Cache::Source::operator==(const Source& other) const
 void Cache::Prepare(
   vtkDataArray* array, const Volume& volume, const isodiamond::BuildOptions& options)
 {
-  this->Current.Samples = this->Hashes.Of(array);
+  this->Current.Samples = volume.InSlabs ? volume.InSlabs->Stamp() : this->Hashes.Of(array);
   this->Current.HiddenPoints = this->Hashes.Of(volume.Grid->GetPointGhostArray());
   this->Current.HiddenCells = this->Hashes.Of(volume.Grid->GetCellGhostArray());
   this->Current.Dimensions = volume.Dimensions;
@@ -88,7 +90,11 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
     entry.Region = region;
     entry.RefineInterior = need.RefinedInterior;
     // Where cells are hidden, what is inside of a volume is refined, too: by its errors.
-    if (need.Errors || need.RefinedInterior || (region.IsVolume() && volume.Hidden.Any()))
+    if (volume.InSlabs)
+    {
+      entry.Staged.emplace(BuildInSlabs(*volume.InSlabs, region, options, task));
+    }
+    else if (need.Errors || need.RefinedInterior || (region.IsVolume() && volume.Hidden.Any()))
     {
       entry.Encoding =
         isodiamond::BuildIsodiamonds(model, volume.Samples, region, task.For(), options);
@@ -126,6 +132,20 @@ const isodiamond::CellCounts& Cache::Count(const Volume& volume,
     entry.CountedInside = interiorTolerance;
   }
   return *entry.Counts;
+}
+
+const std::vector<vtkSmartPointer<vtkDataArray>>& Cache::StoredPointData(const Volume& volume,
+  const isodiamond::Isoregion& region, const Need& need, const VolumePointData& wanted, Task& task)
+{
+  const isodiamond::IsodiamondHierarchy& hierarchy = this->Get(volume, region, need, task);
+  Entry& entry = this->Entries.front();
+  if (!entry.Stored || !(*entry.Stored == wanted))
+  {
+    entry.Stored.reset();
+    entry.StoredArrays = MakeStoredPointData(*volume.InSlabs, wanted, hierarchy, task);
+    entry.Stored = wanted;
+  }
+  return entry.StoredArrays;
 }
 
 void Cache::Trim(std::int64_t bytes)

@@ -2,10 +2,11 @@
 #ifndef vtkIsodiamond_Cache_h
 #define vtkIsodiamond_Cache_h
 
-#include "Build/Builder.h"
+#include "Build/StagedBuild.h"
 #include "Mesh/CellCounts.h"
 #include "Private/ContentHash.h"
 #include "Private/Input.h"
+#include "Private/PointData.h"
 #include "Private/Task.h"
 
 #include "vtkType.h"
@@ -50,6 +51,12 @@ public:
   const isodiamond::CellCounts& Count(const Volume& volume, const isodiamond::Isoregion& region,
     const Need& need, double interiorTolerance, Task& task);
 
+  /** What points of its meshes have, of a volume in slabs: one value a stored point. Kept until
+   *  something else is wanted, or the hierarchy is forgotten. */
+  const std::vector<vtkSmartPointer<vtkDataArray>>& StoredPointData(const Volume& volume,
+    const isodiamond::Isoregion& region, const Need& need, const VolumePointData& wanted,
+    Task& task);
+
   /** Forgets all but what was used since the last time, and as much more as fits. */
   void Trim(std::int64_t bytes);
 
@@ -82,6 +89,8 @@ private:
     std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy; ///< of the encoding
     std::optional<isodiamond::CellCounts> Counts;
     double CountedInside = 0.0; ///< the interior tolerance of the counts
+    std::optional<VolumePointData> Stored;
+    std::vector<vtkSmartPointer<vtkDataArray>> StoredArrays;
 
     const isodiamond::IsodiamondHierarchy& Current() const
     {

@@ -19,6 +19,8 @@ class vtkInformation;
 namespace vtkIsodiamond
 {
 
+class Slabs;
+
 /** The volume that a filter works on: samples in index space, and where they are in the world. */
 struct Volume
 {
@@ -30,6 +32,9 @@ struct Volume
   Geometry Placement; ///< of the samples, padding included
   isodiamond::HiddenCells Hidden;
   std::string ArrayName;
+  /** Where the samples come from, if they are not at hand: neither they nor other arrays are above
+   *  then, and their number is 0. */
+  const Slabs* InSlabs = nullptr;
 };
 
 /** An array and what it is of, as vtkDataObject::FIELD_ASSOCIATION_... says. */

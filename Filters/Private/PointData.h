@@ -34,6 +34,12 @@ struct VolumePointData
   bool Others = false;    ///< all other point arrays, interpolated trilinearly
   /** Of the others these only, if there are any. */
   std::vector<std::string> Names = {};
+
+  bool operator==(const VolumePointData& other) const
+  {
+    return this->Normals == other.Normals && this->Gradients == other.Gradients &&
+      this->Others == other.Others && this->Names == other.Names;
+  }
 };
 
 /**

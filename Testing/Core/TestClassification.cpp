@@ -2,6 +2,7 @@
 // Kinds and counts against the reference; the paper's table 1 and theorem 7.1 over all duets.
 #include "Build/Builder.h"
 #include "Build/Classification.h"
+#include "Build/StagedBuild.h"
 #include "CoreTestTools.h"
 #include "RandomTestTools.h"
 

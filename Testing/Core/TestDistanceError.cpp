@@ -90,8 +90,8 @@ void ExpectReferencesErrors(const test::Field& field, const GridGeometry& world,
       const test::Built relevant = test::Build(Model::Relevant, field, test::Placement(exact));
       const Grid& grid = relevant.Hierarchy->SampleGrid();
       const reference::ErrorCodes codes(DistanceErrorScale(grid, world));
-      const std::vector<ErrorCode::Type> found =
-        DistanceErrors(*relevant.Hierarchy, field.View(), world, preserve, test::ThreadedFor(2));
+      const std::vector<ErrorCode::Type> found = DistanceErrors(
+        *relevant.Hierarchy, Finiteness(field.View()), world, preserve, test::ThreadedFor(2));
       const std::vector<double> expected = reference::OwnDistanceErrors(
         hierarchy, field.Reference(), field.Isovalue, inReference, exact, preserve);
       for (int i = 0; i < hierarchy.Size(); ++i)
@@ -162,8 +162,10 @@ TEST(DistanceError, IsThatOfTheMapAlongEvenAxes)
       EXPECT_EQ(DistanceErrorScale(grid, axes), DistanceErrorScale(grid, world));
       for (const bool preserve : { true, false })
       {
-        EXPECT_EQ(DistanceErrors(*relevant.Hierarchy, field.View(), axes, preserve, SerialFor),
-          DistanceErrors(*relevant.Hierarchy, field.View(), world, preserve, SerialFor));
+        EXPECT_EQ(
+          DistanceErrors(*relevant.Hierarchy, Finiteness(field.View()), axes, preserve, SerialFor),
+          DistanceErrors(
+            *relevant.Hierarchy, Finiteness(field.View()), world, preserve, SerialFor));
       }
     }
   }
@@ -180,8 +182,9 @@ TEST(DistanceError, GoesOnInPaddingAsInTheOutermostCells)
     axis.push_back(2.0 * axis.back() - axis[axis.size() - 2]);
   }
   const test::Built relevant = test::Build(Model::Relevant, field);
-  const auto errors = [&](const GridGeometry& world)
-  { return DistanceErrors(*relevant.Hierarchy, field.View(), world, false, SerialFor); };
+  const auto errors = [&](const GridGeometry& world) {
+    return DistanceErrors(*relevant.Hierarchy, Finiteness(field.View()), world, false, SerialFor);
+  };
   const std::vector<ErrorCode::Type> found = errors(GridGeometry(inner, 1));
   const std::vector<ErrorCode::Type> expected = errors(GridGeometry(padded));
   ASSERT_EQ(found.size(), expected.size());
@@ -355,7 +358,7 @@ TEST(DistanceError, OfEveryLeafIsTolerated)
       BuildIsodiamonds(Model::Relevant, field.View(), region, SerialFor, options), SerialFor);
     followers += built.Encoding.Arrays.Followers.size();
     const std::vector<ErrorCode::Type> own =
-      DistanceErrors(*built.Hierarchy, field.View(), options.World, true, SerialFor);
+      DistanceErrors(*built.Hierarchy, Finiteness(field.View()), options.World, true, SerialFor);
     for (int i = 0; i < 10; ++i)
     {
       const Query query = test::RandomQuery(numbers, *built.Hierarchy, options.World);
@@ -429,7 +432,7 @@ TEST(DistanceError, MeasuresLengthsWhateverTheOrientation)
   const AffineMap world = test::Spacing(0.5, 2.0, 1.25);
   const test::Built relevant = test::Build(Model::Relevant, field);
   const auto errors = [&](const AffineMap& map)
-  { return DistanceErrors(*relevant.Hierarchy, field.View(), map, true, SerialFor); };
+  { return DistanceErrors(*relevant.Hierarchy, Finiteness(field.View()), map, true, SerialFor); };
   const std::vector<ErrorCode::Type> straight = errors(world);
   const std::vector<ErrorCode::Type> turned = errors(Rotated(world));
   ASSERT_EQ(straight.size(), turned.size());
@@ -518,9 +521,9 @@ namespace
 struct Maxima
 {
   test::Built Relevant = test::Build(Model::Relevant, Field());
-  test::Field Samples = Field();
+  Finiteness Finite{ Field().View() };
   MapBounds None;
-  ErrorMaxima Errors{ *Relevant.Hierarchy, Samples.View(), AffineMap(), 1.0, true,
+  ErrorMaxima Errors{ *Relevant.Hierarchy, Finite, AffineMap(), 1.0, true,
     std::vector<ErrorCode::Type>(Relevant.Hierarchy->Diamonds().Size(), 0), None };
 
   static test::Field Field() { return test::NoiseField({ 9, 9, 9 }, 61); }

@@ -129,7 +129,7 @@ TEST(LargeFields, HaveTheReferencesErrorsWhereThereIsLittle)
     const test::Built relevant = test::Build(Model::Relevant, field);
     const Grid& grid = relevant.Hierarchy->SampleGrid();
     const std::vector<ErrorCode::Type> found =
-      DistanceErrors(*relevant.Hierarchy, field.View(), AffineMap(), true, SerialFor);
+      DistanceErrors(*relevant.Hierarchy, Finiteness(field.View()), AffineMap(), true, SerialFor);
     const reference::ErrorCodes codes(DistanceErrorScale(grid, AffineMap()));
     for (int i = 0; i < hierarchy.Size(); ++i)
     {

@@ -83,7 +83,7 @@ TEST(MapBounds, BoundTheWayBackFromEveryFlatPatch)
     const IsodiamondHierarchy& hierarchy = map.Hierarchy();
     MapBounds bounds(hierarchy.Diamonds().Size(), 1);
     ASSERT_TRUE(bounds.AreWanted());
-    DistanceErrors(hierarchy, field.View(), map.World, true, SerialFor, {}, &bounds);
+    DistanceErrors(hierarchy, Finiteness(field.View()), map.World, true, SerialFor, {}, &bounds);
     const ErrorCode code(DistanceErrorScale(hierarchy.SampleGrid(), map.World));
     int found = 0;
     int coarse = 0;

@@ -167,8 +167,8 @@ public:
   void Check(const GridGeometry& world, bool preserve, const HiddenCells* hidden, Seen& seen) const
   {
     MapBounds bounds(this->Hierarchy.Diamonds().Size(), this->Hierarchy.Region().SurfaceCount());
-    const std::vector<ErrorCode::Type> before =
-      DistanceErrors(this->Hierarchy, this->Samples, world, preserve, SerialFor, {}, &bounds);
+    const std::vector<ErrorCode::Type> before = DistanceErrors(
+      this->Hierarchy, Finiteness(this->Samples), world, preserve, SerialFor, {}, &bounds);
     const BeforeWayBack known{ hidden, seen.Compared % 3 != 0 ? &bounds : nullptr, {} };
     std::vector<ErrorCode::Type> raised = before;
     RaiseByWayBack(this->Hierarchy, world, known, raised, SerialFor);

@@ -7,7 +7,7 @@
 #include "Hierarchy/IsodiamondHierarchy.h"
 #include "Hierarchy/ScalarHierarchy.h"
 
-#include <memory>
+#include <cstdint>
 
 namespace isodiamond
 {
@@ -48,40 +48,6 @@ struct BuildOptions
  */
 Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options = {});
-
-/**
- * The same in two steps, for who shows full resolution first: that needs no errors.
- *
- * Between the steps it keeps what it has found, but not the samples: who finishes it brings them
- * again.
- */
-class StagedBuild
-{
-public:
-  /** @throws std::invalid_argument as BuildIsodiamonds() */
-  StagedBuild(const AnySamples& samples, const Isoregion& region, const ParallelFor& parallelFor,
-    const BuildOptions& options);
-  ~StagedBuild();
-  StagedBuild(StagedBuild&&) noexcept;
-  StagedBuild& operator=(StagedBuild&&) noexcept;
-  StagedBuild(const StagedBuild&) = delete;
-  StagedBuild& operator=(const StagedBuild&) = delete;
-
-  /** An RI whose diamonds are all always subdivided: full resolution at any tolerance. Valid until
-   *  the end of Finish(). */
-  const IsodiamondHierarchy& FullResolution() const;
-
-  /** The second step: what BuildIsodiamonds() returns, to the bit. Once only; after an exception,
-   *  as of who stops it, again.
-   *  @param samples the same, wherever they are now
-   *  @param options the same, but Hidden may be elsewhere and Report another */
-  Encoding Finish(Model model, const AnySamples& samples, const ParallelFor& parallelFor,
-    const BuildOptions& options);
-
-private:
-  struct State;
-  std::unique_ptr<State> Kept;
-};
 
 /** The same from an HD, which has the field errors already; the result is the same to the bit.
  *  @throws std::invalid_argument if small pieces are to be removed */

@@ -21,12 +21,12 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world)
 }
 
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
-  const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
+  const Finiteness& isFinite, const GridGeometry& world, bool preserveFeatures,
   const ParallelFor& parallelFor, std::vector<ErrorCode::Type> codes, MapBounds* bounds)
 {
   MapBounds none;
   codes.resize(relevant.Diamonds().Size(), 0);
-  ErrorMaxima errors(relevant, samples, world, DistanceErrorScale(relevant.SampleGrid(), world),
+  ErrorMaxima errors(relevant, isFinite, world, DistanceErrorScale(relevant.SampleGrid(), world),
     preserveFeatures, codes, bounds != nullptr ? *bounds : none);
   for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
   {

@@ -43,7 +43,7 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world);
  * The distance errors of all diamonds.
  *
  * @param relevant an RI of the surface, whatever its error codes
- * @param samples that it was built from, to tell which are finite
+ * @param isFinite tells it of the samples that it was built from
  * @param world from index space to the world; lengths count there
  * @param preserveFeatures otherwise isovertices without a patch to count with count with the
  *        diameter of the diamond, so that features that are thinner than the tolerance may vanish
@@ -53,7 +53,7 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world);
  * @return codes by rank, scaled by DistanceErrorScale(); 0 without an isovertex in the domain
  */
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
-  const AnySamples& samples, const GridGeometry& world, bool preserveFeatures,
+  const Finiteness& isFinite, const GridGeometry& world, bool preserveFeatures,
   const ParallelFor& parallelFor, std::vector<ErrorCode::Type> codes = {},
   MapBounds* bounds = nullptr);
 

@@ -35,15 +35,15 @@ struct Farthest
 class ErrorMaxima
 {
 public:
-  /** Hierarchy, samples and bounds must outlive it.
+  /** Hierarchy, finiteness and bounds must outlive it.
    *  @param codes by rank, to start from
    *  @param bounds of the way back, to be filled if they are wanted
    *  @throws std::invalid_argument without distances */
-  ErrorMaxima(const IsodiamondHierarchy& hierarchy, const AnySamples& samples,
+  ErrorMaxima(const IsodiamondHierarchy& hierarchy, const Finiteness& isFinite,
     const GridGeometry& world, double scale, bool preserveFeatures,
     const std::vector<ErrorCode::Type>& codes, MapBounds& bounds)
     : Source(hierarchy)
-    , Finite(samples)
+    , Finite(isFinite)
     , InWorld(WorldLengthsOf(world))
     , Code(scale)
     , PreserveFeatures(preserveFeatures)
@@ -141,7 +141,7 @@ private:
   }
 
   const IsodiamondHierarchy& Source;
-  Finiteness Finite;
+  const Finiteness& Finite;
   WorldLengths InWorld;
   ErrorCode Code;
   bool PreserveFeatures;

@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Field/Samples.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace isodiamond
 {
+namespace
+{
+
+template <typename T>
+bool IsFinite(T value)
+{
+  return std::is_integral_v<T> || value - value == T{ 0 };
+}
+
+}
 
 AnySamples ViewOf(const AnyValues& values)
 {
@@ -29,27 +40,56 @@ int BytesOfSample(const AnySamples& samples)
     samples);
 }
 
-Finiteness::Finiteness(const AnySamples& samples)
-  : Samples(samples)
-  , AreAll(std::visit(
-      [](const auto& view)
-      {
-        using T = typename std::decay_t<decltype(view)>::Value;
-        bool all = true;
-        for (std::int64_t i = 0; std::is_floating_point_v<T> && i < view.Size(); ++i)
-        {
-          all &= view.Pointer()[i] - view.Pointer()[i] == T{ 0 };
-        }
-        return all;
-      },
-      samples))
+int SampleSlab::End() const
 {
+  return this->First +
+    std::visit([](const auto& view) { return view.Dimensions()[2]; }, this->Samples);
+}
+
+Finiteness::Finiteness(const AnySamples& samples)
+  : Finiteness(std::visit([](const auto& view) { return view.Dimensions(); }, samples))
+{
+  this->Add({ samples, 0 });
+}
+
+void Finiteness::Add(const SampleSlab& slab)
+{
+  const std::int64_t first = SampleIndex(this->Dimensions, { 0, 0, slab.First });
+  std::visit(
+    [&](const auto& view)
+    {
+      using T = typename std::decay_t<decltype(view)>::Value;
+      const T* const data = view.Pointer();
+      bool all = true;
+      for (std::int64_t i = 0; std::is_floating_point_v<T> && i < view.Size(); ++i)
+      {
+        all &= IsFinite(data[i]);
+      }
+      if (all)
+      {
+        return;
+      }
+      const auto [x, y, z] = this->Dimensions;
+      this->NotFinite.resize(std::int64_t{ x } * y * z);
+      for (std::int64_t i = 0; i < view.Size(); ++i)
+      {
+        this->NotFinite[first + i] = !IsFinite(data[i]);
+      }
+    },
+    slab.Samples);
 }
 
 ValueRange FiniteRange(const AnySamples& samples)
 {
-  return std::visit(
-    [](const auto& view)
+  FiniteRangeOfSlabs whole;
+  whole.Add(samples);
+  return whole.Range();
+}
+
+void FiniteRangeOfSlabs::Add(const AnySamples& samples)
+{
+  std::visit(
+    [&](const auto& view)
     {
       using T = typename std::decay_t<decltype(view)>::Value;
       T low = std::numeric_limits<T>::max();
@@ -57,15 +97,21 @@ ValueRange FiniteRange(const AnySamples& samples)
       const T* data = view.Pointer();
       for (std::int64_t i = 0; i < view.Size(); ++i)
       {
-        // x - x is 0 exactly for finite values
-        if (std::is_integral_v<T> || data[i] - data[i] == T{ 0 })
+        if (IsFinite(data[i]))
         {
           low = data[i] < low ? data[i] : low;
           high = data[i] > high ? data[i] : high;
         }
       }
-      return low <= high ? ValueRange{ static_cast<double>(low), static_cast<double>(high) }
-                         : ValueRange{};
+      if (low <= high)
+      {
+        const ValueRange range{ static_cast<double>(low), static_cast<double>(high) };
+        this->Known.Minimum =
+          this->IsAny ? std::min(this->Known.Minimum, range.Minimum) : range.Minimum;
+        this->Known.Maximum =
+          this->IsAny ? std::max(this->Known.Maximum, range.Maximum) : range.Maximum;
+        this->IsAny = true;
+      }
     },
     samples);
 }

@@ -85,21 +85,40 @@ inline double SampleAt(const AnySamples& samples, const Point& point)
   return std::visit([&](const auto& view) { return view(point); }, samples);
 }
 
-/** Tells which samples are finite; fast where all are. The samples must outlive it. */
+/** Some slices of a volume, each of them whole: a volume that is larger than memory comes slab by
+ *  slab. Slabs may share slices. */
+struct SampleSlab
+{
+  AnySamples Samples; ///< as long and wide as the volume
+  int First = 0;      ///< of the volume's slices, the first one that it has
+
+  /** The slice behind its last one. */
+  int End() const;
+};
+
+/** Tells which samples are finite; fast where all are. */
 class Finiteness
 {
 public:
   explicit Finiteness(const AnySamples& samples);
 
-  bool All() const { return this->AreAll; }
+  /** Of a volume that comes in slabs: all are to be added.
+   *  @param dimensions of the volume */
+  explicit Finiteness(const std::array<int, 3>& dimensions)
+    : Dimensions(dimensions)
+  {
+  }
+  void Add(const SampleSlab& slab);
+
+  bool All() const { return this->NotFinite.empty(); }
   bool operator()(const Point& point) const
   {
-    return this->AreAll || std::isfinite(SampleAt(this->Samples, point));
+    return this->All() || !this->NotFinite[SampleIndex(this->Dimensions, point)];
   }
 
 private:
-  const AnySamples& Samples;
-  bool AreAll;
+  std::array<int, 3> Dimensions;
+  std::vector<bool> NotFinite; ///< by index; empty as long as all are finite
 };
 
 /** Smallest and largest finite sample; {0, 0} if there is none. */
@@ -111,6 +130,18 @@ struct ValueRange
 
 /** The range of all finite samples. */
 ValueRange FiniteRange(const AnySamples& samples);
+
+/** The same of a volume that comes in slabs. */
+class FiniteRangeOfSlabs
+{
+public:
+  void Add(const AnySamples& samples);
+  ValueRange Range() const { return this->IsAny ? this->Known : ValueRange{}; }
+
+private:
+  ValueRange Known;
+  bool IsAny = false;
+};
 
 }
 

@@ -41,7 +41,15 @@ std::uint64_t EvenBits(std::uint64_t word)
 
 SignLattice::SignLattice(const Grid& grid, const AnySamples& samples, const Isoregion& region,
   const ParallelFor& parallelFor, std::int64_t minimumPieceSize)
-  : Surfaces(region.SurfaceCount())
+  : SignLattice(grid, region)
+{
+  this->Add({ samples, 0 }, parallelFor);
+  this->Complete(parallelFor, minimumPieceSize);
+}
+
+SignLattice::SignLattice(const Grid& grid, const Isoregion& region)
+  : Region(region)
+  , Surfaces(region.SurfaceCount())
   , Levels(grid.Depth() + 1)
 {
   for (int scale = 0; scale <= grid.Depth(); ++scale)
@@ -54,16 +62,27 @@ SignLattice::SignLattice(const Grid& grid, const AnySamples& samples, const Isor
       level.Bits[surface].resize(level.Words * level.Count[1] * level.Count[2]);
     }
   }
+}
+
+void SignLattice::Add(const SampleSlab& slab, const ParallelFor& parallelFor)
+{
   for (int surface = 0; surface < this->Surfaces; ++surface)
   {
-    this->PackSamples(samples, region, surface, parallelFor);
+    this->PackSamples(slab, surface, parallelFor);
+  }
+}
+
+void SignLattice::Complete(const ParallelFor& parallelFor, std::int64_t minimumPieceSize)
+{
+  for (int surface = 0; surface < this->Surfaces; ++surface)
+  {
     if (minimumPieceSize > 1)
     {
       Level& finest = this->Levels[0];
       this->Removed += RemoveSmallPieces(
         { finest.Bits[surface].data(), finest.Count, finest.Words }, minimumPieceSize, parallelFor);
     }
-    for (int scale = 1; scale <= grid.Depth(); ++scale)
+    for (std::size_t scale = 1; scale < this->Levels.size(); ++scale)
     {
       Coarsen(this->Levels[scale - 1], surface, this->Levels[scale]);
     }
@@ -71,21 +90,22 @@ SignLattice::SignLattice(const Grid& grid, const AnySamples& samples, const Isor
 }
 
 /** The samples' own scale: a threshold. */
-void SignLattice::PackSamples(
-  const AnySamples& samples, const Isoregion& region, int surface, const ParallelFor& parallelFor)
+void SignLattice::PackSamples(const SampleSlab& slab, int surface, const ParallelFor& parallelFor)
 {
   Level& finest = this->Levels[0];
-  const double isovalue = region.Isovalue(surface);
-  const bool closed = region.IsAbove(surface, isovalue); // the region's own rule for equal values
+  const double isovalue = this->Region.Isovalue(surface);
+  const bool closed = this->Region.IsAbove(surface, isovalue); // its own rule for equal values
+  const std::int64_t rows = std::int64_t{ 1 } * finest.Count[1] * (slab.End() - slab.First);
+  std::uint64_t* const words = finest.Bits[surface].data() + finest.RowIndex(0, slab.First);
   const auto pack = [&](const auto& view, const auto& isAbove)
   {
-    parallelFor(std::int64_t{ 1 } * finest.Count[1] * finest.Count[2], 256,
+    parallelFor(rows, 256,
       [&](std::int64_t begin, std::int64_t end)
       {
         for (std::int64_t row = begin; row < end; ++row)
         {
           PackRow(view.Pointer() + row * finest.Count[0], finest.Count[0], isAbove,
-            finest.Bits[surface].data() + row * finest.Words);
+            words + row * finest.Words);
         }
       });
   };
@@ -101,7 +121,7 @@ void SignLattice::PackSamples(
         pack(view, [isovalue](double value) { return value > isovalue; });
       }
     },
-    samples);
+    slab.Samples);
 }
 
 /** Every second bit of every second row of every second slice. */

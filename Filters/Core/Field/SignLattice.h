@@ -27,6 +27,13 @@ public:
   SignLattice(const Grid& grid, const AnySamples& samples, const Isoregion& region,
     const ParallelFor& parallelFor, std::int64_t minimumPieceSize = 0);
 
+  ///@{
+  /** Of a volume that comes in slabs: all are to be added, then it is to be completed. */
+  SignLattice(const Grid& grid, const Isoregion& region);
+  void Add(const SampleSlab& slab, const ParallelFor& parallelFor);
+  void Complete(const ParallelFor& parallelFor, std::int64_t minimumPieceSize = 0);
+  ///@}
+
   int SurfaceCount() const { return this->Surfaces; }
 
   /** How many pieces were removed; if none, the signs are the samples'. */
@@ -73,10 +80,10 @@ private:
     }
   };
 
-  void PackSamples(const AnySamples& samples, const Isoregion& region, int surface,
-    const ParallelFor& parallelFor);
+  void PackSamples(const SampleSlab& slab, int surface, const ParallelFor& parallelFor);
   static void Coarsen(const Level& fine, int surface, Level& level);
 
+  Isoregion Region;
   int Surfaces = 1;
   std::int64_t Removed = 0;
   std::vector<Level> Levels;

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Build/BuildSteps.h"
+
+#include "Build/ActivationThresholds.h"
+#include "DistanceError/DistanceError.h"
+#include "Hierarchy/Encoder.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isodiamond
+{
+
+void Tell(const BuildOptions& options, const char* phase, double begin, double end)
+{
+  if (options.Report)
+  {
+    options.Report(phase, begin, end);
+  }
+}
+
+namespace
+{
+
+/**
+ * Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
+ * ancestors, and what follows these.
+ * @param haveFollowers without, what something else than a threshold leads to may have any error
+ */
+void RaiseToThresholds(const Grid& grid, const DiamondSet& members, bool haveFollowers,
+  const ParallelFor& parallelFor, DiamondCodes& codes)
+{
+  const std::vector<ErrorCode::Type> own =
+    haveFollowers ? codes.Surface : std::vector<ErrorCode::Type>();
+  codes.Surface = ActivationThresholds(grid, members, std::move(codes.Surface), parallelFor);
+  codes.Followers = FindFollowers(own, codes.Surface);
+  std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
+  if (!codes.Interior.empty())
+  {
+    codes.Interior = SaturateUpward(grid, members, codes.Interior, codes.Followers, parallelFor);
+    std::fill_n(codes.Interior.begin(), 8, ErrorCode::Always);
+  }
+}
+
+void SetCodes(Encoding& encoding, const DiamondSet& members, DiamondCodes codes)
+{
+  std::vector<std::uint16_t>& records = encoding.Arrays.Records;
+  for (std::size_t rank = 0; rank < records.size(); ++rank)
+  {
+    records[rank] = Record::Pack(codes.Surface[rank], Record::Sign(records[rank]));
+  }
+  encoding.Arrays.InteriorCodes = std::move(codes.Interior);
+  std::vector<std::uint64_t>& followers = encoding.Arrays.Followers;
+  auto next = codes.Followers.cbegin();
+  members.ForEach(
+    [&](const Place& place, std::uint32_t rank)
+    {
+      if (next != codes.Followers.cend() && *next == rank)
+      {
+        followers.push_back(CentreCode(place));
+        ++next;
+      }
+    });
+  std::sort(followers.begin(), followers.end());
+}
+
+/** Removes the relevant diamonds from an encoding. They have no isovertices and no values inside,
+ *  so these arrays stay as they are. */
+void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classification& kinds)
+{
+  EncodingArrays<OwnedArray>& arrays = encoding.Arrays;
+  arrays.BrickCounts.assign(1, 1); // the corners of the base cube
+  std::size_t bricks = 1;
+  std::size_t diamonds = 8;
+  for (int scale = members.ScaleCount() - 2; scale >= 0; --scale)
+  {
+    const std::size_t before = bricks;
+    for (const Brick& brick : members.Level(scale).Bricks)
+    {
+      const BrickMask* active = kinds.Active.Find(scale, brick.BoxIndex);
+      const BrickMask* creation = kinds.Creation.Find(scale, brick.BoxIndex);
+      if (active == nullptr && creation == nullptr)
+      {
+        continue;
+      }
+      for (int z = 0; z < 8; ++z)
+      {
+        const std::uint64_t kept =
+          (active != nullptr ? (*active)[z] : 0) | (creation != nullptr ? (*creation)[z] : 0);
+        ForEachBit(kept & brick.Occupancy[z],
+          [&](int bit)
+          {
+            const std::uint32_t rank = brick.Rank(z, bit);
+            arrays.Records[diamonds] = arrays.Records[rank];
+            if (!arrays.InteriorCodes.empty())
+            {
+              arrays.InteriorCodes[diamonds] = arrays.InteriorCodes[rank];
+            }
+            ++diamonds;
+          });
+        arrays.BrickMasks[8 * bricks + z] = kept & brick.Occupancy[z];
+      }
+      arrays.BrickIndices[bricks++] = brick.BoxIndex;
+    }
+    arrays.BrickCounts.push_back(static_cast<std::uint32_t>(bricks - before));
+  }
+  const auto shorten = [](auto& array, std::size_t size)
+  {
+    array.resize(size);
+    array.shrink_to_fit();
+  };
+  shorten(arrays.BrickIndices, bricks);
+  shorten(arrays.BrickMasks, 8 * bricks);
+  shorten(arrays.Records, diamonds);
+  shorten(arrays.InteriorCodes, arrays.InteriorCodes.empty() ? 0 : diamonds);
+}
+
+SignLattice SignsOf(const Source& source, const Isoregion& region, const BuildOptions& options,
+  const ParallelFor& parallelFor)
+{
+  Tell(options, "Classifying diamonds", 0.0, 0.2);
+  return { source.SampleGrid, source.Samples, region, parallelFor, options.MinimumPieceSize };
+}
+
+}
+
+BuildSteps::BuildSteps(const Source& source, const Isoregion& region, const BuildOptions& options,
+  double errorScale, const ParallelFor& parallelFor)
+  : BuildSteps(source, SignsOf(source, region, options, parallelFor), region, options, errorScale,
+      parallelFor)
+{
+  if (this->Header.RemovedPieces == 0)
+  {
+    this->Signs.reset(); // the samples say the same
+  }
+}
+
+BuildSteps::BuildSteps(const Source& source, SignLattice signs, const Isoregion& region,
+  const BuildOptions& options, double errorScale, const ParallelFor& parallelFor)
+  : Origin(source)
+  , Options(options)
+  , For(parallelFor)
+  , Interior(RefinesInterior(region, options))
+  , Signs(std::move(signs))
+{
+  const Grid& grid = source.SampleGrid;
+  this->Kinds = Classify(grid, *this->Signs, parallelFor, this->Interior);
+  if (options.PreserveTopology)
+  {
+    this->ForTopology =
+      RefinedForTopology(grid, *this->Signs, this->Kinds.Active, options, parallelFor);
+  }
+  this->Kinds.Members.Insert(grid.Depth(), 0, CornerBrick());
+  this->Members = DiamondSet(grid, this->Kinds.Members);
+  this->Kinds.Members = DiamondMask();
+
+  this->Header.TheModel = Model::Relevant;
+  this->Header.Dimensions = grid.Dimensions();
+  this->Header.Region = region;
+  this->Header.Metric = options.Metric;
+  this->Header.FieldScale = source.FieldScale;
+  this->Header.ErrorScale = errorScale;
+  this->Header.ExactIsovertices = options.ExactIsovertices;
+  this->Header.TwoSided = options.Metric == ErrorMetric::Distance;
+  this->Header.PreservesTopology = options.PreserveTopology;
+  this->Header.MinimumPieceSize = options.MinimumPieceSize;
+  this->Header.RemovedPieces = this->Signs->RemovedPieces();
+  this->Header.ActiveCount = this->Kinds.Active.Size();
+  this->Header.CreationCount = this->Kinds.Creation.Size();
+  this->Header.RelevantCount = this->Members.Size() - 8 - this->Header.ActiveCount;
+}
+
+Encoding BuildSteps::PlaceIsovertices(double begin, double end) const
+{
+  Tell(this->Options, "Placing isovertices", begin, end);
+  return Encode(this->Header, this->Origin.SampleGrid, this->Origin.Samples, this->Members,
+    ErrorCode::Always, this->For, this->SignsIfKept());
+}
+
+DiamondCodes BuildSteps::MeasureField() const
+{
+  Tell(this->Options, "Measuring errors", 0.25, 0.8);
+  DiamondCodes own = OwnFieldCodes(this->Origin, this->Header.Region, this->SignsToGoBy(),
+    this->Members, this->Interior, this->For);
+  this->SubdivideAlways(own);
+  return own;
+}
+
+DiamondCodes BuildSteps::MeasureDistances(
+  const IsodiamondHierarchy& relevant, const Finiteness& isFinite) const
+{
+  Tell(this->Options, "Measuring errors", 0.25, 0.5);
+  MapBounds bounds(this->Members.Size(), this->Header.Region.SurfaceCount());
+  DiamondCodes own(this->Members.Size(), this->Interior);
+  this->SubdivideAlways(own);
+  own = OwnDistanceCodes(this->Origin, isFinite, relevant, this->SignsToGoBy(), this->Options,
+    std::move(own), bounds, this->For);
+  Tell(this->Options, "Measuring errors", 0.5, 0.8);
+  const BeforeWayBack known{ this->Options.Hidden, &bounds,
+    ActivationThresholds(this->Origin.SampleGrid, this->Members, own.Surface, this->For) };
+  RaiseByWayBack(relevant, this->Options.World, known, own.Surface, this->For);
+  return own;
+}
+
+void BuildSteps::FindThresholds(DiamondCodes& codes) const
+{
+  Tell(this->Options, "Finding thresholds", 0.8, 0.9);
+  RaiseToThresholds(this->Origin.SampleGrid, this->Members,
+    this->Header.Metric == ErrorMetric::Distance, this->For, codes);
+}
+
+Encoding BuildSteps::Complete(Model model, Encoding relevant, DiamondCodes thresholds) const
+{
+  SetCodes(relevant, this->Members, std::move(thresholds));
+  relevant.Header.TheModel = model;
+  if (model == Model::Minimal)
+  {
+    KeepMinimal(relevant, this->Members, this->Kinds);
+  }
+  return relevant;
+}
+
+/** What is always subdivided, whatever its error. */
+void BuildSteps::SubdivideAlways(DiamondCodes& codes) const
+{
+  if (HasHiddenCells(this->Options))
+  {
+    RefineAtHiddenCells(*this->Options.Hidden, this->Kinds.Active, this->Members, this->For, codes);
+  }
+  this->ForTopology.ForEach(
+    [&](const Place& place) { codes.Surface[this->Members.Rank(place)] = ErrorCode::Always; });
+}
+
+void BuildSteps::DropSigns()
+{
+  if (!this->Header.Region.IsVolume())
+  {
+    this->Signs.reset();
+  }
+}
+
+BuildSigns BuildSteps::SignsToGoBy() const
+{
+  return { this->Header.Region, this->Origin, this->SignsIfKept() };
+}
+
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_BuildSteps_h
+#define isodiamond_BuildSteps_h
+
+#include "Build/Classification.h"
+#include "Build/OwnErrors.h"
+
+#include <optional>
+
+namespace isodiamond
+{
+
+/** Tells whoever watches a build what comes next. */
+void Tell(const BuildOptions& options, const char* phase, double begin, double end);
+
+/** The steps of a build. Each metric has them in an order of its own. */
+class BuildSteps
+{
+public:
+  /** Classifies the diamonds. All but the region must outlive it, and the loops, too. */
+  BuildSteps(const Source& source, const Isoregion& region, const BuildOptions& options,
+    double errorScale, const ParallelFor& parallelFor);
+
+  /** The same of a volume that comes in slabs. @param signs of all of its samples, without the
+   *  pieces that are too small */
+  BuildSteps(const Source& source, SignLattice signs, const Isoregion& region,
+    const BuildOptions& options, double errorScale, const ParallelFor& parallelFor);
+
+  /** What is known of an RI, whose error codes are Always, before its isovertices. */
+  const EncodingHeader& RelevantHeader() const { return this->Header; }
+  const DiamondSet& Relevant() const { return this->Members; }
+  const SignLattice* SignsIfKept() const { return this->Signs ? &*this->Signs : nullptr; }
+
+  /** An RI without errors. */
+  Encoding PlaceIsovertices(double begin, double end) const;
+
+  /** Once isovertices are placed, signs are needed for what lies inside an interval volume only. */
+  void DropSigns();
+
+  DiamondCodes MeasureField() const;
+  DiamondCodes MeasureDistances(
+    const IsodiamondHierarchy& relevant, const Finiteness& isFinite) const;
+
+  /** Own errors become thresholds. Of the field metric nothing follows: an HD, which is to give the
+   *  same mesh, has no thresholds to tell. */
+  void FindThresholds(DiamondCodes& codes) const;
+
+  Encoding Complete(Model model, Encoding relevant, DiamondCodes thresholds) const;
+
+private:
+  void SubdivideAlways(DiamondCodes& codes) const;
+  BuildSigns SignsToGoBy() const;
+
+  const Source& Origin;
+  const BuildOptions& Options;
+  const ParallelFor& For;
+  bool Interior;                    ///< whether it is refined
+  std::optional<SignLattice> Signs; ///< kept where samples do not say the same, or are not at hand
+  Classification Kinds;
+  DiamondMask ForTopology; ///< empty if topology need not be preserved
+  DiamondSet Members;
+  EncodingHeader Header;
+};
+
+}
+
+#endif

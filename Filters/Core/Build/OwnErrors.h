@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_OwnErrors_h
+#define isodiamond_OwnErrors_h
+
+#include "Build/Builder.h"
+#include "DistanceError/MapBounds.h"
+#include "Field/DiamondSigns.h"
+#include "Field/SignLattice.h"
+#include "FieldError/FieldError.h"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+/**
+ * @file OwnErrors.h
+ * The diamonds' own errors by either metric, and what is subdivided whatever its error: what
+ * thresholds are made of.
+ */
+namespace isodiamond
+{
+
+/** Where the samples, field errors and ranges of a build come from. A volume that comes in slabs
+ * has only signs to offer, kept by the steps, and a view without samples. */
+struct Source
+{
+  const Grid& SampleGrid;
+  const AnySamples& Samples;
+  double FieldScale = 1.0;
+  /** The code of a diamond's own field error, and the range of its domain. */
+  std::function<std::pair<ErrorCode::Type, ValueRange>(const Place&)> Summary;
+};
+
+/** @throws std::invalid_argument if the minimum size of pieces is negative */
+void CheckOptions(const BuildOptions& options);
+
+Grid GridOf(const AnySamples& samples);
+
+/** Whether a build asks for field errors; they take a pass over the samples. */
+bool NeedsFieldErrors(const Isoregion& region, const BuildOptions& options);
+
+/** The summary that a source gives, by field errors. @param scale of their codes */
+std::pair<ErrorCode::Type, ValueRange> SummaryOf(
+  const FieldErrors& errors, double scale, const Place& place);
+
+/** The signs that a build goes by: the samples', or, where small pieces were removed or the samples
+ *  are not at hand, those of a lattice. */
+class BuildSigns
+{
+public:
+  /** All must outlive it. @param lattice null where the samples say the same */
+  BuildSigns(const Isoregion& region, const Source& source, const SignLattice* lattice)
+    : Region(region)
+    , Origin(source)
+    , Lattice(lattice)
+  {
+  }
+
+  /** Whether these are others than the samples'. */
+  bool AreChanged() const { return this->Lattice != nullptr && this->Lattice->RemovedPieces() > 0; }
+
+  bool HasAllVerticesInside(const Place& place) const
+  {
+    return isodiamond::HasAllVerticesInside(this->Region, this->Origin.SampleGrid, place,
+      [this](const Point& vertex)
+      {
+        return this->Lattice != nullptr
+          ? this->Lattice->Sign(0, vertex)
+          : this->Region.SignOf(SampleAt(this->Origin.Samples, vertex));
+      });
+  }
+
+private:
+  const Isoregion& Region;
+  const Source& Origin;
+  const SignLattice* Lattice;
+};
+
+/** Codes by rank: of own errors where they count, else 0, or thresholds made of these. For the
+ *  tolerance, and for the interior tolerance. */
+struct DiamondCodes
+{
+  std::vector<ErrorCode::Type> Surface;
+  std::vector<ErrorCode::Type> Interior; ///< empty without refinement of the interior
+  std::vector<std::uint32_t> Followers;  ///< ranks, once there are thresholds
+
+  explicit DiamondCodes(std::int64_t size, bool refineInterior)
+    : Surface(size, 0)
+    , Interior(refineInterior ? size : 0, 0)
+  {
+  }
+};
+
+/**
+ * The field metric.
+ *
+ * Ranges are the samples', also where small pieces were removed. That subdivides what these
+ * crossed, which is not needed, but never too little: where signs differ, values do. Only a domain
+ * that has come to lie inside altogether can have all of its samples on one side outside.
+ */
+DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const BuildSigns& signs,
+  const DiamondSet& members, bool refineInterior, const ParallelFor& parallelFor);
+
+/** The distance metric; inside of an interval volume the field's.
+ *  @param own what is always subdivided already */
+DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
+  const IsodiamondHierarchy& relevant, const BuildSigns& signs, const BuildOptions& options,
+  DiamondCodes own, MapBounds& bounds, const ParallelFor& parallelFor);
+
+bool HasHiddenCells(const BuildOptions& options);
+
+/** Whether an interval volume is refined inside: what lies in hidden cells can be left out at full
+ *  resolution only, deep inside too. */
+bool RefinesInterior(const Isoregion& region, const BuildOptions& options);
+
+/** Active diamonds that touch a hidden cell are always subdivided. */
+void RefineAtHiddenCells(const HiddenCells& hidden, const DiamondMask& active,
+  const DiamondSet& members, const ParallelFor& parallelFor, DiamondCodes& codes);
+
+/** What is always subdivided, with all ancestors, so that every mesh has full resolution's
+ * topology: critical diamonds, and what carries a surface to where hidden cells are cut out. */
+DiamondMask RefinedForTopology(const Grid& grid, const SignLattice& signs,
+  const DiamondMask& active, const BuildOptions& options, const ParallelFor& parallelFor);
+
+}
+
+#endif

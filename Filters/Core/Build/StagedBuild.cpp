@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Build/StagedBuild.h"
+
+#include "Build/BuildSteps.h"
+#include "DistanceError/DistanceError.h"
+#include "Hierarchy/StreamedEncoder.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace isodiamond
+{
+
+/** Owns what the steps refer to. */
+struct StagedBuild::State
+{
+  State(const Grid& grid, const AnySamples& samples, double fieldScale,
+    const ParallelFor& parallelFor, const BuildOptions& options)
+    : Samples(samples)
+    , For(parallelFor)
+    , Options(options)
+    , TheGrid(grid)
+    , From{ this->TheGrid, this->Samples, fieldScale, [this](const Place& place) {
+             return SummaryOf(*this->Errors, this->From.FieldScale, place);
+           } }
+  {
+  }
+
+  double ErrorScale() const
+  {
+    return this->Options.Metric == ErrorMetric::Distance
+      ? DistanceErrorScale(this->TheGrid, this->Options.World)
+      : this->From.FieldScale;
+  }
+
+  void SetRelevant(Encoding relevant)
+  {
+    this->Relevant = std::move(relevant);
+    this->Hierarchy.emplace(this->Relevant, this->For);
+  }
+
+  AnySamples Samples;
+  ParallelFor For;
+  BuildOptions Options;
+  Grid TheGrid;
+  std::optional<FieldErrors> Errors;
+  Source From;
+  std::optional<BuildSteps> Done;
+  std::optional<Finiteness> IsFinite; ///< of samples that came in slabs
+  Encoding Relevant;
+  std::optional<IsodiamondHierarchy> Hierarchy;
+};
+
+StagedBuild::StagedBuild(const AnySamples& samples, const Isoregion& region,
+  const ParallelFor& parallelFor, const BuildOptions& options)
+{
+  CheckOptions(options);
+  this->Kept = std::make_unique<State>(
+    GridOf(samples), samples, ErrorCode(FieldErrorScale(samples)).Scale(), parallelFor, options);
+  State& kept = *this->Kept;
+  kept.Done.emplace(kept.From, region, kept.Options, kept.ErrorScale(), kept.For);
+  kept.SetRelevant(kept.Done->PlaceIsovertices(0.2, 0.9));
+}
+
+StagedBuild::StagedBuild(std::unique_ptr<State> state)
+  : Kept(std::move(state))
+{
+}
+
+StagedBuild::~StagedBuild() = default;
+StagedBuild::StagedBuild(StagedBuild&&) noexcept = default;
+StagedBuild& StagedBuild::operator=(StagedBuild&&) noexcept = default;
+
+const IsodiamondHierarchy& StagedBuild::FullResolution() const
+{
+  return *this->Kept->Hierarchy;
+}
+
+Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const ParallelFor& parallelFor,
+  const BuildOptions& options)
+{
+  State& kept = *this->Kept;
+  kept.Samples = samples;
+  kept.For = parallelFor;
+  kept.Options = options;
+  if (NeedsFieldErrors(kept.Relevant.Header.Region, options))
+  {
+    kept.Errors.emplace(kept.TheGrid, kept.Samples, kept.For);
+  }
+  DiamondCodes codes = options.Metric == ErrorMetric::Field
+    ? kept.Done->MeasureField()
+    : kept.Done->MeasureDistances(
+        *kept.Hierarchy, kept.IsFinite ? *kept.IsFinite : Finiteness(kept.Samples));
+  kept.Done->FindThresholds(codes);
+  kept.Hierarchy.reset();
+  return kept.Done->Complete(model, std::move(kept.Relevant), std::move(codes));
+}
+
+/** What slabs have told. */
+struct StreamedBuild::Progress
+{
+  Progress(const Grid& grid, const Isoregion& region)
+    : Region(region)
+    , Signs(std::in_place, grid, region)
+  {
+  }
+
+  Isoregion Region;
+  std::optional<SignLattice> Signs; ///< until diamonds are classified: they have them then
+  FiniteRangeOfSlabs Range;
+  std::optional<StreamedEncoder> Encoder; ///< from then on
+};
+
+StreamedBuild::StreamedBuild(const std::array<int, 3>& dimensions, const Isoregion& region,
+  const ParallelFor& parallelFor, const BuildOptions& options)
+{
+  CheckOptions(options);
+  if (NeedsFieldErrors(region, options))
+  {
+    throw std::invalid_argument("Errors in the field need the whole volume at once.");
+  }
+  const Grid grid(dimensions);
+  this->Kept = std::make_unique<StagedBuild::State>(
+    grid, SampleView<std::uint8_t>(nullptr, dimensions), 1.0, parallelFor, options);
+  this->Kept->ErrorScale(); // throws if there are no distances
+  this->Kept->IsFinite.emplace(dimensions);
+  this->Current = std::make_unique<Progress>(grid, region);
+}
+
+StreamedBuild::~StreamedBuild() = default;
+StreamedBuild::StreamedBuild(StreamedBuild&&) noexcept = default;
+StreamedBuild& StreamedBuild::operator=(StreamedBuild&&) noexcept = default;
+
+std::vector<StreamedBuild::Slices> StreamedBuild::Cut(
+  const std::array<int, 3>& dimensions, int slabs)
+{
+  const int slices = dimensions[2];
+  const int count = std::clamp(slabs, 1, slices);
+  std::vector<Slices> cut(count);
+  for (int i = 0; i < count; ++i)
+  {
+    const auto at = [&](int slab)
+    { return static_cast<int>(std::int64_t{ 1 } * slices * slab / count); };
+    cut[i].Begin = at(i);
+    cut[i].End = at(i + 1);
+    cut[i].First = std::max(cut[i].Begin - StreamedEncoder::Overlap, 0);
+    cut[i].Last = std::min(cut[i].End - 1 + StreamedEncoder::Overlap, slices - 1);
+  }
+  return cut;
+}
+
+void StreamedBuild::AddSigns(const SampleSlab& slab)
+{
+  this->Current->Signs->Add(slab, this->Kept->For);
+  this->Current->Range.Add(slab.Samples);
+  this->Kept->IsFinite->Add(slab);
+}
+
+void StreamedBuild::Classify()
+{
+  StagedBuild::State& kept = *this->Kept;
+  Tell(kept.Options, "Classifying diamonds", 0.1, 0.2);
+  this->Current->Signs->Complete(kept.For, kept.Options.MinimumPieceSize);
+  const ValueRange range = this->Current->Range.Range();
+  kept.From.FieldScale = ErrorCode(range.Maximum - range.Minimum).Scale();
+  kept.Done.emplace(kept.From, std::move(*this->Current->Signs), this->Current->Region,
+    kept.Options, kept.ErrorScale(), kept.For);
+  this->Current->Signs.reset();
+  this->Current->Encoder.emplace(kept.Done->RelevantHeader(), kept.TheGrid, kept.Done->Relevant(),
+    ErrorCode::Always, *kept.Done->SignsIfKept(), kept.For);
+}
+
+void StreamedBuild::AddValues(const SampleSlab& slab, const Slices& slices)
+{
+  // What has its centre behind the last slice comes with that.
+  const bool isLast = slices.End == this->Kept->TheGrid.Dimensions()[2];
+  this->Current->Encoder->Add(
+    slab, { slices.Begin, isLast ? EncodingPasses::AllSlices.End : slices.End });
+}
+
+StagedBuild StreamedBuild::Finish()
+{
+  Encoding relevant = this->Current->Encoder->Finish();
+  this->Current.reset();
+  this->Kept->Done->DropSigns();
+  this->Kept->SetRelevant(std::move(relevant));
+  return StagedBuild(std::move(this->Kept));
+}
+
+}

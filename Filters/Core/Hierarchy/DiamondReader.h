@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DiamondReader_h
+#define isodiamond_DiamondReader_h
+
+#include "Hierarchy/IsodiamondHierarchy.h"
+#include "Hierarchy/IsovertexPlacement.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+
+namespace isodiamond
+{
+
+/** The signs of the samples. */
+template <typename T>
+class SampleSigns
+{
+public:
+  SampleSigns(const Isoregion& region, const SampleView<T>& samples)
+    : Region(region)
+    , Samples(samples)
+  {
+  }
+
+  /** The sign of a lattice point that has a sample. @param index of the sample */
+  int operator()(const Point& /*point*/, std::int64_t index) const
+  {
+    return this->Region.SignOf(static_cast<double>(this->Samples.Pointer()[index]));
+  }
+
+  /** An edge with these signs along it. @param step between the points at the ends of a step */
+  EdgeSamples<T> Along(EdgeSamples<T> edge, const Point& /*centre*/, const Point& /*step*/) const
+  {
+    return edge;
+  }
+
+private:
+  const Isoregion& Region;
+  const SampleView<T>& Samples;
+};
+
+/** The same where small pieces were removed: the signs of what is left. */
+template <typename T>
+class RemainingSigns
+{
+public:
+  explicit RemainingSigns(const SignLattice& signs)
+    : Signs(signs)
+  {
+  }
+
+  int operator()(const Point& point, std::int64_t /*index*/) const
+  {
+    return this->Signs.Sign(0, point);
+  }
+
+  SignedEdgeSamples<T> Along(
+    const EdgeSamples<T>& edge, const Point& centre, const Point& step) const
+  {
+    return { edge, this->Signs, centre, step };
+  }
+
+private:
+  const SignLattice& Signs;
+};
+
+/** Reads signs, isovertices and inside values of diamonds off the samples, or off those of a slab:
+ *  of diamonds all of whose vertices it has. */
+template <typename T, typename Signs>
+class DiamondReader
+{
+public:
+  using Value = T;
+
+  /** All but the header must outlive it. @param first slice that the samples have */
+  DiamondReader(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples,
+    const Signs& signs, int first = 0)
+    : Region(header.Region)
+    , Exact(header.ExactIsovertices)
+    , TheGrid(grid)
+    , Samples(samples)
+    , Before(samples.Index({ 0, 0, first }))
+    , SignOf(signs)
+  {
+    const std::int64_t row = samples.Dimensions()[0];
+    const std::int64_t slice = row * samples.Dimensions()[1];
+    for (int parity = 1; parity < 8; ++parity)
+    {
+      const ParityTable& shape = tables::Parities[parity];
+      for (int i = 0; i < shape.VertexCount; ++i)
+      {
+        const Point& offset = shape.Offsets[i];
+        this->Strides[parity][i] = offset[0] + offset[1] * row + offset[2] * slice;
+      }
+    }
+  }
+
+  int Sign(const Place& place) const
+  {
+    const Point centre = Centre(place);
+    return this->TheGrid.IsSampled(centre) ? this->SignOf(centre, this->IndexOf(centre)) : 0;
+  }
+
+  bool IsInside(const Place& place) const
+  {
+    return this->Region.IsVolume() && this->Sign(place) == InsideSign;
+  }
+
+  /** The sample at the centre. */
+  T ValueAt(const Place& place) const
+  {
+    return this->Samples.Pointer()[this->IndexOf(Centre(place))];
+  }
+
+  /** The edges of a diamond with an isovertex. */
+  std::uint16_t CrossedEdges(const Place& place) const
+  {
+    std::uint32_t crossed = 0;
+    const Point centre = Centre(place);
+    if (this->TheGrid.IsSampled(centre))
+    {
+      const int half = 1 << place.Scale;
+      const bool isWhole = this->TheGrid.IsSampled(centre + Point{ half, half, half }) &&
+        this->TheGrid.IsSampled(centre + Point{ -half, -half, -half });
+      const int sign = this->Sign(place);
+      const int parity = Parity(place.Position);
+      const ParityTable& shape = tables::Parities[parity];
+      for (int i = 0; i < shape.VertexCount; ++i)
+      {
+        if (isWhole || this->TheGrid.IsSampled(centre + half * shape.Offsets[i]))
+        {
+          crossed |= (this->SignOfVertex(place, i) != sign ? 1U : 0U) << i;
+        }
+      }
+    }
+    return static_cast<std::uint16_t>(crossed);
+  }
+
+  /** The number of isovertices of a diamond. @param crossed its CrossedEdges() */
+  int CountIsovertices(const Place& place, std::uint16_t crossed) const
+  {
+    int count = PopCount(crossed);
+    if (this->Region.IsVolume() && crossed != 0)
+    {
+      const int sign = this->Sign(place);
+      ForEachBit(crossed,
+        [&](int vertex)
+        { count += std::abs(sign - this->SignOfVertex(place, vertex)) == 2 ? 1 : 0; });
+    }
+    return count;
+  }
+
+  /** Writes the coefficients of a diamond: those on surface 0, then 1.
+   *  @param edgeOf called with a vertex: the samples along that edge
+   *  @return the end */
+  template <typename EdgeOf>
+  std::uint8_t* WriteIsovertices(
+    const Place& place, std::uint16_t crossed, std::uint8_t* next, const EdgeOf& edgeOf) const
+  {
+    std::array<std::uint8_t, MaximumVertices> upper{};
+    int upperCount = 0;
+    const int sign = this->Sign(place);
+    ForEachBit(crossed,
+      [&](int vertex)
+      {
+        const int otherSign = this->SignOfVertex(place, vertex);
+        const auto edge = edgeOf(vertex);
+        if (std::abs(sign - otherSign) == 2)
+        {
+          const std::array<std::uint8_t, 2> both = IsovertexCoefficients(edge, this->Region);
+          *next++ = both[0];
+          upper[upperCount++] = both[1];
+        }
+        else if (std::min(sign, otherSign) == 0)
+        {
+          *next++ = IsovertexCoefficient(edge, this->Region, 0);
+        }
+        else
+        {
+          upper[upperCount++] = IsovertexCoefficient(edge, this->Region, 1);
+        }
+      });
+    return std::copy(upper.begin(), upper.begin() + upperCount, next);
+  }
+
+  /** An edge in unit steps, or for linear isovertices in one. */
+  auto Edge(const Place& place, int vertex) const
+  {
+    const Point centre = Centre(place);
+    const int parity = Parity(place.Position);
+    const int length = 1 << place.Scale;
+    const int step = this->Exact ? 1 : length;
+    const EdgeSamples<T> values(this->Samples.Pointer() + this->IndexOf(centre),
+      step * this->Strides[parity][vertex], this->Exact ? length : 1);
+    return this->SignOf.Along(values, centre, step * tables::Parities[parity].Offsets[vertex]);
+  }
+
+private:
+  /** The sign of a vertex that has a sample. */
+  int SignOfVertex(const Place& place, int vertex) const
+  {
+    const Point centre = Centre(place);
+    const int half = 1 << place.Scale;
+    const int parity = Parity(place.Position);
+    return this->SignOf(centre + half * tables::Parities[parity].Offsets[vertex],
+      this->IndexOf(centre) + half * this->Strides[parity][vertex]);
+  }
+
+  std::int64_t IndexOf(const Point& point) const
+  {
+    return this->Samples.Index(point) - this->Before;
+  }
+
+  Isoregion Region;
+  bool Exact;
+  const Grid& TheGrid;
+  SampleView<T> Samples;
+  std::int64_t Before; ///< samples of the volume before these
+  const Signs& SignOf;
+  /** By parity and vertex, in samples. */
+  std::array<std::array<std::int64_t, MaximumVertices>, 8> Strides{};
+};
+
+}
+
+#endif

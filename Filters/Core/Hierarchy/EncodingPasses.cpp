@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Hierarchy/EncodingPasses.h"
+
+#include <limits>
+#include <stdexcept>
+
+namespace isodiamond
+{
+
+EncodingPasses::EncodingPasses(
+  const EncodingHeader& header, const DiamondSet& set, const ParallelFor& parallelFor)
+  : Set(set)
+  , For(parallelFor)
+  , Bricks(AllBricks(set))
+  , Next(this->Bricks.size() + 1)
+{
+  this->Result.Header = header;
+  this->WriteBricks();
+}
+
+void EncodingPasses::WriteBricks()
+{
+  EncodingArrays<OwnedArray>& arrays = this->Result.Arrays;
+  arrays.BrickIndices.reserve(this->Bricks.size());
+  arrays.BrickMasks.reserve(8 * this->Bricks.size());
+  for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
+  {
+    const std::vector<Brick>& bricks = this->Set.Level(scale).Bricks;
+    arrays.BrickCounts.push_back(static_cast<std::uint32_t>(bricks.size()));
+    for (const Brick& brick : bricks)
+    {
+      arrays.BrickIndices.push_back(brick.BoxIndex);
+      arrays.BrickMasks.insert(
+        arrays.BrickMasks.end(), brick.Occupancy.begin(), brick.Occupancy.end());
+    }
+  }
+}
+
+void EncodingPasses::MakeRoom()
+{
+  // Prefix sum.
+  for (std::size_t i = 0; i < this->Bricks.size(); ++i)
+  {
+    this->Next[i + 1].Isovertices += this->Next[i].Isovertices;
+    this->Next[i + 1].InsideValues += this->Next[i].InsideValues;
+  }
+  if (this->Next.back().Isovertices > std::numeric_limits<std::uint32_t>::max())
+  {
+    throw std::length_error("more than 2^32 - 1 isovertices");
+  }
+  this->Result.Arrays.Isovertices.resize(this->Next.back().Isovertices);
+}
+
+}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_EncodingPasses_h
+#define isodiamond_EncodingPasses_h
+
+#include "Hierarchy/IsodiamondHierarchy.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The passes of an encoding: every brick counts what its diamonds have, sums tell where it writes
+ * that, and it writes, diamond by diamond.
+ *
+ * What reads the diamonds is a DiamondReader. A volume that comes in slabs is written slab by slab:
+ * the diamonds of a brick are ordered by slice, so those of the next slab follow.
+ */
+class EncodingPasses
+{
+public:
+  /** @param set must outlive it, as must the loops */
+  EncodingPasses(
+    const EncodingHeader& header, const DiamondSet& set, const ParallelFor& parallelFor);
+
+  /** Counts, and makes room. Records hold the crossed edges until they are written. */
+  template <typename Reader>
+  void Count(const Reader& reader)
+  {
+    this->Result.Arrays.Records.resize(this->Set.Size());
+    this->ForEach(0, this->Set.ScaleCount(), AllSlices,
+      [&](std::int64_t brick, const Place& place, std::uint32_t rank)
+      {
+        const std::uint16_t crossed = reader.CrossedEdges(place);
+        this->Result.Arrays.Records[rank] = crossed;
+        this->Next[brick + 1].Isovertices += reader.CountIsovertices(place, crossed);
+        this->Next[brick + 1].InsideValues += reader.IsInside(place) ? 1 : 0;
+      });
+    this->MakeRoom();
+  }
+
+  /** Slices, the end not among them. */
+  struct Slices
+  {
+    int Begin = 0;
+    int End = 0;
+  };
+  static constexpr Slices AllSlices{ 0, 2 << Grid::MaximumDepth };
+
+  /** Writes isovertices and records of some scales.
+   *  @param edgeOf called with a place and one of its vertices, the samples along that edge */
+  template <typename Reader, typename EdgeOf>
+  void WriteIsovertices(int firstScale, int endScale, const Slices& slices, ErrorCode::Type code,
+    const Reader& reader, const EdgeOf& edgeOf)
+  {
+    std::uint8_t* const isovertices = this->Result.Arrays.Isovertices.data();
+    this->ForEach(firstScale, endScale, slices,
+      [&](std::int64_t brick, const Place& place, std::uint32_t rank)
+      {
+        std::uint16_t& record = this->Result.Arrays.Records[rank];
+        std::int64_t& next = this->Next[brick].Isovertices;
+        next = reader.WriteIsovertices(place, record, isovertices + next,
+                 [&](int vertex) { return edgeOf(place, vertex); }) -
+          isovertices;
+        record = Record::Pack(code, reader.Sign(place));
+      });
+  }
+
+  /** Makes room for the values inside an interval volume, of the samples' type. */
+  template <typename Value>
+  void MakeRoomForValues()
+  {
+    this->Result.InsideValues = std::vector<Value>(this->Next.back().InsideValues);
+  }
+
+  /** Writes these, of all scales. */
+  template <typename Reader>
+  void WriteInsideValues(const Slices& slices, const Reader& reader)
+  {
+    if (!this->Result.Header.Region.IsVolume())
+    {
+      return;
+    }
+    auto& values = std::get<std::vector<typename Reader::Value>>(this->Result.InsideValues);
+    this->ForEach(0, this->Set.ScaleCount(), slices,
+      [&](std::int64_t brick, const Place& place, std::uint32_t /*rank*/)
+      {
+        if (reader.IsInside(place))
+        {
+          values[this->Next[brick].InsideValues++] = reader.ValueAt(place);
+        }
+      });
+  }
+
+  /** Calls body(place, mask of its crossed edges) for diamonds from a scale on that are counted,
+   * but not written yet, one after the other. */
+  template <typename Body>
+  void ForEachCounted(int firstScale, const Body& body) const
+  {
+    for (int scale = this->Set.ScaleCount() - 1; scale >= firstScale; --scale)
+    {
+      for (const Brick& brick : this->Set.Level(scale).Bricks)
+      {
+        this->Set.ForEachInBrick(scale, brick,
+          [&](const Place& place, std::uint32_t rank)
+          { body(place, this->Result.Arrays.Records[rank]); });
+      }
+    }
+  }
+
+  Encoding Take() { return std::move(this->Result); }
+
+private:
+  /** What the bricks before a brick hold; while writing, also what it has written. */
+  struct Offset
+  {
+    std::int64_t Isovertices = 0;
+    std::int64_t InsideValues = 0;
+  };
+
+  void WriteBricks();
+  void MakeRoom();
+
+  /** Calls body(number of the brick, place, rank) for the diamonds of some scales with their centre
+   *  in some slices; those of a brick in order. */
+  template <typename Body>
+  void ForEach(int firstScale, int endScale, const Slices& slices, const Body& body) const
+  {
+    ForEachIndex(this->For, static_cast<std::int64_t>(this->Bricks.size()), 16,
+      [&](std::int64_t i)
+      {
+        const auto [scale, index] = this->Bricks[i];
+        if (scale < firstScale || scale >= endScale)
+        {
+          return;
+        }
+        const BrickLevel& level = this->Set.Level(scale);
+        const Brick& brick = level.Bricks[index];
+        const int first = level.Box.Origin(brick.BoxIndex)[2];
+        for (int z = 0; z < 8; ++z)
+        {
+          const int slice = (first + z) << scale;
+          if (slice >= slices.Begin && slice < slices.End)
+          {
+            this->Set.ForEachInWord(scale, brick, z,
+              [&](const Place& place, std::uint32_t rank) { body(i, place, rank); });
+          }
+        }
+      });
+  }
+
+  const DiamondSet& Set;
+  const ParallelFor& For;
+  std::vector<BrickPlace> Bricks;
+  std::vector<Offset> Next; ///< by brick, and the sums
+  Encoding Result;
+};
+
+}
+
+#endif

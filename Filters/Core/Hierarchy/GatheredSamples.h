@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_GatheredSamples_h
+#define isodiamond_GatheredSamples_h
+
+#include "Field/Samples.h"
+#include "Field/SignLattice.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** Some samples, gathered from the slabs of a volume: those that are wanted together and lie in
+ *  several. */
+class GatheredSamples
+{
+public:
+  /** @param dimensions of the volume @param indices of the samples in it, in any order */
+  GatheredSamples(const std::array<int, 3>& dimensions, std::vector<std::int64_t> indices);
+
+  void Add(const SampleSlab& slab);
+
+  /** A sample that was wanted, once its slab has been added. */
+  double operator()(const Point& point) const;
+
+private:
+  std::array<int, 3> Dimensions;
+  std::vector<std::int64_t> Indices; ///< ascending
+  std::vector<double> Values;
+};
+
+/** The samples along an edge as IsovertexPlacement.h wants them: values where they are needed, at
+ *  its ends and those of the steps that cross a surface, and signs everywhere. */
+class GatheredEdge
+{
+public:
+  /** @param values may be null where only signs are asked for
+   *  @param step between the lattice points at the ends of a step */
+  GatheredEdge(const GatheredSamples* values, const SignLattice& signs, const Point& centre,
+    const Point& step, int steps)
+    : Values(values)
+    , Signs(signs)
+    , Centre(centre)
+    , Step(step)
+    , Count(steps)
+  {
+  }
+
+  int Steps() const { return this->Count; }
+  Point At(int i) const { return this->Centre + i * this->Step; }
+  int Sign(int i) const { return this->Signs.Sign(0, this->At(i)); }
+  double operator()(int i) const { return (*this->Values)(this->At(i)); }
+  bool IsAbove(const Isoregion& /*region*/, int surface, int i) const
+  {
+    return this->Sign(i) > surface;
+  }
+
+private:
+  const GatheredSamples* Values;
+  const SignLattice& Signs;
+  Point Centre;
+  Point Step;
+  int Count;
+};
+
+/** Calls body(point) for those whose samples the placement of isovertices asks for. */
+template <typename Body>
+void ForEachNeeded(const GatheredEdge& edge, const Body& body)
+{
+  body(edge.At(0));
+  body(edge.At(edge.Steps()));
+  for (int i = 0; i < edge.Steps(); ++i)
+  {
+    if (edge.Sign(i) != edge.Sign(i + 1))
+    {
+      body(edge.At(i));
+      body(edge.At(i + 1));
+    }
+  }
+}
+
+}
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Hierarchy/StreamedEncoder.h"
+
+#include "Hierarchy/DiamondReader.h"
+
+namespace isodiamond
+{
+namespace
+{
+
+/** For what only signs are needed of. */
+template <typename Signs>
+DiamondReader<std::uint8_t, Signs> ReaderOfSigns(
+  const EncodingHeader& header, const Grid& grid, const Signs& signs)
+{
+  return { header, grid, SampleView<std::uint8_t>(nullptr, grid.Dimensions()), signs };
+}
+
+}
+
+StreamedEncoder::StreamedEncoder(const EncodingHeader& header, const Grid& grid,
+  const DiamondSet& set, ErrorCode::Type code, const SignLattice& signs,
+  const ParallelFor& parallelFor)
+  : Header(header)
+  , TheGrid(grid)
+  , Set(set)
+  , Code(code)
+  , Signs(signs)
+  , Passes(header, set, parallelFor)
+  , Gathered(grid.Dimensions(), {})
+{
+  static_assert(1 << (FirstLongScale - 1) == Overlap, "a slab has all of the short edges");
+  const RemainingSigns<std::uint8_t> signOf(signs);
+  this->Passes.Count(ReaderOfSigns(header, grid, signOf));
+  this->Gathered = this->WantedSamples();
+}
+
+GatheredEdge StreamedEncoder::LongEdge(
+  const GatheredSamples* values, const Place& place, int vertex) const
+{
+  const Point& offset = tables::Parities[Parity(place.Position)].Offsets[vertex];
+  const int length = 1 << place.Scale;
+  const bool exact = this->Header.ExactIsovertices;
+  return { values, this->Signs, Centre(place), (exact ? 1 : length) * offset, exact ? length : 1 };
+}
+
+GatheredSamples StreamedEncoder::WantedSamples() const
+{
+  std::vector<std::int64_t> wanted;
+  this->Passes.ForEachCounted(FirstLongScale,
+    [&](const Place& place, std::uint16_t crossed)
+    {
+      ForEachBit(crossed,
+        [&](int vertex)
+        {
+          ForEachNeeded(this->LongEdge(nullptr, place, vertex),
+            [&](const Point& point)
+            { wanted.push_back(SampleIndex(this->TheGrid.Dimensions(), point)); });
+        });
+    });
+  return { this->TheGrid.Dimensions(), std::move(wanted) };
+}
+
+void StreamedEncoder::Add(const SampleSlab& slab, const EncodingPasses::Slices& slices)
+{
+  this->Gathered.Add(slab);
+  std::visit(
+    [&](const auto& view)
+    {
+      using Value = typename std::decay_t<decltype(view)>::Value;
+      const RemainingSigns<Value> signOf(this->Signs);
+      const DiamondReader reader(this->Header, this->TheGrid, view, signOf, slab.First);
+      if (slices.Begin == 0)
+      {
+        this->Passes.MakeRoomForValues<Value>();
+      }
+      this->Passes.WriteIsovertices(0, FirstLongScale, slices, this->Code, reader,
+        [&](const Place& place, int vertex) { return reader.Edge(place, vertex); });
+      this->Passes.WriteInsideValues(slices, reader);
+    },
+    slab.Samples);
+}
+
+Encoding StreamedEncoder::Finish()
+{
+  const RemainingSigns<std::uint8_t> signOf(this->Signs);
+  this->Passes.WriteIsovertices(FirstLongScale, this->Set.ScaleCount(), EncodingPasses::AllSlices,
+    this->Code, ReaderOfSigns(this->Header, this->TheGrid, signOf),
+    [&](const Place& place, int vertex) { return this->LongEdge(&this->Gathered, place, vertex); });
+  return this->Passes.Take();
+}
+
+}

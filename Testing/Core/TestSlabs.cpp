@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Build/StagedBuild.h"
+
+#include "CoreTestTools.h"
+#include "RandomTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <stdexcept>
+
+using namespace isodiamond;
+
+namespace
+{
+
+/** The slices of a slab, and nothing else, in memory of their own. */
+AnyValues CopySlices(const AnySamples& samples, const StreamedBuild::Slices& slices)
+{
+  return std::visit(
+    [&](const auto& view) -> AnyValues
+    {
+      using T = typename std::decay_t<decltype(view)>::Value;
+      const T* const begin = view.Pointer() + view.Index({ 0, 0, slices.First });
+      const T* const end = view.Pointer() + view.Index({ 0, 0, slices.Last + 1 });
+      return std::vector<T>(begin, end);
+    },
+    samples);
+}
+
+/** What a reader gives of a volume. */
+template <typename Body>
+void WithSlab(const AnySamples& samples, const StreamedBuild::Slices& slices, const Body& body)
+{
+  const AnyValues values = CopySlices(samples, slices);
+  std::visit(
+    [&](const auto& array)
+    {
+      using T = typename std::decay_t<decltype(array)>::value_type;
+      const auto [x, y, z] = std::get<SampleView<T>>(samples).Dimensions();
+      body(SampleSlab{
+        SampleView<T>(array.data(), { x, y, slices.Last + 1 - slices.First }), slices.First });
+    },
+    values);
+}
+
+StagedBuild BuildInSlabs(const AnySamples& samples, const Isoregion& region, int slabs,
+  const ParallelFor& parallelFor, const BuildOptions& options)
+{
+  const auto dimensions = std::visit([](const auto& view) { return view.Dimensions(); }, samples);
+  StreamedBuild build(dimensions, region, parallelFor, options);
+  const std::vector<StreamedBuild::Slices> cut = StreamedBuild::Cut(dimensions, slabs);
+  for (const StreamedBuild::Slices& slices : cut)
+  {
+    WithSlab(samples, slices, [&](const SampleSlab& slab) { build.AddSigns(slab); });
+  }
+  build.Classify();
+  for (const StreamedBuild::Slices& slices : cut)
+  {
+    WithSlab(samples, slices, [&](const SampleSlab& slab) { build.AddValues(slab, slices); });
+  }
+  return build.Finish();
+}
+
+/** Also of values that are not equal to themselves. */
+bool HaveSameBytes(const AnyValues& a, const AnyValues& b)
+{
+  return a.index() == b.index() &&
+    std::visit(
+      [&](const auto& values)
+      {
+        const auto& others = std::get<std::decay_t<decltype(values)>>(b);
+        return values.size() == others.size() &&
+          std::memcmp(values.data(), others.data(), values.size() * sizeof(values[0])) == 0;
+      },
+      a);
+}
+
+void ExpectSame(const Encoding& found, const Encoding& expected)
+{
+  EXPECT_EQ(found.Arrays.BrickCounts, expected.Arrays.BrickCounts);
+  EXPECT_EQ(found.Arrays.BrickIndices, expected.Arrays.BrickIndices);
+  EXPECT_EQ(found.Arrays.BrickMasks, expected.Arrays.BrickMasks);
+  EXPECT_EQ(found.Arrays.Records, expected.Arrays.Records);
+  EXPECT_EQ(found.Arrays.Isovertices, expected.Arrays.Isovertices);
+  EXPECT_EQ(found.Arrays.Followers, expected.Arrays.Followers);
+  EXPECT_TRUE(HaveSameBytes(found.InsideValues, expected.InsideValues));
+  EXPECT_EQ(found.Header.ErrorScale, expected.Header.ErrorScale);
+  EXPECT_EQ(found.Header.FieldScale, expected.Header.FieldScale);
+  EXPECT_EQ(found.Header.RemovedPieces, expected.Header.RemovedPieces);
+  EXPECT_EQ(found.Header.ActiveCount, expected.Header.ActiveCount);
+  EXPECT_EQ(found.Header.CreationCount, expected.Header.CreationCount);
+  EXPECT_EQ(found.Header.RelevantCount, expected.Header.RelevantCount);
+}
+
+/** An encoding and its mesh of full resolution. */
+struct Whole
+{
+  Encoding TheEncoding;
+  test::AnyMesh Mesh;
+
+  Whole(
+    Model model, const AnySamples& samples, const Isoregion& region, const BuildOptions& options)
+    : TheEncoding(BuildIsodiamonds(model, samples, region, SerialFor, options))
+    , Mesh(IsodiamondHierarchy(this->TheEncoding, SerialFor), Query{})
+  {
+  }
+};
+
+/** Volumes that are larger than memory come in slabs: the same as at once, to the bit. */
+void Compare(
+  const AnySamples& samples, int slabs, const BuildOptions& options, const Whole& expected)
+{
+  const ParallelFor threads = test::ThreadedFor(2);
+  const EncodingHeader& header = expected.TheEncoding.Header;
+  StagedBuild staged = BuildInSlabs(samples, header.Region, slabs, threads, options);
+  EXPECT_TRUE(test::AnyMesh(staged.FullResolution(), Query{}).IsSameInAnyOrder(expected.Mesh));
+  // Whatever is said to be the samples: they are not looked at.
+  ExpectSame(
+    staged.Finish(header.TheModel, SampleView<float>(), threads, options), expected.TheEncoding);
+}
+
+}
+
+TEST(Slabs, MakeTheHierarchyOfTheWholeVolume)
+{
+  const int cases = test::ForRandomSeeds(
+    [](std::uint32_t seed)
+    {
+      SCOPED_TRACE(seed);
+      test::Random random(seed);
+      const test::RandomSamples samples(random, 24, 6000);
+      const Isoregion region = test::RandomRegion(random, samples);
+      BuildOptions options = test::RandomOptions(random, samples.Dimensions);
+      options.Metric = ErrorMetric::Distance;
+      options.RefineInterior = false;
+      const Model model = test::Pick(random, 2) == 0 ? Model::Relevant : Model::Minimal;
+      Compare(samples.View(), 1 + test::Pick(random, 27), options,
+        Whole(model, samples.View(), region, options));
+    });
+  EXPECT_GT(cases, 0);
+}
+
+TEST(Slabs, PlaceIsoverticesOfEdgesThatAreLongerThanASlab)
+{
+  // Of 64 steps in slabs of 2 slices; surfaces that cross a long edge often, and seldom.
+  for (const test::Field& field :
+    { test::WaveField({ 7, 9, 66 }), test::NoiseField({ 4, 5, 66 }, 3),
+      test::SparseField({ 9, 7, 67 }, 4), test::BrokenField({ 5, 4, 67 }, 5) })
+  {
+    SCOPED_TRACE(field.Name);
+    for (const bool exact : { true, false })
+    {
+      BuildOptions options = test::Distance();
+      options.ExactIsovertices = exact;
+      for (const Isoregion& region :
+        { Isoregion(field.Isovalue), Isoregion(field.Isovalue - 1.0, field.Isovalue + 0.5) })
+      {
+        const Whole expected(Model::Minimal, field.View(), region, options);
+        for (const int slabs : { 2, 33 })
+        {
+          Compare(field.View(), slabs, options, expected);
+        }
+      }
+    }
+  }
+}
+
+TEST(Slabs, AreCutSoThatEachSliceIsInOne)
+{
+  for (const int slices : { 2, 3, 20, 71 })
+  {
+    for (const int slabs : { 0, 1, 2, 3, 7, 100 })
+    {
+      int next = 0;
+      for (const StreamedBuild::Slices& cut : StreamedBuild::Cut({ 5, 6, slices }, slabs))
+      {
+        EXPECT_EQ(cut.Begin, next);
+        EXPECT_LT(cut.Begin, cut.End);
+        EXPECT_EQ(cut.First, std::max(cut.Begin - 8, 0));
+        EXPECT_EQ(cut.Last, std::min(cut.End + 7, slices - 1));
+        next = cut.End;
+      }
+      EXPECT_EQ(next, slices);
+    }
+  }
+}
+
+TEST(Slabs, RefuseWhatAsksForFieldErrors)
+{
+  const auto build = [](const Isoregion& region, const BuildOptions& options) {
+    return StreamedBuild({ 9, 9, 9 }, region, SerialFor, options);
+  };
+  EXPECT_THROW(build(1.0, BuildOptions()), std::invalid_argument);
+  BuildOptions refined = test::Distance();
+  refined.RefineInterior = true;
+  EXPECT_NO_THROW(build(1.0, refined));
+  EXPECT_THROW(build(Isoregion(1.0, 2.0), refined), std::invalid_argument);
+  BuildOptions pieces = test::Distance();
+  pieces.MinimumPieceSize = -1;
+  EXPECT_THROW(build(1.0, pieces), std::invalid_argument);
+}

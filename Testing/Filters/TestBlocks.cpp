@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Volumes that are larger than memory: sources that give slab after slab of an image.
+#include "FilterTestTools.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkFloatArray.h"
+#include "vtkImageAlgorithm.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIsodiamondBuilder.h"
+#include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondIntervalVolume.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include <sys/resource.h>
+
+namespace
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+/** Makes just the part of an image that it is asked for, and counts. */
+class PartsSource : public vtkImageAlgorithm
+{
+public:
+  vtkTypeMacro(PartsSource, vtkImageAlgorithm);
+  static PartsSource* New();
+
+  std::array<int, 6> WholeExtent = { -3, 29, 2, 32, 5, 67 };
+  std::function<double(double, double, double)> Function = [](double x, double y, double z)
+  {
+    const double bump = std::sin(0.7 * x) * std::cos(0.5 * y) + std::sin(0.4 * z);
+    return 14.0 - std::hypot(x - 13.0, y - 16.0, 0.5 * (z - 36.0)) + bump;
+  };
+  bool HasOther = true;
+  bool CanMakeParts = true;
+  bool MakesMore = false;  ///< than it is asked for
+  bool MakesOther = false; ///< than it is asked for
+  bool HasGhosts = false;
+  int FailsAt = -1; ///< this request
+
+  int Requests = 0;
+  vtkIdType MostVoxels = 0; ///< of all requests
+
+protected:
+  PartsSource() { this->SetNumberOfInputPorts(0); }
+
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override
+  {
+    vtkInformation* info = outputVector->GetInformationObject(0);
+    info->Set(Pipeline::WHOLE_EXTENT(), this->WholeExtent.data(), 6);
+    info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), this->CanMakeParts ? 1 : 0);
+    vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
+    return 1;
+  }
+
+  int RequestData(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override
+  {
+    if (this->Requests++ == this->FailsAt)
+    {
+      return 0;
+    }
+    vtkInformation* info = outputVector->GetInformationObject(0);
+    int extent[6];
+    info->Get(Pipeline::UPDATE_EXTENT(), extent);
+    if (this->MakesMore)
+    {
+      extent[4] = std::max(extent[4] - 2, this->WholeExtent[4]);
+      extent[5] = std::min(extent[5] + 1, this->WholeExtent[5]);
+    }
+    if (this->MakesOther && this->Requests > 1)
+    {
+      ++extent[4];
+    }
+    vtkImageData* image = vtkImageData::GetData(info);
+    image->SetExtent(extent);
+    image->SetOrigin(0.5, -2.0, 100.0);
+    image->SetSpacing(1.0, 0.75, 1.25);
+    vtkNew<vtkFloatArray> density;
+    density->SetName("density");
+    vtkNew<vtkUnsignedCharArray> other;
+    other->SetName("other");
+    const vtkIdType count = image->GetNumberOfPoints();
+    density->SetNumberOfTuples(count);
+    other->SetNumberOfTuples(this->HasOther ? count : 0);
+    this->MostVoxels = std::max(this->MostVoxels, count);
+    vtkIdType id = 0;
+    for (int z = extent[4]; z <= extent[5]; ++z)
+    {
+      for (int y = extent[2]; y <= extent[3]; ++y)
+      {
+        for (int x = extent[0]; x <= extent[1]; ++x, ++id)
+        {
+          density->SetValue(id, static_cast<float>(this->Function(x, y, z)));
+          if (this->HasOther)
+          {
+            other->SetValue(id, static_cast<unsigned char>(7 * x + 3 * y + z));
+          }
+        }
+      }
+    }
+    image->GetPointData()->SetScalars(density);
+    if (this->HasOther)
+    {
+      image->GetPointData()->AddArray(other);
+    }
+    if (this->HasGhosts)
+    {
+      image->AllocatePointGhostArray()->SetValue(0, vtkDataSetAttributes::HIDDENPOINT);
+    }
+    return 1;
+  }
+};
+vtkStandardNewMacro(PartsSource);
+
+/** The same filter on the image at once, and in blocks. */
+template <typename Filter>
+struct Both
+{
+  vtkNew<PartsSource> Source;
+  vtkNew<PartsSource> SourceOfParts;
+  vtkNew<Filter> AtOnce;
+  vtkNew<Filter> InBlocks;
+
+  explicit Both(int blocks)
+  {
+    this->AtOnce->SetInputConnection(this->Source->GetOutputPort());
+    this->AtOnce->SetNumberOfBlocks(1);
+    this->InBlocks->SetInputConnection(this->SourceOfParts->GetOutputPort());
+    this->InBlocks->SetNumberOfBlocks(blocks);
+  }
+
+  template <typename Set>
+  void ForEach(const Set& set)
+  {
+    set(this->AtOnce.Get());
+    set(this->InBlocks.Get());
+  }
+
+  std::string Difference()
+  {
+    this->AtOnce->Update();
+    this->InBlocks->Update();
+    EXPECT_EQ(this->AtOnce->GetNumberOfSlabs(), 1);
+    return test::Difference(vtkDataSet::SafeDownCast(this->AtOnce->GetOutputDataObject(0)),
+      vtkDataSet::SafeDownCast(this->InBlocks->GetOutputDataObject(0)));
+  }
+};
+
+}
+
+TEST(Blocks, MakeTheSameSurface)
+{
+  for (const int blocks : { 2, 3, 7 })
+  {
+    SCOPED_TRACE(blocks);
+    Both<vtkIsodiamondContour> both(blocks);
+    both.ForEach(
+      [](vtkIsodiamondContour* contour)
+      {
+        contour->SetValue(0, 0.0);
+        contour->SetValue(1, 3.3);
+        contour->SetErrorTolerance(0.3);
+        contour->ComputeNormalsOn();
+        contour->ComputeGradientsOn();
+      });
+    EXPECT_EQ(both.Difference(), "");
+    EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), blocks);
+    EXPECT_GT(both.InBlocks->GetOutput()->GetNumberOfPolys(), 1000);
+    EXPECT_TRUE(both.InBlocks->GetOutput()->GetPointData()->GetNormals());
+    EXPECT_TRUE(both.InBlocks->GetOutput()->GetPointData()->HasArray("other"));
+    // A slab shares 8 slices on both sides.
+    const int thickness = (63 + blocks - 1) / blocks + 16;
+    EXPECT_LE(both.SourceOfParts->MostVoxels, 33 * 31 * std::min(thickness, 63));
+
+    // What comes after asks for nothing.
+    const int requests = both.SourceOfParts->Requests;
+    both.ForEach([](vtkIsodiamondContour* contour) { contour->SetErrorTolerance(0.0); });
+    EXPECT_EQ(both.Difference(), "");
+    both.ForEach(
+      [](vtkIsodiamondContour* contour)
+      {
+        contour->SetErrorTolerance(0.2);
+        contour->UseRegionOfInterestOn();
+        contour->SetRegionOfInterest(0, 20, 0, 20, 120, 150);
+        contour->SimplifyOn();
+      });
+    EXPECT_EQ(both.Difference(), "");
+    EXPECT_EQ(both.SourceOfParts->Requests, requests);
+    EXPECT_EQ(both.InBlocks->GetNumberOfBuilds(), 2);
+  }
+}
+
+TEST(Blocks, MakeTheSameVolume)
+{
+  Both<vtkIsodiamondIntervalVolume> both(4);
+  both.ForEach(
+    [](vtkIsodiamondIntervalVolume* volume)
+    {
+      volume->SetIsorange(-1.0, 4.5);
+      volume->SetMinimumPieceSize(20);
+      volume->ComputeGradientsOn();
+    });
+  for (const double tolerance : { 0.0, 0.4, 1e9 })
+  {
+    both.ForEach(
+      [&](vtkIsodiamondIntervalVolume* volume) { volume->SetErrorTolerance(tolerance); });
+    EXPECT_EQ(both.Difference(), "");
+    EXPECT_GT(both.InBlocks->GetOutput()->GetNumberOfCells(), 100);
+  }
+  both.ForEach([](vtkIsodiamondIntervalVolume* volume) { volume->SimulationQualityOn(); });
+  both.ForEach([](vtkIsodiamondIntervalVolume* volume) { volume->SetErrorTolerance(1.0); });
+  EXPECT_EQ(both.Difference(), "");
+  EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), 4);
+}
+
+TEST(Blocks, MakeTheSameHierarchy)
+{
+  Both<vtkIsodiamondBuilder> both(5);
+  for (const int model : { vtkIsodiamondHierarchy::RELEVANT, vtkIsodiamondHierarchy::MINIMAL })
+  {
+    both.ForEach(
+      [&](vtkIsodiamondBuilder* builder)
+      {
+        builder->SetModel(model);
+        builder->SetErrorMetricToDistance();
+        builder->SetIsovalue(1.0);
+        builder->AddPointArray("other");
+        builder->ComputeNormalsOn();
+        builder->PreserveTopologyOn();
+      });
+    EXPECT_EQ(both.Difference(), "");
+    EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), 5);
+    both.ForEach([](vtkIsodiamondBuilder* builder) { builder->ClearPointArrays(); });
+  }
+  both.InBlocks->AddPointArray("none");
+  const auto messages = test::Watch(both.InBlocks);
+  both.InBlocks->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+}
+
+// More slices than were asked for are welcome.
+TEST(Blocks, MayBeLargerThanAskedFor)
+{
+  Both<vtkIsodiamondContour> both(3);
+  both.SourceOfParts->MakesMore = true;
+  both.ForEach(
+    [](vtkIsodiamondContour* contour)
+    {
+      contour->SetValue(0, 0.0);
+      contour->SetErrorTolerance(0.3);
+    });
+  EXPECT_EQ(both.Difference(), "");
+  EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), 3);
+}
+
+TEST(Blocks, AreReadAgainWhenTheSourceChanges)
+{
+  Both<vtkIsodiamondContour> both(3);
+  both.ForEach([](vtkIsodiamondContour* contour) { contour->SetValue(0, 0.0); });
+  EXPECT_EQ(both.Difference(), "");
+  for (PartsSource* source : { both.Source.Get(), both.SourceOfParts.Get() })
+  {
+    source->Function = [](double x, double y, double z)
+    { return 10.0 - std::hypot(x - 10.0, y - 16.0, z - 30.0); };
+    source->Modified();
+  }
+  EXPECT_EQ(both.Difference(), "");
+  EXPECT_EQ(both.InBlocks->GetNumberOfBuilds(), 2);
+}
+
+TEST(Blocks, AreOneWithAWarningWhereTheyCannotBe)
+{
+  const auto check = [](const std::function<void(Both<vtkIsodiamondContour>&)>& set, bool warns)
+  {
+    Both<vtkIsodiamondContour> both(3);
+    both.ForEach([](vtkIsodiamondContour* contour) { contour->SetValue(0, 0.0); });
+    set(both);
+    const auto messages = test::Watch(both.InBlocks);
+    EXPECT_EQ(both.Difference(), "");
+    EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), 1);
+    EXPECT_EQ(messages->WarningCount, warns ? 1 : 0) << messages->Warnings;
+    EXPECT_EQ(messages->ErrorCount, 0);
+  };
+  check([](auto& both) { both.SourceOfParts->CanMakeParts = false; }, true);
+  check([](auto& both)
+    { both.ForEach([](vtkIsodiamondContour* contour) { contour->SetErrorMetricToField(); }); },
+    true);
+  check([](auto& both)
+    { both.ForEach([](vtkIsodiamondContour* contour) { contour->CloseBoundaryOn(); }); },
+    true);
+  // A small image fits into memory.
+  check([](auto& both) { both.InBlocks->SetNumberOfBlocks(0); }, false);
+
+  Both<vtkIsodiamondIntervalVolume> both(3);
+  both.ForEach(
+    [](vtkIsodiamondIntervalVolume* volume)
+    {
+      volume->SetIsorange(0.0, 3.0);
+      volume->SetInteriorTolerance(0.1);
+    });
+  const auto messages = test::Watch(both.InBlocks);
+  EXPECT_EQ(both.Difference(), "");
+  EXPECT_EQ(messages->WarningCount, 1);
+}
+
+TEST(Blocks, ThatCannotBeHadAreAnError)
+{
+  const auto check = [](const std::function<void(PartsSource*)>& set)
+  {
+    vtkNew<PartsSource> source;
+    set(source);
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputConnection(source->GetOutputPort());
+    contour->SetValue(0, 0.0);
+    contour->SetNumberOfBlocks(4);
+    const auto messages = test::Watch(contour);
+    const auto ofPipeline = test::Watch(source);
+    const auto ofExecutive = vtkSmartPointer<test::Messages>::New();
+    source->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, ofExecutive);
+    contour->Update();
+    EXPECT_EQ(messages->ErrorCount, 1) << messages->Errors;
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+    // And it works again.
+    source->FailsAt = -1;
+    source->MakesOther = false;
+    source->HasGhosts = false;
+    source->Modified();
+    contour->Update();
+    EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 1000);
+    EXPECT_EQ(messages->ErrorCount, 1) << messages->Errors;
+  };
+  check([](PartsSource* source) { source->FailsAt = 2; });
+  check([](PartsSource* source) { source->FailsAt = 5; });
+  check([](PartsSource* source) { source->MakesOther = true; });
+  check([](PartsSource* source) { source->HasGhosts = true; });
+}
+
+namespace
+{
+
+/** The pages of the process, in bytes. */
+double Memory()
+{
+  long pages = 0;
+  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  const bool isRead = file && std::fscanf(file, "%ld", &pages) == 1;
+  std::fclose(file);
+  return isRead ? 4096.0 * pages : 0.0;
+}
+
+/** A surface of a volume of 512^3 floats, 512 MiB, with so much memory. */
+int ContourWithin(double bytes)
+{
+  vtkNew<PartsSource> source;
+  source->WholeExtent = { 0, 511, 0, 511, 0, 511 };
+  source->HasOther = false;
+  source->Function = [](double x, double y, double z)
+  { return (x - 250.0) * (x - 250.0) + (y - 260.0) * (y - 260.0) + (z - 240.0) * (z - 240.0); };
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputConnection(source->GetOutputPort());
+  contour->SetValue(0, 2500.0);
+  contour->SetErrorTolerance(0.5);
+  contour->SetNumberOfBlocks(32);
+  contour->SetNumberOfThreads(1);
+  const auto limit = static_cast<rlim_t>(Memory() + bytes);
+  const rlimit limits{ limit, limit };
+  setrlimit(RLIMIT_AS, &limits);
+  contour->Update();
+  return contour->GetOutput()->GetNumberOfPolys() > 1000 ? 0 : 1;
+}
+
+}
+
+TEST(Blocks, NeedLessMemoryThanTheVolume)
+{
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(
+    std::exit(ContourWithin(0.4 * 4.0 * 512 * 512 * 512)), testing::ExitedWithCode(0), "");
+}
