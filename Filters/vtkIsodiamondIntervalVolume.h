@@ -83,6 +83,7 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   vtkIsodiamond::WorldQuery GetQuery() const override;
+  bool RefinesInterior() const override;
   std::vector<isodiamond::Isoregion> GetRegions() const override;
   const char* GetNameOfCells() const override { return "Tetrahedra"; }
   void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,

@@ -140,7 +140,7 @@ vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataSe
 bool vtkIsodiamondVolumeAlgorithm::CanBeCut() const
 {
   return this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && !this->ClosesBoundary() &&
-    this->GetQuery().InteriorTolerance >= VTK_DOUBLE_MAX;
+    !this->RefinesInterior();
 }
 
 //------------------------------------------------------------------------------

@@ -199,6 +199,9 @@ protected:
   /** Whether the volume is padded. */
   virtual bool ClosesBoundary() const { return false; }
 
+  /** Whether there is an interior tolerance. */
+  virtual bool RefinesInterior() const { return false; }
+
   /** What meshes are to be extracted of. @throws std::invalid_argument if it makes no sense */
   virtual std::vector<isodiamond::Isoregion> GetRegions() const = 0;
 

@@ -6,8 +6,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
 #include <cstring>
+#include <functional>
+#include <mutex>
 #include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
 
 using namespace isodiamond;
 
@@ -44,23 +52,139 @@ void WithSlab(const AnySamples& samples, const StreamedBuild::Slices& slices, co
     values);
 }
 
+/** @param options with peers, if there are any */
 StagedBuild BuildInSlabs(const AnySamples& samples, const Isoregion& region, int slabs,
   const ParallelFor& parallelFor, const BuildOptions& options)
 {
   const auto dimensions = std::visit([](const auto& view) { return view.Dimensions(); }, samples);
   StreamedBuild build(dimensions, region, parallelFor, options);
   const std::vector<StreamedBuild::Slices> cut = StreamedBuild::Cut(dimensions, slabs);
-  for (const StreamedBuild::Slices& slices : cut)
+  const Peers* peers = options.Together;
+  const auto isOwn = [&](std::size_t slab)
   {
-    WithSlab(samples, slices, [&](const SampleSlab& slab) { build.AddSigns(slab); });
+    return peers == nullptr ||
+      static_cast<int>(slab * peers->Count() / cut.size()) == peers->Rank();
+  };
+  for (std::size_t i = 0; i < cut.size(); ++i)
+  {
+    if (isOwn(i))
+    {
+      WithSlab(samples, cut[i], [&](const SampleSlab& slab) { build.AddSigns(slab); });
+    }
   }
   build.Classify();
-  for (const StreamedBuild::Slices& slices : cut)
+  for (std::size_t i = 0; i < cut.size(); ++i)
   {
-    WithSlab(samples, slices, [&](const SampleSlab& slab) { build.AddValues(slab, slices); });
+    if (isOwn(i))
+    {
+      WithSlab(samples, cut[i], [&](const SampleSlab& slab) { build.AddValues(slab, cut[i]); });
+    }
+    else
+    {
+      build.SkipValues(cut[i]);
+    }
   }
   return build.Finish();
 }
+
+/** Peers that are threads. */
+class Gathering
+{
+public:
+  explicit Gathering(int count)
+    : Places(count)
+  {
+  }
+
+  /** Runs body(peers) in all of them. */
+  void Run(const std::function<void(Peers&)>& body)
+  {
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < this->Count(); ++rank)
+    {
+      threads.emplace_back(
+        [&, rank]
+        {
+          Peer peer(*this, rank);
+          body(peer);
+        });
+    }
+    for (std::thread& thread : threads)
+    {
+      thread.join();
+    }
+  }
+
+private:
+  class Peer : public Peers
+  {
+  public:
+    Peer(Gathering& all, int rank)
+      : All(all)
+      , Number(rank)
+    {
+    }
+    int Count() const override { return this->All.Count(); }
+    int Rank() const override { return this->Number; }
+    void Or(std::uint8_t* bytes, std::int64_t count) override
+    {
+      this->Combine(bytes, count, [](auto a, auto b) { return a | b; });
+    }
+    void Max(std::uint16_t* values, std::int64_t count) override
+    {
+      this->Combine(values, count, [](auto a, auto b) { return std::max(a, b); });
+    }
+    void Min(std::uint16_t* values, std::int64_t count) override
+    {
+      this->Combine(values, count, [](auto a, auto b) { return std::min(a, b); });
+    }
+    void Max(double* values, std::int64_t count) override
+    {
+      this->Combine(values, count, [](auto a, auto b) { return std::max(a, b); });
+    }
+
+  private:
+    template <typename T, typename Operation>
+    void Combine(T* values, std::int64_t count, const Operation& operation)
+    {
+      this->All.Places[this->Number] = values;
+      this->All.Meet();
+      std::vector<T> all(values, values + count);
+      for (const void* place : this->All.Places)
+      {
+        const T* const others = static_cast<const T*>(place);
+        std::transform(all.begin(), all.end(), others, all.begin(), operation);
+      }
+      this->All.Meet();
+      std::copy(all.begin(), all.end(), values);
+    }
+
+    Gathering& All;
+    int Number;
+  };
+
+  int Count() const { return static_cast<int>(this->Places.size()); }
+
+  /** Waits for all others. */
+  void Meet()
+  {
+    std::unique_lock<std::mutex> lock(this->Mutex);
+    const int meeting = this->Meetings;
+    if (++this->Waiting == this->Count())
+    {
+      this->Waiting = 0;
+      ++this->Meetings;
+      this->Changed.notify_all();
+    }
+    this->Changed.wait(lock, [&] { return meeting != this->Meetings; });
+  }
+
+  std::vector<const void*> Places;
+  std::mutex Mutex;
+  std::condition_variable Changed;
+  int Waiting = 0;
+  int Meetings = 0;
+};
 
 /** Also of values that are not equal to themselves. */
 bool HaveSameBytes(const AnyValues& a, const AnyValues& b)
@@ -139,6 +263,71 @@ TEST(Slabs, MakeTheHierarchyOfTheWholeVolume)
         Whole(model, samples.View(), region, options));
     });
   EXPECT_GT(cases, 0);
+}
+
+TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
+{
+  const int cases = test::ForRandomSeeds(
+    [](std::uint32_t seed)
+    {
+      SCOPED_TRACE(seed);
+      test::Random random(seed);
+      const test::RandomSamples samples(random, 40, 4000);
+      const Isoregion region = test::RandomRegion(random, samples);
+      BuildOptions options = test::RandomOptions(random, samples.Dimensions);
+      options.Metric = ErrorMetric::Distance;
+      options.RefineInterior = false;
+      const Model model = test::Pick(random, 2) == 0 ? Model::Relevant : Model::Minimal;
+      const int peers = 1 + test::Pick(random, std::min(4, samples.Dimensions[2]));
+      const int slabs = peers + test::Pick(random, 5);
+      const Whole expected(model, samples.View(), region, options);
+      std::mutex mutex; // of expectations
+      Gathering(peers).Run(
+        [&](Peers& own)
+        {
+          BuildOptions together = options;
+          together.Together = &own;
+          StagedBuild staged = BuildInSlabs(samples.View(), region, slabs, SerialFor, together);
+          const Encoding found = staged.Finish(model, SampleView<float>(), SerialFor, together);
+          const std::lock_guard<std::mutex> lock(mutex);
+          ExpectSame(found, expected.TheEncoding);
+        });
+    });
+  EXPECT_GT(cases, 0);
+}
+
+// Or the others would wait forever.
+TEST(Slabs, OfPeersFailForAllOfThem)
+{
+  const test::Field field = test::WaveField({ 9, 10, 33 });
+  for (const std::string phase :
+    { "Classifying diamonds", "Measuring errors", "Finding thresholds" })
+  {
+    std::atomic<int> failed(0);
+    Gathering(3).Run(
+      [&](Peers& own)
+      {
+        BuildOptions together = test::Distance();
+        together.Together = &own;
+        together.Report = [&](const char* current, double, double)
+        {
+          if (own.Rank() == 1 && current == phase)
+          {
+            throw std::runtime_error("stopped");
+          }
+        };
+        try
+        {
+          BuildInSlabs(field.View(), field.Isovalue, 5, SerialFor, together)
+            .Finish(Model::Minimal, SampleView<float>(), SerialFor, together);
+        }
+        catch (const std::runtime_error& problem)
+        {
+          failed += (std::string(problem.what()) == "stopped") == (own.Rank() == 1) ? 1 : 0;
+        }
+      });
+    EXPECT_EQ(failed, 3) << phase;
+  }
 }
 
 TEST(Slabs, PlaceIsoverticesOfEdgesThatAreLongerThanASlab)

@@ -189,16 +189,36 @@ DiamondCodes BuildSteps::MeasureField() const
 DiamondCodes BuildSteps::MeasureDistances(
   const IsodiamondHierarchy& relevant, const Finiteness& isFinite) const
 {
-  Tell(this->Options, "Measuring errors", 0.25, 0.5);
-  MapBounds bounds(this->Members.Size(), this->Header.Region.SurfaceCount());
-  DiamondCodes own(this->Members.Size(), this->Interior);
-  this->SubdivideAlways(own);
-  own = OwnDistanceCodes(this->Origin, isFinite, relevant, this->SignsToGoBy(), this->Options,
-    std::move(own), bounds, this->For);
-  Tell(this->Options, "Measuring errors", 0.5, 0.8);
-  const BeforeWayBack known{ this->Options.Hidden, &bounds,
-    ActivationThresholds(this->Origin.SampleGrid, this->Members, own.Surface, this->For) };
-  RaiseByWayBack(relevant, this->Options.World, known, own.Surface, this->For);
+  Peers* const peers = this->Options.Together;
+  MapBounds bounds;
+  DiamondCodes own;
+  InStep(peers,
+    [&]
+    {
+      Tell(this->Options, "Measuring errors", 0.25, 0.5);
+      bounds = MapBounds(this->Members.Size(), this->Header.Region.SurfaceCount());
+      own = DiamondCodes(this->Members.Size(), this->Interior);
+      this->SubdivideAlways(own);
+      own = OwnDistanceCodes(this->Origin, isFinite, relevant, this->SignsToGoBy(), this->Options,
+        std::move(own), bounds, this->For);
+    });
+  if (peers != nullptr)
+  {
+    peers->Max(own.Surface.data(), this->Members.Size());
+    bounds.Merge(*peers);
+  }
+  InStep(peers,
+    [&]
+    {
+      Tell(this->Options, "Measuring errors", 0.5, 0.8);
+      const BeforeWayBack known{ this->Options.Hidden, &bounds,
+        ActivationThresholds(this->Origin.SampleGrid, this->Members, own.Surface, this->For) };
+      RaiseByWayBack(relevant, this->Options.World, known, own.Surface, Loops(this->For, peers));
+    });
+  if (peers != nullptr)
+  {
+    peers->Max(own.Surface.data(), this->Members.Size());
+  }
   return own;
 }
 

@@ -4,6 +4,7 @@
 
 #include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
+#include "Field/Peers.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 #include "Hierarchy/ScalarHierarchy.h"
 
@@ -35,6 +36,8 @@ struct BuildOptions
   /** Cells that count as absent, if there are any. What carries something and touches one is always
    *  subdivided, so that whoever has the mesh can leave out what lies in it. */
   const HiddenCells* Hidden = nullptr;
+  /** Who builds it together with this process, from a volume in slabs; null for nobody. */
+  Peers* Together = nullptr;
   /** Is told what is being done; may throw to stop. */
   Progress Report = nullptr;
 };

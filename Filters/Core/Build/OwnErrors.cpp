@@ -82,7 +82,7 @@ DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
   const DiamondSet& members = relevant.Diamonds();
   const bool refineInterior = !own.Interior.empty();
   own.Surface = DistanceErrors(relevant, isFinite, options.World, options.PreserveFeatures,
-    parallelFor, std::move(own.Surface), &bounds);
+    Loops(parallelFor, options.Together), std::move(own.Surface), &bounds);
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {

@@ -84,7 +84,8 @@ struct DiamondCodes
   std::vector<ErrorCode::Type> Interior; ///< empty without refinement of the interior
   std::vector<std::uint32_t> Followers;  ///< ranks, once there are thresholds
 
-  explicit DiamondCodes(std::int64_t size, bool refineInterior)
+  DiamondCodes() = default;
+  DiamondCodes(std::int64_t size, bool refineInterior)
     : Surface(size, 0)
     , Interior(refineInterior ? size : 0, 0)
   {

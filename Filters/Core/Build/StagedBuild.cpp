@@ -93,9 +93,15 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
     ? kept.Done->MeasureField()
     : kept.Done->MeasureDistances(
         *kept.Hierarchy, kept.IsFinite ? *kept.IsFinite : Finiteness(kept.Samples));
-  kept.Done->FindThresholds(codes);
-  kept.Hierarchy.reset();
-  return kept.Done->Complete(model, std::move(kept.Relevant), std::move(codes));
+  Encoding finished;
+  InStep(options.Together,
+    [&]
+    {
+      kept.Done->FindThresholds(codes);
+      kept.Hierarchy.reset();
+      finished = kept.Done->Complete(model, std::move(kept.Relevant), std::move(codes));
+    });
+  return finished;
 }
 
 /** What slabs have told. */
@@ -161,31 +167,61 @@ void StreamedBuild::AddSigns(const SampleSlab& slab)
 void StreamedBuild::Classify()
 {
   StagedBuild::State& kept = *this->Kept;
-  Tell(kept.Options, "Classifying diamonds", 0.1, 0.2);
-  this->Current->Signs->Complete(kept.For, kept.Options.MinimumPieceSize);
-  const ValueRange range = this->Current->Range.Range();
-  kept.From.FieldScale = ErrorCode(range.Maximum - range.Minimum).Scale();
-  kept.Done.emplace(kept.From, std::move(*this->Current->Signs), this->Current->Region,
-    kept.Options, kept.ErrorScale(), kept.For);
-  this->Current->Signs.reset();
-  this->Current->Encoder.emplace(kept.Done->RelevantHeader(), kept.TheGrid, kept.Done->Relevant(),
-    ErrorCode::Always, *kept.Done->SignsIfKept(), kept.For);
+  Progress& current = *this->Current;
+  Peers* const peers = kept.Options.Together;
+  if (peers != nullptr)
+  {
+    current.Signs->Merge(*peers);
+    current.Range.Merge(*peers);
+    kept.IsFinite->Merge(*peers);
+  }
+  InStep(peers,
+    [&]
+    {
+      Tell(kept.Options, "Classifying diamonds", 0.1, 0.2);
+      current.Signs->Complete(kept.For, kept.Options.MinimumPieceSize);
+      const ValueRange range = current.Range.Range();
+      kept.From.FieldScale = ErrorCode(range.Maximum - range.Minimum).Scale();
+      kept.Done.emplace(kept.From, std::move(*current.Signs), current.Region, kept.Options,
+        kept.ErrorScale(), kept.For);
+      current.Signs.reset();
+      current.Encoder.emplace(kept.Done->RelevantHeader(), kept.TheGrid, kept.Done->Relevant(),
+        ErrorCode::Always, *kept.Done->SignsIfKept(), kept.For);
+    });
+}
+
+/** Those of the centres of diamonds: what has its centre behind the last slice comes with that. */
+EncodingPasses::Slices StreamedBuild::OfCentres(const Slices& slices) const
+{
+  const bool isLast = slices.End == this->Kept->TheGrid.Dimensions()[2];
+  return { slices.Begin, isLast ? EncodingPasses::AllSlices.End : slices.End };
 }
 
 void StreamedBuild::AddValues(const SampleSlab& slab, const Slices& slices)
 {
-  // What has its centre behind the last slice comes with that.
-  const bool isLast = slices.End == this->Kept->TheGrid.Dimensions()[2];
-  this->Current->Encoder->Add(
-    slab, { slices.Begin, isLast ? EncodingPasses::AllSlices.End : slices.End });
+  this->Current->Encoder->Add(slab, this->OfCentres(slices));
+}
+
+void StreamedBuild::SkipValues(const Slices& slices)
+{
+  this->Current->Encoder->Skip(this->OfCentres(slices));
 }
 
 StagedBuild StreamedBuild::Finish()
 {
-  Encoding relevant = this->Current->Encoder->Finish();
-  this->Current.reset();
-  this->Kept->Done->DropSigns();
-  this->Kept->SetRelevant(std::move(relevant));
+  Peers* const peers = this->Kept->Options.Together;
+  if (peers != nullptr)
+  {
+    this->Current->Encoder->Merge(*peers);
+  }
+  InStep(peers,
+    [&]
+    {
+      Encoding relevant = this->Current->Encoder->Finish();
+      this->Current.reset();
+      this->Kept->Done->DropSigns();
+      this->Kept->SetRelevant(std::move(relevant));
+    });
   return StagedBuild(std::move(this->Kept));
 }
 

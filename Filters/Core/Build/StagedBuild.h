@@ -3,6 +3,7 @@
 #define isodiamond_StagedBuild_h
 
 #include "Build/Builder.h"
+#include "Hierarchy/EncodingPasses.h"
 
 #include <array>
 #include <memory>
@@ -34,7 +35,7 @@ public:
   const IsodiamondHierarchy& FullResolution() const;
 
   /** The second step: what BuildIsodiamonds() returns, to the bit. Once only; after an exception,
-   *  as of who stops it, again.
+   *  as of who stops it, again, but not if there were peers.
    *  @param samples the same, wherever they are now; any if they came in slabs
    *  @param options the same, but Hidden may be elsewhere and Report another */
   Encoding Finish(Model model, const AnySamples& samples, const ParallelFor& parallelFor,
@@ -56,6 +57,9 @@ private:
  * second time isovertices are placed. Distances need no more than these; so it is the distance
  * metric only, without refinement inside and hidden cells, which ask for field errors. The result
  * is that of the whole volume, to the bit, however it is cut.
+ *
+ * Peers (BuildOptions::Together) have some slabs each: they add these, and skip those of others.
+ * All of them classify and finish, and have the whole hierarchy in the end.
  */
 class StreamedBuild
 {
@@ -87,17 +91,22 @@ public:
   /** The first time. What slabs share is not needed. */
   void AddSigns(const SampleSlab& slab);
 
-  /** Between the times. */
+  /** Between the times: what peers have added, and which diamonds there are. */
   void Classify();
 
   /** The second time. @param slices a cut that the slab holds; they come one after the other */
   void AddValues(const SampleSlab& slab, const Slices& slices);
+
+  /** In its place slices that a peer adds. */
+  void SkipValues(const Slices& slices);
 
   /** In the end, once only. */
   StagedBuild Finish();
 
 private:
   struct Progress;
+  EncodingPasses::Slices OfCentres(const Slices& slices) const;
+
   std::unique_ptr<StagedBuild::State> Kept;
   std::unique_ptr<Progress> Current;
 };

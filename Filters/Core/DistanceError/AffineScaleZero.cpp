@@ -6,9 +6,9 @@ namespace isodiamond
 {
 
 void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor)
+  ErrorMaxima& errors, const Loops& loops)
 {
-  ScaleZeroDistances<AffineLengths>::Run(clusters, lengths, errors, parallelFor);
+  ScaleZeroDistances<AffineLengths>::Run(clusters, lengths, errors, loops);
 }
 
 }

@@ -6,9 +6,9 @@ namespace isodiamond
 {
 
 void MeasureCoarse(const IsovertexClusters& clusters, const AffineLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor)
+  ErrorMaxima& errors, const Loops& loops)
 {
-  DistanceWalk(clusters, lengths, errors).Run(parallelFor);
+  DistanceWalk(clusters, lengths, errors).Run(loops);
 }
 
 }

@@ -7,9 +7,9 @@ namespace isodiamond
 
 void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengths,
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
-  const ParallelFor& parallelFor)
+  const Loops& loops)
 {
-  MeasureAllBack(relevant, lengths, known, code, codes, parallelFor);
+  MeasureAllBack(relevant, lengths, known, code, codes, loops);
 }
 
 }

@@ -8,22 +8,22 @@ namespace isodiamond
 {
 
 void MeasureCoarse(const IsovertexClusters& clusters, const AxesLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor)
+  ErrorMaxima& errors, const Loops& loops)
 {
-  DistanceWalk(clusters, lengths, errors).Run(parallelFor);
+  DistanceWalk(clusters, lengths, errors).Run(loops);
 }
 
 void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor)
+  ErrorMaxima& errors, const Loops& loops)
 {
-  ScaleZeroDistances<AxesLengths>::Run(clusters, lengths, errors, parallelFor);
+  ScaleZeroDistances<AxesLengths>::Run(clusters, lengths, errors, loops);
 }
 
 void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths,
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
-  const ParallelFor& parallelFor)
+  const Loops& loops)
 {
-  MeasureAllBack(relevant, lengths, known, code, codes, parallelFor);
+  MeasureAllBack(relevant, lengths, known, code, codes, loops);
 }
 
 }

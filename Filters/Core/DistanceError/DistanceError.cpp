@@ -21,8 +21,8 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world)
 }
 
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
-  const Finiteness& isFinite, const GridGeometry& world, bool preserveFeatures,
-  const ParallelFor& parallelFor, std::vector<ErrorCode::Type> codes, MapBounds* bounds)
+  const Finiteness& isFinite, const GridGeometry& world, bool preserveFeatures, const Loops& loops,
+  std::vector<ErrorCode::Type> codes, MapBounds* bounds)
 {
   MapBounds none;
   codes.resize(relevant.Diamonds().Size(), 0);
@@ -36,12 +36,12 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
       {
         continue; // there are none
       }
-      const IsovertexClusters clusters(relevant, errors.IsFinite(), surface, ends, parallelFor);
+      const IsovertexClusters clusters(relevant, errors.IsFinite(), surface, ends, loops.Whole);
       std::visit(
         [&](const auto& lengths)
         {
-          MeasureCoarse(clusters, lengths, errors, parallelFor);
-          MeasureScaleZero(clusters, lengths, errors, parallelFor);
+          MeasureCoarse(clusters, lengths, errors, loops);
+          MeasureScaleZero(clusters, lengths, errors, loops);
         },
         errors.Lengths());
     }
@@ -50,11 +50,11 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
 }
 
 void RaiseByWayBack(const IsodiamondHierarchy& relevant, const GridGeometry& world,
-  const BeforeWayBack& known, std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor)
+  const BeforeWayBack& known, std::vector<ErrorCode::Type>& codes, const Loops& loops)
 {
   const ErrorCode code(DistanceErrorScale(relevant.SampleGrid(), world));
   std::visit([&](const auto& lengths)
-    { MeasureBack(relevant, lengths, known, code, codes, parallelFor); },
+    { MeasureBack(relevant, lengths, known, code, codes, loops); },
     WorldLengthsOf(world));
 }
 

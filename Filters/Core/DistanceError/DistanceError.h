@@ -5,6 +5,7 @@
 #include "DistanceError/MapBounds.h"
 #include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
+#include "Field/Peers.h"
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 
@@ -50,12 +51,13 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world);
  * @param codes by rank, that errors are not less than: what is always subdivided need not be
  *        measured; empty for none
  * @param bounds of the way back, to be filled if they are wanted; null for none
+ * @param loops of peers each finds a part of the errors and bounds: the greatest errors and the
+ *        least bounds are to be put together
  * @return codes by rank, scaled by DistanceErrorScale(); 0 without an isovertex in the domain
  */
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
-  const Finiteness& isFinite, const GridGeometry& world, bool preserveFeatures,
-  const ParallelFor& parallelFor, std::vector<ErrorCode::Type> codes = {},
-  MapBounds* bounds = nullptr);
+  const Finiteness& isFinite, const GridGeometry& world, bool preserveFeatures, const Loops& loops,
+  std::vector<ErrorCode::Type> codes = {}, MapBounds* bounds = nullptr);
 
 /** What is known before the way back is measured, which is less work the more it is. */
 struct BeforeWayBack
@@ -78,7 +80,7 @@ struct BeforeWayBack
  * @param codes of DistanceErrors()
  */
 void RaiseByWayBack(const IsodiamondHierarchy& relevant, const GridGeometry& world,
-  const BeforeWayBack& known, std::vector<ErrorCode::Type>& codes, const ParallelFor& parallelFor);
+  const BeforeWayBack& known, std::vector<ErrorCode::Type>& codes, const Loops& loops);
 
 }
 

@@ -20,23 +20,23 @@ namespace isodiamond
 {
 
 void MeasureCoarse(const IsovertexClusters& clusters, const AffineLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor);
+  ErrorMaxima& errors, const Loops& loops);
 void MeasureCoarse(const IsovertexClusters& clusters, const AxesLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor);
+  ErrorMaxima& errors, const Loops& loops);
 
 void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor);
+  ErrorMaxima& errors, const Loops& loops);
 void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& lengths,
-  ErrorMaxima& errors, const ParallelFor& parallelFor);
+  ErrorMaxima& errors, const Loops& loops);
 
 /** Raises errors to the way back (WayBack.h), of each diamond by itself.
  *  @param codes by rank, of the way forth */
 void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengths,
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
-  const ParallelFor& parallelFor);
+  const Loops& loops);
 void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths,
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
-  const ParallelFor& parallelFor);
+  const Loops& loops);
 
 }
 

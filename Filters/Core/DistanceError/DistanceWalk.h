@@ -7,7 +7,7 @@
 #include "DistanceError/FarthestSearch.h"
 #include "DistanceError/IsovertexClusters.h"
 #include "DistanceError/TetrahedronGeneration.h"
-#include "Field/Parallel.h"
+#include "Field/Peers.h"
 
 #include <algorithm>
 #include <array>
@@ -46,16 +46,16 @@ public:
   {
   }
 
-  void Run(const ParallelFor& parallelFor)
+  void Run(const Loops& loops)
   {
-    std::vector<Task> tasks = this->RootTasks(parallelFor);
+    std::vector<Task> tasks = this->RootTasks(loops.Whole);
     // Generation by generation until there is work for many threads, then each subtree by itself.
     constexpr std::size_t enough = 1024;
     while (!tasks.empty() && tasks.size() < enough && IsCoarse(tasks[0].Holders[0]))
     {
       std::vector<std::vector<Task>> halves(tasks.size());
       ForEachIndex(
-        parallelFor, tasks.size(), 1, [&](std::int64_t i) { halves[i] = this->Bisect(tasks[i]); });
+        loops.Whole, tasks.size(), 1, [&](std::int64_t i) { halves[i] = this->Bisect(tasks[i]); });
       tasks.clear();
       for (std::vector<Task>& some : halves)
       {
@@ -63,7 +63,7 @@ public:
       }
     }
     ForEachIndex(
-      parallelFor, tasks.size(), 1, [&](std::int64_t i) { this->Descend(std::move(tasks[i])); });
+      loops.Share, tasks.size(), 1, [&](std::int64_t i) { this->Descend(std::move(tasks[i])); });
   }
 
 private:

@@ -2,6 +2,7 @@
 #ifndef isodiamond_MapBounds_h
 #define isodiamond_MapBounds_h
 
+#include "Field/Peers.h"
 #include "Hierarchy/ErrorCode.h"
 
 #include <array>
@@ -54,6 +55,19 @@ public:
   void Set(int surface, std::uint32_t rank, int tetrahedron, ErrorCode::Type code)
   {
     this->Codes[surface][rank][tetrahedron] = code;
+  }
+
+  /** Puts the bounds together that peers have found. */
+  void Merge(Peers& peers)
+  {
+    for (std::vector<OfDiamond>& codes : this->Codes)
+    {
+      static_assert(sizeof(OfDiamond) == 8 * sizeof(ErrorCode::Type), "codes in a row");
+      if (!codes.empty())
+      {
+        peers.Min(codes.data()->data(), static_cast<std::int64_t>(8 * codes.size()));
+      }
+    }
   }
 
 private:

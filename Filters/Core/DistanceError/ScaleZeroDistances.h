@@ -23,14 +23,14 @@ class ScaleZeroDistances
 {
 public:
   static void Run(const IsovertexClusters& clusters, const Lengths& lengths, ErrorMaxima& errors,
-    const ParallelFor& parallelFor)
+    const Loops& loops)
   {
     if (clusters.All().empty())
     {
       return;
     }
     const std::vector<Brick>& bricks = errors.Hierarchy().Diamonds().Level(0).Bricks;
-    parallelFor(static_cast<std::int64_t>(bricks.size()), 16,
+    loops.Share(static_cast<std::int64_t>(bricks.size()), 16,
       [&](std::int64_t begin, std::int64_t end)
       {
         ScaleZeroDistances some(clusters, lengths, errors);

@@ -647,7 +647,7 @@ private:
 template <typename Lengths>
 void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
-  const ParallelFor& parallelFor)
+  const Loops& loops)
 {
   const HiddenCells* hidden =
     known.Hidden != nullptr && known.Hidden->Any() ? known.Hidden : nullptr;
@@ -655,8 +655,8 @@ void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
   const std::vector<BrickPlace> bricks = AllBricks(set);
   for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
   {
-    const FineSurface fine(relevant, surface, hidden, parallelFor);
-    parallelFor(static_cast<std::int64_t>(bricks.size()), 4,
+    const FineSurface fine(relevant, surface, hidden, loops.Whole);
+    loops.Share(static_cast<std::int64_t>(bricks.size()), 4,
       [&](std::int64_t begin, std::int64_t end)
       {
         WayBack<Lengths> wayBack(relevant, lengths, surface, fine, known.Bounds, code);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Field/Samples.h"
 
+#include "Field/Peers.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -69,14 +71,29 @@ void Finiteness::Add(const SampleSlab& slab)
       {
         return;
       }
-      const auto [x, y, z] = this->Dimensions;
-      this->NotFinite.resize(std::int64_t{ x } * y * z);
+      this->MakeRoom();
       for (std::int64_t i = 0; i < view.Size(); ++i)
       {
-        this->NotFinite[first + i] = !IsFinite(data[i]);
+        const std::int64_t index = first + i;
+        this->NotFinite[index >> 6] |= std::uint64_t{ IsFinite(data[i]) ? 0U : 1U } << (index & 63);
       }
     },
     slab.Samples);
+}
+
+void Finiteness::MakeRoom()
+{
+  const auto [x, y, z] = this->Dimensions;
+  this->NotFinite.resize((std::int64_t{ x } * y * z + 63) / 64);
+}
+
+void Finiteness::Merge(Peers& peers)
+{
+  if (peers.Any(!this->All()))
+  {
+    this->MakeRoom();
+    peers.Or(this->NotFinite);
+  }
 }
 
 ValueRange FiniteRange(const AnySamples& samples)
@@ -84,6 +101,16 @@ ValueRange FiniteRange(const AnySamples& samples)
   FiniteRangeOfSlabs whole;
   whole.Add(samples);
   return whole.Range();
+}
+
+void FiniteRangeOfSlabs::Merge(Peers& peers)
+{
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::array<double, 2> ends = { this->IsAny ? -this->Known.Minimum : none,
+    this->IsAny ? this->Known.Maximum : none };
+  peers.Max(ends.data(), 2);
+  this->IsAny = ends[1] > none;
+  this->Known = { -ends[0], ends[1] };
 }
 
 void FiniteRangeOfSlabs::Add(const AnySamples& samples)

@@ -14,6 +14,8 @@
 namespace isodiamond
 {
 
+class Peers;
+
 /** The place of a lattice point among the samples, x fastest. */
 inline constexpr std::int64_t SampleIndex(const std::array<int, 3>& dimensions, const Point& point)
 {
@@ -109,16 +111,21 @@ public:
   {
   }
   void Add(const SampleSlab& slab);
+  /** What peers have added. */
+  void Merge(Peers& peers);
 
   bool All() const { return this->NotFinite.empty(); }
   bool operator()(const Point& point) const
   {
-    return this->All() || !this->NotFinite[SampleIndex(this->Dimensions, point)];
+    const std::int64_t index = this->All() ? 0 : SampleIndex(this->Dimensions, point);
+    return this->All() || ((this->NotFinite[index >> 6] >> (index & 63)) & 1U) == 0;
   }
 
 private:
+  void MakeRoom();
+
   std::array<int, 3> Dimensions;
-  std::vector<bool> NotFinite; ///< by index; empty as long as all are finite
+  std::vector<std::uint64_t> NotFinite; ///< a bit each, by index; empty as long as all are finite
 };
 
 /** Smallest and largest finite sample; {0, 0} if there is none. */
@@ -136,6 +143,7 @@ class FiniteRangeOfSlabs
 {
 public:
   void Add(const AnySamples& samples);
+  void Merge(Peers& peers);
   ValueRange Range() const { return this->IsAny ? this->Known : ValueRange{}; }
 
 private:

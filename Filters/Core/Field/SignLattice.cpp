@@ -72,6 +72,14 @@ void SignLattice::Add(const SampleSlab& slab, const ParallelFor& parallelFor)
   }
 }
 
+void SignLattice::Merge(Peers& peers)
+{
+  for (int surface = 0; surface < this->Surfaces; ++surface)
+  {
+    peers.Or(this->Levels[0].Bits[surface]);
+  }
+}
+
 void SignLattice::Complete(const ParallelFor& parallelFor, std::int64_t minimumPieceSize)
 {
   for (int surface = 0; surface < this->Surfaces; ++surface)

@@ -3,7 +3,7 @@
 #define isodiamond_SignLattice_h
 
 #include "Field/Isoregion.h"
-#include "Field/Parallel.h"
+#include "Field/Peers.h"
 
 #include <cstdint>
 #include <vector>
@@ -31,6 +31,8 @@ public:
   /** Of a volume that comes in slabs: all are to be added, then it is to be completed. */
   SignLattice(const Grid& grid, const Isoregion& region);
   void Add(const SampleSlab& slab, const ParallelFor& parallelFor);
+  /** What peers have added. */
+  void Merge(Peers& peers);
   void Complete(const ParallelFor& parallelFor, std::int64_t minimumPieceSize = 0);
   ///@}
 

@@ -36,6 +36,12 @@ void EncodingPasses::WriteBricks()
   }
 }
 
+void EncodingPasses::Merge(Peers& peers)
+{
+  peers.Or(this->Result.Arrays.Isovertices);
+  std::visit([&](auto& values) { peers.Or(values); }, this->Result.InsideValues);
+}
+
 void EncodingPasses::MakeRoom()
 {
   // Prefix sum.

@@ -2,6 +2,7 @@
 #ifndef isodiamond_EncodingPasses_h
 #define isodiamond_EncodingPasses_h
 
+#include "Field/Peers.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 
 #include <cstdint>
@@ -67,6 +68,26 @@ public:
         record = Record::Pack(code, reader.Sign(place));
       });
   }
+
+  /** Passes over what peers write: places are kept free, but for records, which need signs only. */
+  template <typename Reader>
+  void Skip(int endScale, const Slices& slices, ErrorCode::Type code, const Reader& reader)
+  {
+    this->ForEach(0, this->Set.ScaleCount(), slices,
+      [&](std::int64_t brick, const Place& place, std::uint32_t rank)
+      {
+        std::uint16_t& record = this->Result.Arrays.Records[rank];
+        if (place.Scale < endScale)
+        {
+          this->Next[brick].Isovertices += reader.CountIsovertices(place, record);
+          record = Record::Pack(code, reader.Sign(place));
+        }
+        this->Next[brick].InsideValues += reader.IsInside(place) ? 1 : 0;
+      });
+  }
+
+  /** Puts together what peers have written. */
+  void Merge(Peers& peers);
 
   /** Makes room for the values inside an interval volume, of the samples' type. */
   template <typename Value>

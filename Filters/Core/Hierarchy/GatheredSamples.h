@@ -2,6 +2,7 @@
 #ifndef isodiamond_GatheredSamples_h
 #define isodiamond_GatheredSamples_h
 
+#include "Field/Peers.h"
 #include "Field/Samples.h"
 #include "Field/SignLattice.h"
 
@@ -21,6 +22,8 @@ public:
   GatheredSamples(const std::array<int, 3>& dimensions, std::vector<std::int64_t> indices);
 
   void Add(const SampleSlab& slab);
+  /** What peers have added. */
+  void Merge(Peers& peers) { peers.Or(this->Values); }
 
   /** A sample that was wanted, once its slab has been added. */
   double operator()(const Point& point) const;

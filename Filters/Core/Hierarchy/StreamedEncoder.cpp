@@ -70,15 +70,29 @@ void StreamedEncoder::Add(const SampleSlab& slab, const EncodingPasses::Slices& 
       using Value = typename std::decay_t<decltype(view)>::Value;
       const RemainingSigns<Value> signOf(this->Signs);
       const DiamondReader reader(this->Header, this->TheGrid, view, signOf, slab.First);
-      if (slices.Begin == 0)
+      if (!this->HasValues)
       {
         this->Passes.MakeRoomForValues<Value>();
+        this->HasValues = true;
       }
       this->Passes.WriteIsovertices(0, FirstLongScale, slices, this->Code, reader,
         [&](const Place& place, int vertex) { return reader.Edge(place, vertex); });
       this->Passes.WriteInsideValues(slices, reader);
     },
     slab.Samples);
+}
+
+void StreamedEncoder::Skip(const EncodingPasses::Slices& slices)
+{
+  const RemainingSigns<std::uint8_t> signOf(this->Signs);
+  this->Passes.Skip(
+    FirstLongScale, slices, this->Code, ReaderOfSigns(this->Header, this->TheGrid, signOf));
+}
+
+void StreamedEncoder::Merge(Peers& peers)
+{
+  this->Passes.Merge(peers);
+  this->Gathered.Merge(peers);
 }
 
 Encoding StreamedEncoder::Finish()

@@ -31,6 +31,12 @@ public:
    *  @param slab with these and those that overlap */
   void Add(const SampleSlab& slab, const EncodingPasses::Slices& slices);
 
+  /** Slices that a peer adds. */
+  void Skip(const EncodingPasses::Slices& slices);
+
+  /** What peers have added, each at least one slab; together all slices. */
+  void Merge(Peers& peers);
+
   /** Once all slices have come. */
   Encoding Finish();
 
@@ -48,6 +54,7 @@ private:
   const SignLattice& Signs;
   EncodingPasses Passes;
   GatheredSamples Gathered;
+  bool HasValues = false; ///< room for the values inside
 };
 
 }

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Peers_h
+#define isodiamond_Peers_h
+
+#include "Field/Parallel.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * Processes that build one hierarchy together, as seen by one of them: each has some slabs of the
+ * volume, and takes its share of the work. What they find is put together, so that in the end all
+ * have the same, to the bit, which is what one process alone would find.
+ *
+ * All of them call the same functions in the same order, each of which waits for the others. So
+ * what may fail at one of them alone has to be done Together().
+ */
+class Peers
+{
+public:
+  virtual ~Peers() = default;
+
+  /** Their number, and which of them this is, from 0 on. */
+  virtual int Count() const = 0;
+  virtual int Rank() const = 0;
+
+  ///@{
+  /** Puts values together: bits that are set anywhere, the greatest, the least. */
+  virtual void Or(std::uint8_t* bytes, std::int64_t count) = 0;
+  virtual void Max(std::uint16_t* values, std::int64_t count) = 0;
+  virtual void Min(std::uint16_t* values, std::int64_t count) = 0;
+  virtual void Max(double* values, std::int64_t count) = 0;
+  ///@}
+
+  /** The bits of any values. */
+  template <typename T>
+  void Or(std::vector<T>& values)
+  {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>, "plain bits");
+    this->Or(reinterpret_cast<std::uint8_t*>(values.data()),
+      static_cast<std::int64_t>(values.size() * sizeof(T)));
+  }
+
+  /** Whether it is true of any of them. */
+  bool Any(bool here)
+  {
+    double any = here ? 1.0 : 0.0;
+    this->Max(&any, 1);
+    return any > 0.0;
+  }
+
+  /** Does a piece of work, in which no peer is asked. @throws if it throws at any of them */
+  template <typename Work>
+  void Together(Work&& work)
+  {
+    std::exception_ptr problem;
+    try
+    {
+      work();
+    }
+    catch (...)
+    {
+      problem = std::current_exception();
+    }
+    const bool hasFailed = this->Any(problem != nullptr);
+    if (problem)
+    {
+      std::rethrow_exception(problem);
+    }
+    if (hasFailed)
+    {
+      throw std::runtime_error("Another process of those that work together has failed.");
+    }
+  }
+};
+
+/** Work that may fail, with peers or alone. @param peers may be null */
+template <typename Work>
+void InStep(Peers* peers, Work&& work)
+{
+  if (peers != nullptr)
+  {
+    peers->Together(std::forward<Work>(work));
+  }
+  else
+  {
+    work();
+  }
+}
+
+/** The loops of a process: over everything, and over its share of what peers do together. */
+struct Loops
+{
+  ParallelFor Whole;
+  ParallelFor Share;
+
+  /** Alone: everything is its share. */
+  template <typename For>
+  Loops(const For& whole) // NOLINT(google-explicit-constructor): that is what most are
+    : Whole(whole)
+    , Share(whole)
+  {
+  }
+
+  /** Of a loop each takes some ranges, dealt out one after the other. @param peers may be null */
+  Loops(const ParallelFor& whole, const Peers* peers)
+    : Loops(whole)
+  {
+    if (peers != nullptr)
+    {
+      this->Share = [whole, part = peers->Rank(), parts = peers->Count()](std::int64_t count,
+                      std::int64_t grain,
+                      const std::function<void(std::int64_t, std::int64_t)>& body)
+      {
+        const std::int64_t ranges = (count + grain - 1) / grain;
+        ForEachIndex(whole, (ranges - part + parts - 1) / parts, 1,
+          [&](std::int64_t i)
+          {
+            const std::int64_t begin = (part + i * parts) * grain;
+            body(begin, std::min(begin + grain, count));
+          });
+      };
+    }
+  }
+};
+
+}
+
+#endif
