@@ -3,7 +3,8 @@
 """Builds and extracts a surface of a volume that comes in slabs, and prints how much memory and time
 that takes: 2048 x 2048 x 1024 floats by default, 16 GiB, of which no more than a slab is anywhere.
 
-Usage: larger_than_memory.py [--size X Y Z] [--blocks N] [--threads N]
+Usage: larger_than_memory.py [--size X Y Z] [--blocks N] [--threads N] [--gyroid]
+or with several processes, which share the volume: mpiexec -n N pvbatch --symmetric larger_than_memory.py ...
 """
 import argparse
 import resource
@@ -15,14 +16,16 @@ from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 
-class Ball(VTKPythonAlgorithmBase):
-    """A bumpy ellipsoid, in just the part of the image that is asked for."""
+class Source(VTKPythonAlgorithmBase):
+    """A bumpy ellipsoid or a gyroid, in just the part of the image that is asked for."""
 
-    def __init__(self, size):
+    def __init__(self, size, is_gyroid):
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
         self.size = size
+        self.is_gyroid = is_gyroid
         self.voxels = 0
         self.seconds = 0.0
 
@@ -42,12 +45,7 @@ class Ball(VTKPythonAlgorithmBase):
             for i, length in enumerate(self.size)
         ]
         values = np.empty([len(axis) for axis in reversed(axes)], np.float32)
-        rows = axes[0][None, :] ** 2 + axes[1][:, None] ** 2
-        bumps = 0.02 * np.sin(20 * axes[0])[None, :] * np.sin(20 * axes[1])[:, None]
-        for slab, z in zip(values, axes[2]):
-            np.add(rows, z * z, out=slab)
-            np.sqrt(slab, out=slab)
-            slab -= bumps * np.sin(20 * z)
+        self.fill(values, axes)
         image = dataset_adapter.WrapDataObject(vtkImageData.GetData(outputs))
         image.VTKObject.SetExtent(extent)
         image.PointData.append(values.ravel(), "radius")
@@ -55,6 +53,21 @@ class Ball(VTKPythonAlgorithmBase):
         self.voxels += values.size
         self.seconds += time.time() - start
         return 1
+
+    def fill(self, values, axes):
+        if self.is_gyroid:
+            # A period of 24 samples: dense.
+            x, y, z = (axis * length * np.pi / 24 for axis, length in zip(axes, self.size))
+            for slab, angle in zip(values, z):
+                slab[:] = np.sin(x)[None, :] * np.cos(y)[:, None] + 0.6
+                slab += np.sin(y)[:, None] * np.cos(angle) + np.sin(angle) * np.cos(x)[None, :]
+            return
+        rows = axes[0][None, :] ** 2 + axes[1][:, None] ** 2
+        bumps = 0.02 * np.sin(20 * axes[0])[None, :] * np.sin(20 * axes[1])[:, None]
+        for slab, z in zip(values, axes[2]):
+            np.add(rows, z * z, out=slab)
+            np.sqrt(slab, out=slab)
+            slab -= bumps * np.sin(20 * z)
 
 
 def memory():
@@ -66,23 +79,28 @@ def main():
     parser.add_argument("--size", type=int, nargs=3, default=[2048, 2048, 1024])
     parser.add_argument("--blocks", type=int, default=32)
     parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--gyroid", action="store_true")
     arguments = parser.parse_args()
-    source = Ball(arguments.size)
+    controller = vtkMultiProcessController.GetGlobalController()
+    rank = controller.GetLocalProcessId() if controller else 0
+    ranks = controller.GetNumberOfProcesses() if controller else 1
+    source = Source(arguments.size, arguments.gyroid)
     contour = vtkIsodiamondContour()
     contour.SetInputConnection(source.GetOutputPort())
     contour.SetValue(0, 0.6)
     contour.SetNumberOfBlocks(arguments.blocks)
+    contour.ComputeNormalsOff()
     contour.SetNumberOfThreads(arguments.threads)
     samples = arguments.size[0] * arguments.size[1] * arguments.size[2]
-    print(f"{samples / 2**28:.2f} GiB of floats; {memory():.2f} GiB before anything")
+    print(f"{rank}: {samples / 2**28:.2f} GiB of floats; {memory():.2f} GiB before anything")
     for tolerance in (1.0, 0.5):
         contour.SetErrorTolerance(tolerance)
         source.voxels, source.seconds = 0, 0.0
         start = time.time()
-        contour.Update()
+        contour.UpdatePiece(rank, ranks, 0)
         seconds = time.time() - start
         print(
-            f"tolerance {tolerance}: {contour.GetOutput().GetNumberOfPolys()} triangles in {seconds:.1f} s, of"
+            f"{rank}: tolerance {tolerance}: {contour.GetOutput().GetNumberOfPolys()} triangles in {seconds:.1f} s, of"
             f" which the source {source.seconds:.1f} s for {source.voxels / samples:.2f} times the volume;"
             f" {memory():.2f} GiB",
             flush=True)

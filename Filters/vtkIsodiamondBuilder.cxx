@@ -19,15 +19,26 @@
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
 
+#include <optional>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkIsodiamondBuilder);
 
 //------------------------------------------------------------------------------
 vtkIsodiamondBuilder::vtkIsodiamondBuilder()
+  : Plan(std::make_unique<vtkIsodiamond::SlabPlan>())
 {
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamondBuilder::~vtkIsodiamondBuilder() = default;
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondBuilder::GetNumberOfSlabs()
+{
+  return this->Plan->NumberOfSlabs();
 }
 
 //------------------------------------------------------------------------------
@@ -52,7 +63,7 @@ void vtkIsodiamondBuilder::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << "\n" << indent << "ComputeNormals: " << (this->ComputeNormals ? "On" : "Off") << "\n";
   os << indent << "NumberOfBlocks: " << this->NumberOfBlocks << "\n";
-  os << indent << "NumberOfSlabs: " << this->NumberOfSlabs << "\n";
+  os << indent << "NumberOfSlabs: " << this->GetNumberOfSlabs() << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
 
@@ -133,24 +144,16 @@ vtkTypeBool vtkIsodiamondBuilder::ProcessRequest(
 int vtkIsodiamondBuilder::ModifyRequest(vtkInformation* request, int when)
 {
   vtkIsodiamond::NotePiece(this, request, when, this->Piece);
+  this->Plan->Note(this, request, when);
   return this->Superclass::ModifyRequest(request, when);
 }
 
 //------------------------------------------------------------------------------
 int vtkIsodiamondBuilder::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkInformation* input = inputVector[0]->GetInformationObject(0);
-  this->NumberOfSlabs =
-    this->CanBeCut() ? vtkIsodiamond::CountSlabs(input, this->NumberOfBlocks) : 1;
-  if (this->NumberOfSlabs > 1)
-  {
-    vtkIsodiamond::RequestSlab(input, this->NumberOfSlabs);
-  }
-  else
-  {
-    vtkIsodiamond::RequestWhole(input);
-  }
+  this->Plan->Request(inputVector[0]->GetInformationObject(0),
+    outputVector->GetInformationObject(0), this->CanBeCut(), this->NumberOfBlocks);
   return 1;
 }
 
@@ -172,7 +175,7 @@ int vtkIsodiamondBuilder::RequestData(
     [&](vtkIsodiamond::Task& task)
     {
       vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-      if (this->NumberOfSlabs == 1)
+      if (this->Plan->NumberOfSlabs() == 1)
       {
         vtkIsodiamond::CheckWhole(input, inputVector[0]->GetInformationObject(0), this->Piece);
       }
@@ -189,8 +192,16 @@ int vtkIsodiamondBuilder::RequestData(
 void vtkIsodiamondBuilder::Build(
   vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output)
 {
-  if (this->Built && this->BuiltOf == input && this->BuiltAt > input->GetMTime() &&
-    this->BuiltAt > this->GetMTime())
+  std::unique_ptr<vtkIsodiamond::Slabs> slabs;
+  if (this->Plan->NumberOfSlabs() > 1)
+  {
+    slabs = this->Plan->Open(this->GetInputInformation(0, 0),
+      [this](vtkDataSet* part) { return this->FindInputArray(part); });
+  }
+  const bool isKnown = this->Built && this->BuiltOf == input && this->BuiltAt > input->GetMTime() &&
+    this->BuiltAt > this->GetMTime();
+  // Peers build together, or nobody does.
+  if (slabs && slabs->Together() ? !slabs->Together()->Any(!isKnown) : isKnown)
   {
     output->ShallowCopy(this->Built);
     return;
@@ -201,9 +212,9 @@ void vtkIsodiamondBuilder::Build(
   {
     this->BuildFromHierarchy(hierarchy, task, output);
   }
-  else if (this->NumberOfSlabs > 1)
+  else if (slabs)
   {
-    this->BuildFromSlabs(task, output);
+    this->BuildFromSlabs(*slabs, task, output);
   }
   else
   {
@@ -315,15 +326,15 @@ void vtkIsodiamondBuilder::BuildFromImage(
 }
 
 //------------------------------------------------------------------------------
-void vtkIsodiamondBuilder::BuildFromSlabs(vtkIsodiamond::Task& task, vtkPolyData* output)
+void vtkIsodiamondBuilder::BuildFromSlabs(
+  const vtkIsodiamond::Slabs& slabs, vtkIsodiamond::Task& task, vtkPolyData* output)
 {
   const vtkIsodiamond::Choice choice = this->GetChoice();
-  const vtkIsodiamond::Slabs slabs(this->GetInputInformation(0, 0), this->NumberOfSlabs,
-    [this](vtkDataSet* part) { return this->FindInputArray(part); });
   const vtkIsodiamond::Volume volume = slabs.WholeVolume();
   const isodiamond::AffineMap& world = *volume.Placement.World.Affine(); // as all images'
   isodiamond::BuildOptions options = this->GetOptions(world);
   options.Report = task.Report();
+  options.Together = slabs.Together();
   isodiamond::Encoding encoding;
   std::vector<vtkSmartPointer<vtkDataArray>> pointArrays;
   vtkIsodiamond::RunThreaded(this->NumberOfThreads,
@@ -334,10 +345,11 @@ void vtkIsodiamondBuilder::BuildFromSlabs(vtkIsodiamond::Task& task, vtkPolyData
           .Finish(static_cast<isodiamond::Model>(this->Model), volume.Samples, task.For(), options);
       if (!this->PointArrays.empty() || this->ComputeNormals)
       {
-        const isodiamond::IsodiamondHierarchy hierarchy(encoding, task.For());
+        std::optional<isodiamond::IsodiamondHierarchy> hierarchy;
+        isodiamond::InStep(options.Together, [&] { hierarchy.emplace(encoding, task.For()); });
         pointArrays = vtkIsodiamond::MakeStoredPointData(slabs,
-          { this->ComputeNormals, false, !this->PointArrays.empty(), this->PointArrays }, hierarchy,
-          task);
+          { this->ComputeNormals, false, !this->PointArrays.empty(), this->PointArrays },
+          *hierarchy, task);
       }
     });
   vtkIsodiamond::WriteIsodiamonds(encoding, choice, world, volume.ArrayName, pointArrays, output);

@@ -31,6 +31,7 @@
 #include "vtkSmartPointer.h" // for what was built
 #include "vtkTimeStamp.h"    // for when
 
+#include <memory> // for the plan
 #include <string> // for the names of arrays
 #include <vector> // for the names of arrays
 
@@ -44,6 +45,8 @@ namespace vtkIsodiamond
 {
 struct Choice;
 struct InputArray;
+class SlabPlan;
+class Slabs;
 class Task;
 }
 
@@ -229,7 +232,7 @@ public:
   ///@}
 
   /** How many slabs the last execution asked for; 1 if the input came at once. */
-  vtkGetMacro(NumberOfSlabs, int);
+  int GetNumberOfSlabs();
 
   ///@{
   /**
@@ -247,7 +250,7 @@ public:
 
 protected:
   vtkIsodiamondBuilder();
-  ~vtkIsodiamondBuilder() override = default;
+  ~vtkIsodiamondBuilder() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   /** Notes the piece of the output that is asked for. */
@@ -285,11 +288,12 @@ private:
   void WarnWithoutPointArrays();
   bool CanBeCut() const;
   void BuildFromImage(vtkImageData* image, vtkIsodiamond::Task& task, vtkPolyData* output);
-  void BuildFromSlabs(vtkIsodiamond::Task& task, vtkPolyData* output);
+  void BuildFromSlabs(
+    const vtkIsodiamond::Slabs& slabs, vtkIsodiamond::Task& task, vtkPolyData* output);
   void BuildFromHierarchy(vtkPolyData* input, vtkIsodiamond::Task& task, vtkPolyData* output);
   void Build(vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output);
 
-  int NumberOfSlabs = 1;
+  std::unique_ptr<vtkIsodiamond::SlabPlan> Plan;
   /** What was built, of what, and when: in parallel extractors ask for the only piece of the
    *  hierarchy, and whoever shows it for one of several. That is the same hierarchy. */
   vtkSmartPointer<vtkIsodiamondHierarchy> Built;

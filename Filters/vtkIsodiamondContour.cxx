@@ -97,6 +97,13 @@ std::vector<isodiamond::Isoregion> vtkIsodiamondContour::GetRegions() const
 }
 
 //------------------------------------------------------------------------------
+vtkIsodiamond::VolumePointData vtkIsodiamondContour::GetPointDataWanted() const
+{
+  return { this->ComputeNormals != 0, this->ComputeGradients != 0,
+    this->InterpolateAttributes != 0 };
+}
+
+//------------------------------------------------------------------------------
 void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task, vtkDataObject* output)
 {
@@ -104,8 +111,6 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   options.WithValues = this->ComputeScalars != 0;
   options.PointsPrecision = this->OutputPointsPrecision;
   options.Hidden = &volume.Hidden;
-  const vtkIsodiamond::VolumePointData wanted{ this->ComputeNormals != 0,
-    this->ComputeGradients != 0, this->InterpolateAttributes != 0 };
   const std::vector<isodiamond::Isoregion> regions = this->GetRegions();
   const auto count = static_cast<double>(regions.size());
   vtkNew<vtkAppendPolyData> append;
@@ -115,7 +120,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   {
     vtkIsodiamond::Task part = task.Part(i / count, (i + 1) / count);
     vtkNew<vtkPolyData> contour;
-    this->ExtractMesh(volume, regions[i], query, wanted, options, part).Give(contour);
+    this->ExtractMesh(volume, regions[i], query, options, part).Give(contour);
     append->AddInputData(contour);
     kibibytes += contour->GetActualMemorySize();
   }

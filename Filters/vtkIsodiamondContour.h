@@ -120,6 +120,7 @@ protected:
   vtkIsodiamond::WorldQuery GetQuery() const override;
   bool ClosesBoundary() const override { return this->CloseBoundary; }
   std::vector<isodiamond::Isoregion> GetRegions() const override;
+  vtkIsodiamond::VolumePointData GetPointDataWanted() const override;
   const char* GetNameOfCells() const override { return "Triangles"; }
   void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) override;

@@ -95,16 +95,20 @@ std::vector<isodiamond::Isoregion> vtkIsodiamondIntervalVolume::GetRegions() con
 }
 
 //------------------------------------------------------------------------------
+vtkIsodiamond::VolumePointData vtkIsodiamondIntervalVolume::GetPointDataWanted() const
+{
+  return { false, this->ComputeGradients != 0, this->InterpolateAttributes != 0 };
+}
+
+//------------------------------------------------------------------------------
 void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task, vtkDataObject* output)
 {
   vtkIsodiamond::MeshOptions options{ volume.Placement.World, volume.ArrayName };
   options.PointsPrecision = this->OutputPointsPrecision;
   options.Hidden = &volume.Hidden;
-  const vtkIsodiamond::VolumePointData wanted{ false, this->ComputeGradients != 0,
-    this->InterpolateAttributes != 0 };
   const vtkIsodiamond::Mesh mesh =
-    this->ExtractMesh(volume, this->GetRegions().front(), query, wanted, options, task);
+    this->ExtractMesh(volume, this->GetRegions().front(), query, options, task);
   mesh.Give(vtkUnstructuredGrid::SafeDownCast(output), true);
   this->NoteDihedralAngles(mesh, output);
 }

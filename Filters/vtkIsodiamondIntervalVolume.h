@@ -85,6 +85,7 @@ protected:
   vtkIsodiamond::WorldQuery GetQuery() const override;
   bool RefinesInterior() const override;
   std::vector<isodiamond::Isoregion> GetRegions() const override;
+  vtkIsodiamond::VolumePointData GetPointDataWanted() const override;
   const char* GetNameOfCells() const override { return "Tetrahedra"; }
   void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) override;

@@ -53,6 +53,7 @@ vtkIsodiamond::Cache::Need NeedOf(
 //------------------------------------------------------------------------------
 vtkIsodiamondVolumeAlgorithm::vtkIsodiamondVolumeAlgorithm()
   : Hierarchies(std::make_unique<vtkIsodiamond::Cache>())
+  , Plan(std::make_unique<vtkIsodiamond::SlabPlan>())
 {
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
@@ -74,7 +75,7 @@ void vtkIsodiamondVolumeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "InterpolateAttributes: " << (this->InterpolateAttributes ? "On" : "Off") << "\n";
   os << indent << "CacheSize: " << this->CacheSize << "\n";
   os << indent << "NumberOfBlocks: " << this->NumberOfBlocks << "\n";
-  os << indent << "NumberOfSlabs: " << this->NumberOfSlabs << "\n";
+  os << indent << "NumberOfSlabs: " << this->GetNumberOfSlabs() << "\n";
   os << indent << "NumberOfBuilds: " << this->GetNumberOfBuilds() << "\n";
   os << indent << "NumberOfCachedHierarchies: " << this->GetNumberOfCachedHierarchies() << "\n";
   os << indent << "NumberOfRemovedPieces: " << this->NumberOfRemovedPieces << "\n";
@@ -90,6 +91,12 @@ vtkIdType vtkIsodiamondVolumeAlgorithm::GetNumberOfBuilds()
 vtkIdType vtkIsodiamondVolumeAlgorithm::GetNumberOfCachedHierarchies()
 {
   return this->Hierarchies->GetSize();
+}
+
+//------------------------------------------------------------------------------
+int vtkIsodiamondVolumeAlgorithm::GetNumberOfSlabs()
+{
+  return this->Plan->NumberOfSlabs();
 }
 
 //------------------------------------------------------------------------------
@@ -122,6 +129,7 @@ int vtkIsodiamondVolumeAlgorithm::ModifyRequest(vtkInformation* request, int whe
   {
     this->NumberOfRemovedPieces = 0;
   }
+  this->Plan->Note(this, request, when);
   return this->Superclass::ModifyRequest(request, when);
 }
 
@@ -145,16 +153,10 @@ bool vtkIsodiamondVolumeAlgorithm::CanBeCut() const
 
 //------------------------------------------------------------------------------
 int vtkIsodiamondVolumeAlgorithm::RequestUpdateExtent(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkInformation* input = inputVector[0]->GetInformationObject(0);
-  this->NumberOfSlabs =
-    this->CanBeCut() ? vtkIsodiamond::CountSlabs(input, this->NumberOfBlocks) : 1;
-  if (this->NumberOfSlabs == 1)
-  {
-    return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
-  }
-  vtkIsodiamond::RequestSlab(input, this->NumberOfSlabs);
+  this->Plan->Request(inputVector[0]->GetInformationObject(0),
+    outputVector->GetInformationObject(0), this->CanBeCut(), this->NumberOfBlocks);
   return 1;
 }
 
@@ -172,12 +174,12 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       vtkInformation* input = inputVector[0]->GetInformationObject(0);
       vtkDataSet* grid = vtkDataSet::GetData(inputVector[0]);
       vtkIsodiamond::InputArray array;
-      std::optional<vtkIsodiamond::Slabs> slabs;
+      std::unique_ptr<vtkIsodiamond::Slabs> slabs;
       vtkIsodiamond::Volume volume;
-      if (this->NumberOfSlabs > 1)
+      if (this->Plan->NumberOfSlabs() > 1)
       {
-        slabs.emplace(input, this->NumberOfSlabs,
-          [this](vtkDataSet* part) { return this->FindInputArray(part); });
+        slabs =
+          this->Plan->Open(input, [this](vtkDataSet* part) { return this->FindInputArray(part); });
         volume = slabs->WholeVolume();
       }
       else
@@ -204,6 +206,11 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
           const vtkIsodiamond::CacheTrimmer trimmer{ *this->Hierarchies,
             std::int64_t{ this->CacheSize } << 20 };
           this->Hierarchies->Prepare(array.Array, volume, options);
+          if (slabs && slabs->Together())
+          {
+            this->BuildTogether(volume, query, task);
+            slabs->Disperse();
+          }
           this->ExtractAtTolerance(volume, query, unit, task, output);
         });
       vtkIsodiamond::KeepPiece(output, this->Piece);
@@ -214,6 +221,17 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
           vtkIsodiamond::format::NumberOfRemovedPieces, this->RemovedFromBlock);
       }
     });
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondVolumeAlgorithm::BuildTogether(const vtkIsodiamond::Volume& volume,
+  const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task)
+{
+  const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
+  for (const isodiamond::Isoregion& region : this->GetRegions())
+  {
+    this->Hierarchies->StoredPointData(volume, region, need, this->GetPointDataWanted(), task);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -343,14 +361,14 @@ isodiamond::BuildOptions vtkIsodiamondVolumeAlgorithm::GetOptions(
 //------------------------------------------------------------------------------
 vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamond::Volume& volume,
   const isodiamond::Isoregion& region, const vtkIsodiamond::WorldQuery& query,
-  const vtkIsodiamond::VolumePointData& wanted, vtkIsodiamond::MeshOptions options,
-  vtkIsodiamond::Task& task)
+  vtkIsodiamond::MeshOptions options, vtkIsodiamond::Task& task)
 {
   constexpr double buildPart = 0.8;
   vtkIsodiamond::Task building = task.Part(0.0, buildPart);
   const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
   const isodiamond::IsodiamondHierarchy& hierarchy =
     this->Hierarchies->Get(volume, region, need, building);
+  const vtkIsodiamond::VolumePointData wanted = this->GetPointDataWanted();
   options.MorePointData = volume.InSlabs
     ? vtkIsodiamond::FromHierarchy(
         hierarchy, this->Hierarchies->StoredPointData(volume, region, need, wanted, building))

@@ -16,7 +16,8 @@
  *
  * The whole input is requested, or slab after slab of it if memory is short (NumberOfBlocks). In
  * parallel every process makes the whole mesh and keeps its share
- * of the cells: all pieces together are the mesh, with each cell once.
+ * of the cells: all pieces together are the mesh, with each cell once. Where the input can come in
+ * slabs, each process asks for its share of these only, and measures its share of the errors.
  *
  * @sa vtkIsodiamondContour vtkIsodiamondIntervalVolume
  */
@@ -28,7 +29,7 @@
 #include "vtkIsodiamondFiltersModule.h" // for export macro
 #include "vtkIsodiamondHierarchy.h"     // for the metrics
 
-#include <memory> // for the cache
+#include <memory> // for the cache and the plan
 #include <vector> // for regions
 
 class vtkDataSet;
@@ -44,6 +45,7 @@ class Cache;
 struct InputArray;
 struct Mesh;
 struct MeshOptions;
+class SlabPlan;
 class Task;
 struct Volume;
 struct VolumePointData;
@@ -169,7 +171,7 @@ public:
   ///@}
 
   /** How many slabs the last execution asked for; 1 if the input came at once. */
-  vtkGetMacro(NumberOfSlabs, int);
+  int GetNumberOfSlabs();
 
   ///@{
   /** How many hierarchies this filter has built so far, and keeps. */
@@ -205,6 +207,9 @@ protected:
   /** What meshes are to be extracted of. @throws std::invalid_argument if it makes no sense */
   virtual std::vector<isodiamond::Isoregion> GetRegions() const = 0;
 
+  /** What points are to have of the volume. */
+  virtual vtkIsodiamond::VolumePointData GetPointDataWanted() const = 0;
+
   /** What the mesh consists of, in words. */
   virtual const char* GetNameOfCells() const = 0;
 
@@ -213,12 +218,11 @@ protected:
   virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) = 0;
 
-  /** The mesh of a region: its hierarchy is one of the cache, refined by a query.
-   *  @param wanted of the volume at the points */
+  /** The mesh of a region: its hierarchy is one of the cache, refined by a query. Its points have
+   *  what GetPointDataWanted() says. */
   vtkIsodiamond::Mesh ExtractMesh(const vtkIsodiamond::Volume& volume,
     const isodiamond::Isoregion& region, const vtkIsodiamond::WorldQuery& query,
-    const vtkIsodiamond::VolumePointData& wanted, vtkIsodiamond::MeshOptions options,
-    vtkIsodiamond::Task& task);
+    vtkIsodiamond::MeshOptions options, vtkIsodiamond::Task& task);
 
   vtkIsodiamond::InputArray FindInputArray(vtkDataSet* input);
 
@@ -248,9 +252,11 @@ private:
     vtkDataObject* output);
 
   bool CanBeCut() const;
+  void BuildTogether(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
+    vtkIsodiamond::Task& task);
 
   std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
-  int NumberOfSlabs = 1;
+  std::unique_ptr<vtkIsodiamond::SlabPlan> Plan;
   vtkIdType NumberOfRemovedPieces = 0;
   vtkIdType RemovedFromBlock = 0; ///< counts as soon as all of the block is well
 };

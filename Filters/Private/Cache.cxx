@@ -12,6 +12,21 @@ namespace vtkIsodiamond
 namespace
 {
 
+constexpr isodiamond::Model ModelKept = isodiamond::Model::Minimal;
+
+/** Null if there are none. */
+isodiamond::Peers* PeersOf(const Volume& volume)
+{
+  return volume.InSlabs ? volume.InSlabs->Together() : nullptr;
+}
+
+/** Whether something is true here, or at any of the peers: they build together, or nobody does. */
+bool IsAnywhere(const Volume& volume, bool here)
+{
+  isodiamond::Peers* const peers = PeersOf(volume);
+  return peers ? peers->Any(here) : here;
+}
+
 /** Whether two worlds, which are not curvilinear, have the same lengths. They may have if not. */
 bool HaveSameLengths(const isodiamond::GridGeometry& a, const isodiamond::GridGeometry& b)
 {
@@ -62,13 +77,59 @@ isodiamond::BuildOptions Cache::OptionsFor(
   options.RefineInterior = refineInterior;
   options.Hidden = &volume.Hidden;
   options.Report = task.Report();
+  options.Together = PeersOf(volume);
   return options;
+}
+
+void Cache::Build(
+  const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task)
+{
+  const isodiamond::BuildOptions options = this->OptionsFor(volume, need.RefinedInterior, task);
+  std::list<Entry> added(1);
+  Entry& entry = added.front();
+  entry.From = this->Current;
+  entry.Region = region;
+  entry.RefineInterior = need.RefinedInterior;
+  if (volume.InSlabs)
+  {
+    entry.Staged.emplace(BuildInSlabs(*volume.InSlabs, region, options, task));
+  }
+  // Where cells are hidden, what is inside of a volume is refined, too: by its errors.
+  else if (need.Errors || need.RefinedInterior || (region.IsVolume() && volume.Hidden.Any()))
+  {
+    entry.Encoding =
+      isodiamond::BuildIsodiamonds(ModelKept, volume.Samples, region, task.For(), options);
+  }
+  else
+  {
+    entry.Staged.emplace(volume.Samples, region, task.For(), options);
+  }
+  ++this->NumberOfBuilds;
+  this->Entries.splice(this->Entries.begin(), added);
+}
+
+void Cache::MeasureErrors(const Volume& volume, Task& task)
+{
+  Entry& entry = this->Entries.front();
+  const isodiamond::BuildOptions options = this->OptionsFor(volume, entry.RefineInterior, task);
+  try
+  {
+    entry.Encoding = entry.Staged->Finish(ModelKept, volume.Samples, task.For(), options);
+  }
+  catch (...)
+  {
+    if (options.Together)
+    {
+      this->Entries.pop_front(); // others may have come farther: all begin anew
+    }
+    throw;
+  }
+  entry.Staged.reset();
 }
 
 const isodiamond::IsodiamondHierarchy& Cache::Get(
   const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task)
 {
-  constexpr isodiamond::Model model = isodiamond::Model::Minimal;
   // What can be refined inside need not be.
   const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
     [&](const Entry& entry)
@@ -76,47 +137,34 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
       return entry.Region == region && (entry.RefineInterior || !need.RefinedInterior) &&
         entry.From == this->Current;
     });
-  if (found != this->Entries.end())
+  const bool isKnown = found != this->Entries.end();
+  if (IsAnywhere(volume, !isKnown))
+  {
+    if (isKnown)
+    {
+      this->Entries.erase(found);
+    }
+    this->Build(volume, region, need, task);
+  }
+  else
   {
     found->IsUsed = true;
     this->Entries.splice(this->Entries.begin(), this->Entries, found);
   }
-  else
+  if (this->Entries.front().Staged && need.Errors)
   {
-    const isodiamond::BuildOptions options = this->OptionsFor(volume, need.RefinedInterior, task);
-    std::list<Entry> added(1);
-    Entry& entry = added.front();
-    entry.From = this->Current;
-    entry.Region = region;
-    entry.RefineInterior = need.RefinedInterior;
-    // Where cells are hidden, what is inside of a volume is refined, too: by its errors.
-    if (volume.InSlabs)
-    {
-      entry.Staged.emplace(BuildInSlabs(*volume.InSlabs, region, options, task));
-    }
-    else if (need.Errors || need.RefinedInterior || (region.IsVolume() && volume.Hidden.Any()))
-    {
-      entry.Encoding =
-        isodiamond::BuildIsodiamonds(model, volume.Samples, region, task.For(), options);
-    }
-    else
-    {
-      entry.Staged.emplace(volume.Samples, region, task.For(), options);
-    }
-    ++this->NumberOfBuilds;
-    this->Entries.splice(this->Entries.begin(), added);
+    this->MeasureErrors(volume, task);
   }
   Entry& entry = this->Entries.front();
-  if (entry.Staged && need.Errors)
-  {
-    entry.Encoding = entry.Staged->Finish(
-      model, volume.Samples, task.For(), this->OptionsFor(volume, entry.RefineInterior, task));
-    entry.Staged.reset();
-  }
-  if (!entry.Staged && !entry.Hierarchy)
-  {
-    entry.Hierarchy = std::make_unique<isodiamond::IsodiamondHierarchy>(entry.Encoding, task.For());
-  }
+  isodiamond::InStep(PeersOf(volume),
+    [&]
+    {
+      if (!entry.Staged && !entry.Hierarchy)
+      {
+        entry.Hierarchy =
+          std::make_unique<isodiamond::IsodiamondHierarchy>(entry.Encoding, task.For());
+      }
+    });
   return entry.Current();
 }
 
@@ -139,7 +187,7 @@ const std::vector<vtkSmartPointer<vtkDataArray>>& Cache::StoredPointData(const V
 {
   const isodiamond::IsodiamondHierarchy& hierarchy = this->Get(volume, region, need, task);
   Entry& entry = this->Entries.front();
-  if (!entry.Stored || !(*entry.Stored == wanted))
+  if (IsAnywhere(volume, !entry.Stored || !(*entry.Stored == wanted)))
   {
     entry.Stored.reset();
     entry.StoredArrays = MakeStoredPointData(*volume.InSlabs, wanted, hierarchy, task);

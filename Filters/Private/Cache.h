@@ -106,6 +106,11 @@ private:
   };
 
   isodiamond::BuildOptions OptionsFor(const Volume& volume, bool refineInterior, Task& task) const;
+  /** Adds an entry, in front. */
+  void Build(
+    const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task);
+  /** Finishes the one in front. */
+  void MeasureErrors(const Volume& volume, Task& task);
 
   ContentHashes Hashes;
   Source Current;

@@ -5,6 +5,7 @@
 #include "Private/Arrays.h"
 #include "Private/Piece.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkExecutive.h"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -31,6 +33,7 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 using Slices = isodiamond::StreamedBuild::Slices;
+using isodiamond::Peers;
 
 std::array<int, 6> WholeExtentOf(vtkInformation* information)
 {
@@ -61,8 +64,23 @@ Slices Alone(Slices slices)
   return slices;
 }
 
-/** The slab that upstream has given last, or the first one. */
-Slices SlabAtHand(vtkInformation* information, int count)
+/** Who of the peers has a slab, and which of them is the first that a peer has. */
+int OwnerOf(int slab, int count, const Peers& peers)
+{
+  return static_cast<int>(std::int64_t{ 1 } * slab * peers.Count() / count);
+}
+int FirstOwn(int count, const Peers& peers)
+{
+  int slab = 0;
+  while (OwnerOf(slab, count, peers) < peers.Rank())
+  {
+    ++slab;
+  }
+  return slab;
+}
+
+/** The slab that upstream has given last, or the first one of a peer. */
+Slices SlabAtHand(vtkInformation* information, int count, const Peers* peers)
 {
   const std::array<int, 6> whole = WholeExtentOf(information);
   const int* extent = vtkImageData::GetData(information)->GetExtent();
@@ -76,7 +94,8 @@ Slices SlabAtHand(vtkInformation* information, int count)
       }
     }
   }
-  return isodiamond::StreamedBuild::Cut(DimensionsOf(whole), count).front();
+  const int own = peers ? FirstOwn(count, *peers) : 0;
+  return isodiamond::StreamedBuild::Cut(DimensionsOf(whole), count)[own];
 }
 
 /** What the image's samples take, if upstream says of what type they are; else as floats. */
@@ -113,9 +132,9 @@ isodiamond::AnySamples SlicesOf(const isodiamond::AnySamples& samples, int first
     samples);
 }
 
-}
-
-int CountSlabs(vtkInformation* inputInformation, int asked)
+/** Into how many slabs the input is cut. @param peers how many processes share them, each at least
+ *  one */
+int CountSlabs(vtkInformation* inputInformation, int asked, int peers)
 {
   const bool canBeCut = inputInformation && vtkImageData::GetData(inputInformation) &&
     inputInformation->Has(Pipeline::WHOLE_EXTENT()) &&
@@ -123,6 +142,13 @@ int CountSlabs(vtkInformation* inputInformation, int asked)
   if (!canBeCut || asked == 1)
   {
     return 1;
+  }
+  // Slabs share slices: there is no point in thinner ones.
+  constexpr int thinnest = 8;
+  const int most = std::max(DimensionsOf(WholeExtentOf(inputInformation))[2] / thinnest, 1);
+  if (peers > 1 && peers <= most)
+  {
+    return std::clamp(asked, peers, most); // free memory is another in each of them
   }
   int count = asked;
   if (asked == 0)
@@ -136,31 +162,84 @@ int CountSlabs(vtkInformation* inputInformation, int asked)
       ? 1
       : static_cast<int>(std::min(bytes / (partForSlab * std::max(memory, 1.0)), 1e6)) + 1;
   }
-  // Slabs share slices: there is no point in thinner ones.
-  constexpr int thinnest = 8;
-  const int slices = DimensionsOf(WholeExtentOf(inputInformation))[2];
-  return std::clamp(count, 1, std::max(slices / thinnest, 1));
+  return std::clamp(count, 1, most);
 }
 
-void RequestSlab(vtkInformation* inputInformation, int count)
+/** Whether upstream has given what it was asked for. */
+bool IsGiven(vtkInformation* inputInformation)
 {
-  Request(inputInformation, WholeExtentOf(inputInformation), SlabAtHand(inputInformation, count));
+  vtkImageData* image = vtkImageData::GetData(inputInformation);
+  int asked[6];
+  inputInformation->Get(Pipeline::UPDATE_EXTENT(), asked);
+  const int* given = image->GetExtent();
+  bool all = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    all = all && given[2 * axis] <= asked[2 * axis] && given[2 * axis + 1] >= asked[2 * axis + 1];
+  }
+  return all;
 }
 
-Slabs::Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray)
+}
+
+void SlabPlan::Request(vtkInformation* input, vtkInformation* output, bool canBeCut, int blocks)
+{
+  const int peers = ControllerPeers::CountOf(output);
+  this->Count = canBeCut ? CountSlabs(input, blocks, peers) : 1;
+  this->IsShared = peers > 1 && this->Count >= peers;
+  if (this->Count == 1)
+  {
+    RequestWhole(input);
+    return;
+  }
+  const ControllerPeers others;
+  vtkIsodiamond::Request(input, WholeExtentOf(input),
+    SlabAtHand(input, this->Count, this->IsShared ? &others : nullptr));
+}
+
+void SlabPlan::Note(vtkAlgorithm* filter, vtkInformation* request, int when)
+{
+  if (this->IsShared && when == vtkExecutive::AfterForward &&
+    request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    this->IsPeerWithout = ControllerPeers().Any(!IsGiven(filter->GetInputInformation(0, 0)));
+  }
+}
+
+std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArray) const
+{
+  std::optional<ControllerPeers> peers;
+  if (this->IsShared)
+  {
+    if (this->IsPeerWithout)
+    {
+      throw std::runtime_error("Another process has got no part of the volume.");
+    }
+    peers.emplace();
+  }
+  std::unique_ptr<Slabs> slabs;
+  isodiamond::InStep(peers ? &*peers : nullptr,
+    [&] { slabs = std::make_unique<Slabs>(input, this->Count, std::move(findArray), peers); });
+  return slabs;
+}
+
+Slabs::Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
+  const std::optional<ControllerPeers>& peers)
   : Input(inputInformation)
   , FindArray(std::move(findArray))
   , WholeExtent(WholeExtentOf(inputInformation))
   , Cut(isodiamond::StreamedBuild::Cut(DimensionsOf(this->WholeExtent), count))
   , Whole(vtkSmartPointer<vtkImageData>::New())
+  , Others(peers)
 {
-  const Slab atHand = this->Read(SlabAtHand(this->Input, count));
+  const Slab atHand = this->Read(SlabAtHand(this->Input, count, this->Together()));
   vtkImageData* image = vtkImageData::SafeDownCast(atHand.Given.Grid);
   this->Whole->SetExtent(this->WholeExtent.data());
   this->Whole->SetOrigin(image->GetOrigin());
   this->Whole->SetSpacing(image->GetSpacing());
   this->Whole->SetDirectionMatrix(image->GetDirectionMatrix());
   this->ArrayName = atHand.Given.ArrayName;
+  this->OtherArrays = image->GetPointData()->GetNumberOfArrays() > 1;
 
   auto* upstream =
     vtkDemandDrivenPipeline::SafeDownCast(vtkExecutive::PRODUCER()->GetExecutive(this->Input));
@@ -220,11 +299,26 @@ Slab Slabs::Read(const Slices& slices) const
 }
 
 void Slabs::ForEach(Task& task, const char* phase, double begin, double end, bool shared,
-  const std::function<void(const Slab&)>& body) const
+  const std::function<void(const Slab&)>& body,
+  const std::function<void(const Slices&)>& ofOthers) const
 {
+  if (this->HaveDispersed)
+  {
+    throw std::logic_error("A volume in slabs is read after its readers have dispersed.");
+  }
   const auto count = static_cast<double>(this->Cut.size());
   for (std::size_t i = 0; i < this->Cut.size(); ++i)
   {
+    const Peers* peers = this->Together();
+    if (peers &&
+      OwnerOf(static_cast<int>(i), static_cast<int>(this->Cut.size()), *peers) != peers->Rank())
+    {
+      if (ofOthers)
+      {
+        ofOthers(this->Cut[i]);
+      }
+      continue;
+    }
     const auto at = [&](double part) { return begin + (end - begin) * part / count; };
     task.Begin(phase, at(i), at(i + 1));
     body(this->Get(shared ? this->Cut[i] : Alone(this->Cut[i])));
@@ -234,62 +328,116 @@ void Slabs::ForEach(Task& task, const char* phase, double begin, double end, boo
 isodiamond::StagedBuild BuildInSlabs(const Slabs& slabs, const isodiamond::Isoregion& region,
   const isodiamond::BuildOptions& options, Task& task)
 {
-  isodiamond::StreamedBuild build(slabs.WholeVolume().Dimensions, region, task.For(), options);
-  slabs.ForEach(task, "Reading signs", 0.0, 0.1, false,
-    [&](const Slab& slab) { build.AddSigns(slab.Samples); });
-  build.Classify();
-  slabs.ForEach(task, "Placing isovertices", 0.2, 0.25, true,
-    [&](const Slab& slab) { build.AddValues(slab.Samples, slab.Slices); });
-  return build.Finish();
+  std::optional<isodiamond::StreamedBuild> build;
+  Peers* const peers = options.Together;
+  isodiamond::InStep(peers,
+    [&]
+    {
+      build.emplace(slabs.WholeVolume().Dimensions, region, task.For(), options);
+      slabs.ForEach(task, "Reading signs", 0.0, 0.1, false,
+        [&](const Slab& slab) { build->AddSigns(slab.Samples); });
+    });
+  build->Classify();
+  isodiamond::InStep(peers,
+    [&]
+    {
+      slabs.ForEach(
+        task, "Placing isovertices", 0.2, 0.25, true,
+        [&](const Slab& slab) { build->AddValues(slab.Samples, slab.Slices); },
+        [&](const Slices& slices) { build->SkipValues(slices); });
+    });
+  return build->Finish();
+}
+
+namespace
+{
+
+/** The points of a hierarchy whose data a slab has, numbered anew and placed in what was given. */
+struct PointsOfSlab
+{
+  std::vector<isodiamond::MeshPoint> Points;
+  std::vector<vtkIdType> Stored; ///< their numbers in the hierarchy
+
+  PointsOfSlab(const isodiamond::IsodiamondHierarchy& hierarchy, const Slab& slab)
+  {
+    const bool isLast = slab.Slices.End == slab.Slices.Last + 1;
+    isodiamond::ForEachStoredPoint(hierarchy, isodiamond::SerialFor,
+      [&](isodiamond::MeshPoint point)
+      {
+        const double slice = point.Index[2];
+        if (slice >= slab.Slices.Begin && (slice < slab.Slices.End || isLast))
+        {
+          this->Stored.push_back(point.Id);
+          point.Id = static_cast<std::int64_t>(this->Points.size());
+          point.Index[2] -= slab.First;
+          this->Points.push_back(point);
+        }
+      });
+  }
+};
+
+/** Bytes of an array. */
+std::uint8_t* Bytes(vtkDataArray* array)
+{
+  return static_cast<std::uint8_t*>(array->GetVoidPointer(0));
+}
+std::int64_t CountBytes(vtkDataArray* array)
+{
+  return std::int64_t{ array->GetNumberOfValues() } * array->GetDataTypeSize();
+}
+
+/** An array like another, all 0. */
+vtkSmartPointer<vtkDataArray> ZerosLike(vtkDataArray* other, vtkIdType count)
+{
+  auto array = vtkSmartPointer<vtkDataArray>::Take(other->NewInstance());
+  array->SetName(other->GetName());
+  array->SetNumberOfComponents(other->GetNumberOfComponents());
+  AllocateTuples(array, count);
+  std::fill_n(Bytes(array), CountBytes(array), std::uint8_t{ 0 });
+  return array;
+}
+
 }
 
 std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slabs,
   const VolumePointData& wanted, const isodiamond::IsodiamondHierarchy& hierarchy, Task& task)
 {
-  const vtkIdType count = isodiamond::StoredPointCount(hierarchy);
   std::vector<vtkSmartPointer<vtkDataArray>> arrays;
-  slabs.ForEach(task, "Reading point data", 0.0, 1.0, true,
-    [&](const Slab& slab)
+  const auto add = [&](const Slab& slab)
+  {
+    const PointsOfSlab own(hierarchy, slab);
+    const auto count = static_cast<vtkIdType>(own.Points.size());
+    vtkNew<vtkPointData> data;
+    for (const PointWriter& write : FromVolume(slab.Given, wanted)(count, data))
     {
-      // The points of the slab, numbered anew, and where they belong.
-      std::vector<isodiamond::MeshPoint> points;
-      vtkNew<vtkIdList> ids;
-      isodiamond::ForEachStoredPoint(hierarchy, isodiamond::SerialFor,
-        [&](isodiamond::MeshPoint point)
-        {
-          const double slice = point.Index[2];
-          const bool isLast = slab.Slices.End == slab.Slices.Last + 1;
-          if (slice >= slab.Slices.Begin && (slice < slab.Slices.End || isLast))
-          {
-            ids->InsertNextId(point.Id);
-            point.Id = static_cast<std::int64_t>(points.size());
-            point.Index[2] -= slab.First;
-            points.push_back(point);
-          }
-        });
-      const auto ownCount = static_cast<vtkIdType>(points.size());
-      vtkNew<vtkPointData> own;
-      for (const PointWriter& write : FromVolume(slab.Given, wanted)(ownCount, own))
+      isodiamond::ForEachIndex(
+        task.For(), count, 1024, [&](std::int64_t i) { write(own.Points[i]); });
+    }
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      if (static_cast<int>(arrays.size()) == i)
       {
-        isodiamond::ForEachIndex(
-          task.For(), ownCount, 1024, [&](std::int64_t i) { write(points[i]); });
+        arrays.push_back(ZerosLike(data->GetArray(i), isodiamond::StoredPointCount(hierarchy)));
       }
-      for (int i = 0; i < own->GetNumberOfArrays(); ++i)
+      for (vtkIdType id = 0; id < count; ++id)
       {
-        vtkDataArray* from = own->GetArray(i);
-        if (static_cast<int>(arrays.size()) == i)
-        {
-          arrays.emplace_back(vtkSmartPointer<vtkDataArray>::Take(from->NewInstance()));
-          arrays[i]->SetName(from->GetName());
-          arrays[i]->SetNumberOfComponents(from->GetNumberOfComponents());
-          AllocateTuples(arrays[i], count);
-        }
-        for (vtkIdType id = 0; id < ownCount; ++id)
-        {
-          arrays[i]->SetTuple(ids->GetId(id), id, from);
-        }
+        arrays[i]->SetTuple(own.Stored[id], id, data->GetArray(i));
       }
-    });
+    }
+  };
+  Peers* const peers = slabs.Together();
+  if (wanted.Normals || wanted.Gradients || (wanted.Others && slabs.HaveOtherArrays()))
+  {
+    isodiamond::InStep(
+      peers, [&] { slabs.ForEach(task, "Reading point data", 0.0, 1.0, true, add); });
+  }
+  for (vtkDataArray* array : arrays)
+  {
+    if (peers)
+    {
+      peers->Or(Bytes(array), CountBytes(array));
+    }
+  }
   for (const std::string& name : wanted.Names)
   {
     if (std::none_of(arrays.begin(), arrays.end(),

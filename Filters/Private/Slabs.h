@@ -4,6 +4,7 @@
 
 #include "Build/StagedBuild.h"
 #include "Private/ContentHash.h"
+#include "Private/ControllerPeers.h"
 #include "Private/Input.h"
 #include "Private/PointData.h"
 #include "Private/Task.h"
@@ -11,8 +12,11 @@
 #include "vtkSmartPointer.h"
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
+class vtkAlgorithm;
 class vtkImageData;
 class vtkInformation;
 
@@ -25,15 +29,40 @@ class vtkInformation;
 namespace vtkIsodiamond
 {
 
-/** Into how many slabs a filter should cut its input, before it is read.
- *
- * @param asked so many; 0 for one, or for as many as keep the input within what memory is there
- * @return 1 if the input comes at once: it fits, or its source makes no parts of an image
- */
-int CountSlabs(vtkInformation* inputInformation, int asked);
+class Slabs;
 
-/** Asks upstream for one of some slabs: that which it has, or else the first. */
-void RequestSlab(vtkInformation* inputInformation, int count);
+/** Finds the array to process. */
+using ArrayFinder = std::function<InputArray(vtkDataSet*)>;
+
+/** How the input of a filter comes: at once, or in slabs, to it alone or to peers of other
+ * processes, each of which has its share of them. Decided before it is read. */
+class SlabPlan
+{
+public:
+  /**
+   * For RequestUpdateExtent: decides, and asks upstream for the whole input, or for one slab.
+   *
+   * @param canBeCut whether the filter can do with slabs
+   * @param blocks how many there should be; 0 for one, or for one a process of those that work
+   *        together, or for as many as keep the input within what memory is there
+   */
+  void Request(vtkInformation* input, vtkInformation* output, bool canBeCut, int blocks);
+
+  /** For ModifyRequest: who gets nothing from upstream is not executed, and tells its peers, who
+   *  would wait for it. */
+  void Note(vtkAlgorithm* filter, vtkInformation* request, int when);
+
+  int NumberOfSlabs() const { return this->Count; }
+
+  /** For RequestData, if there is more than one. @throws std::exception if it cannot be had, here
+   * or by a peer */
+  std::unique_ptr<Slabs> Open(vtkInformation* input, ArrayFinder findArray) const;
+
+private:
+  int Count = 1;
+  bool IsShared = false;
+  bool IsPeerWithout = false; ///< whether one of the peers has not got what it asked for
+};
 
 /** Some slices of an image. */
 struct Slab
@@ -49,25 +78,37 @@ struct Slab
 class Slabs
 {
 public:
-  using ArrayFinder = std::function<InputArray(vtkDataSet*)>;
-
-  /** @param count of them, as for RequestSlab(), which has been answered
-   *  @param findArray finds the array to process
+  /** @param count of them, as of a plan, whose request has been answered
+   *  @param peers who have their share of the slabs, if there are any
    *  @throws std::exception if a slab cannot be had */
-  Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray);
+  Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
+    const std::optional<ControllerPeers>& peers);
+
+  /** Peers, until everything is built: nobody waits for another from then on, and slabs cannot be
+   *  read. Null for nobody. */
+  isodiamond::Peers* Together() const
+  {
+    return this->Others && !this->HaveDispersed ? &*this->Others : nullptr;
+  }
+  void Disperse() { this->HaveDispersed = true; }
 
   /** The whole image, without its arrays. */
   Volume WholeVolume() const;
+
+  /** Whether points have more than the array to process. */
+  bool HaveOtherArrays() const { return this->OtherArrays; }
 
   /** Stands for the content that upstream gives: others have another one. It is told by upstream's
    *  modification times, since the content itself is nowhere. */
   ContentHash Stamp() const { return this->StampOfUpstream; }
 
-  /** Calls body(slab) for all of them, from the first to the last.
+  /** Calls body(slab) for all of them, from the first to the last; of peers for its share.
    *  @param phase in words, a part of the task from begin until end
+   *  @param ofOthers called with the slices of the others' slabs, in their place
    *  @param shared whether a slab is to have the slices, too, that it shares with its neighbours */
   void ForEach(Task& task, const char* phase, double begin, double end, bool shared,
-    const std::function<void(const Slab&)>& body) const;
+    const std::function<void(const Slab&)>& body,
+    const std::function<void(const isodiamond::StreamedBuild::Slices&)>& ofOthers = nullptr) const;
 
 private:
   Slab Get(const isodiamond::StreamedBuild::Slices& slices) const;
@@ -79,7 +120,10 @@ private:
   std::vector<isodiamond::StreamedBuild::Slices> Cut;
   vtkSmartPointer<vtkImageData> Whole;
   std::string ArrayName;
+  bool OtherArrays = false;
   ContentHash StampOfUpstream{};
+  mutable std::optional<ControllerPeers> Others; ///< an interface to what is elsewhere
+  bool HaveDispersed = false;
 };
 
 /** The first step of a build. */

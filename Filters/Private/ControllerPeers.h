@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamond_ControllerPeers_h
+#define vtkIsodiamond_ControllerPeers_h
+
+#include "Field/Peers.h"
+
+class vtkInformation;
+class vtkMultiProcessController;
+
+namespace vtkIsodiamond
+{
+
+/** The processes of ParaView's, or VTK's, global controller as peers. */
+class ControllerPeers : public isodiamond::Peers
+{
+public:
+  /** How many processes make an output together, each as many pieces of it as there are of them and
+   *  its own one: all of them execute the filter then, and may wait for each other. 1 if they do
+   * not.
+   */
+  static int CountOf(vtkInformation* outputInformation);
+
+  ControllerPeers();
+
+  int Count() const override;
+  int Rank() const override;
+  void Or(std::uint8_t* bytes, std::int64_t count) override;
+  void Max(std::uint16_t* values, std::int64_t count) override;
+  void Min(std::uint16_t* values, std::int64_t count) override;
+  void Max(double* values, std::int64_t count) override;
+
+private:
+  vtkMultiProcessController* Controller;
+};
+
+}
+
+#endif

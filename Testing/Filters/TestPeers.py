@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""In pvbatch with any number of processes, a source that gives each of them what it asks for, and no
+more: each asks for its share of the volume, and together they have the mesh that one process makes,
+to the bit. Whoever fails does not let the others wait."""
+import os
+import sys
+import traceback
+
+import numpy
+from vtkmodules.numpy_interface import dataset_adapter
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+import isodiamonds
+
+SIZE = (35, 30, 75)
+controller = vtkMultiProcessController.GetGlobalController()
+rank = controller.GetLocalProcessId()
+ranks = controller.GetNumberOfProcesses()
+
+
+class Source(VTKPythonAlgorithmBase):
+    """Makes the part of an image that it is asked for, and keeps count."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
+        self.slices = []
+        self.fails_at = None
+        self.has_nan = False
+
+    def RequestInformation(self, request, inputs, outputs):
+        info = outputs.GetInformationObject(0)
+        whole = [bound for length in SIZE for bound in (0, length - 1)]
+        info.Set(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT(), whole, 6)
+        info.Set(vtkAlgorithm.CAN_PRODUCE_SUB_EXTENT(), 1)
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        extent = [0] * 6
+        outputs.GetInformationObject(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_EXTENT(), extent)
+        self.slices.append((extent[4], extent[5]))
+        if len(self.slices) == self.fails_at:
+            return 0
+        x, y, z = (numpy.arange(extent[2 * i], extent[2 * i + 1] + 1, dtype=float) for i in range(3))
+        x, y, z = x[None, None, :], y[None, :, None], z[:, None, None]
+        values = 13 - numpy.sqrt((x - 17) ** 2 + (y - 15) ** 2 + (0.4 * (z - 37)) ** 2)
+        values = values + numpy.sin(0.9 * x) * numpy.cos(0.7 * y) * numpy.sin(0.5 * z)
+        if self.has_nan:
+            values[numpy.broadcast_to((x == 20) & (y == 3 + z % 20), values.shape)] = numpy.nan
+        image = dataset_adapter.WrapDataObject(vtkImageData.GetData(outputs))
+        image.VTKObject.SetExtent(extent)
+        image.PointData.append(values.ravel(), "values")
+        image.PointData.append((3 * x + 5 * y + 7 * z).ravel(), "other")
+        image.PointData.SetActiveScalars("values")
+        return 1
+
+
+def rows(mesh):
+    """The mesh's cells: corners with their point data, one row for each, sorted."""
+    mesh = dataset_adapter.WrapDataObject(mesh)
+    vtk_cells = mesh.VTKObject.GetCells() if mesh.VTKObject.IsA("vtkUnstructuredGrid") else mesh.VTKObject.GetPolys()
+    corners = 4 if mesh.VTKObject.IsA("vtkUnstructuredGrid") else 3
+    ids = dataset_adapter.vtkDataArrayToVTKArray(vtk_cells.GetConnectivityArray()).reshape(-1, corners)
+    if not len(ids):
+        return numpy.zeros((0, 1))
+    columns = [mesh.Points, *(mesh.PointData[name] for name in sorted(mesh.PointData.keys()))]
+    points = numpy.column_stack([numpy.asarray(column, dtype=float) for column in columns])
+    return points[ids].reshape(len(ids), -1)
+
+
+def gathered(mesh):
+    """What all processes have, on the first one."""
+    own = mesh.NewInstance()
+    own.ShallowCopy(mesh)
+    if rank > 0:
+        controller.Send(own, 0, 7)
+        return None
+    meshes = [own]
+    for process in range(1, ranks):
+        other = own.NewInstance()
+        controller.Receive(other, process, 7)
+        meshes.append(other)
+    return numpy.concatenate([rows(mesh) for mesh in meshes])
+
+
+def lexsorted(array):
+    return array[numpy.lexsort(array.T[::-1])]
+
+
+def new(filter, source, **properties):
+    filter.SetInputConnection(source.GetOutputPort())
+    for name, value in properties.items():
+        getattr(filter, "Set" + name)(*value if isinstance(value, tuple) else (value,))
+    return filter
+
+
+def check(name, make, settings, has_nan=False, blocks=0):
+    """A filter in all processes, with some settings one after the other, against one alone."""
+    source = Source()
+    source.has_nan = has_nan
+    shared = new(make(), source, NumberOfBlocks=blocks)
+    alone = new(make(), source_alone := Source(), NumberOfBlocks=1)
+    source_alone.has_nan = has_nan
+    slabs = max(ranks, min(blocks, SIZE[2] // 8))
+    for properties in settings:
+        new(shared, source, **properties)
+        shared.UpdatePiece(rank, ranks, 0)
+        together = gathered(shared.GetOutputDataObject(0))
+        if rank == 0:
+            new(alone, source_alone, **properties)
+            alone.Update()
+            expected = rows(alone.GetOutputDataObject(0))
+            assert len(expected) > 100, (name, len(expected))
+            assert together.shape == expected.shape, (name, properties, together.shape, expected.shape)
+            a, b = lexsorted(together), lexsorted(expected)
+            assert numpy.array_equal(a, b, equal_nan=True), (name, properties)
+    assert shared.GetNumberOfSlabs() == (slabs if ranks > 1 or blocks > 1 else 1), (name, shared.GetNumberOfSlabs())
+    if ranks > 1:
+        # The process's own slabs, with 8 slices on both sides.
+        own = [i for i in range(slabs) if i * ranks // slabs == rank]
+        first, last = SIZE[2] * own[0] // slabs - 8, SIZE[2] * (own[-1] + 1) // slabs - 1 + 8
+        assert min(s[0] for s in source.slices) >= first, (name, source.slices)
+        assert max(s[1] for s in source.slices) <= last, (name, source.slices)
+    if rank == 0:
+        print(f"{ranks} processes, {name}: {len(together)} cells, {slabs} slabs", flush=True)
+
+
+def check_hierarchy():
+    """One that all build: the same everywhere as one process's."""
+    settings = dict(Isovalue=0.0, ErrorMetric=1, PreserveTopology=1, ComputeNormals=1)
+    source = Source()
+    builder = new(isodiamonds.vtkIsodiamondBuilder(), source, **settings)
+    builder.AddPointArray("other")
+    alone = new(isodiamonds.vtkIsodiamondBuilder(), Source(), NumberOfBlocks=1, **settings)
+    alone.AddPointArray("other")
+    for tolerance in (0.0, 0.4):
+        builder.SetPreserveFeatures(tolerance > 0)
+        alone.SetPreserveFeatures(tolerance > 0)
+        builder.UpdatePiece(rank, ranks, 0)
+        alone.Update()
+        found, expected = builder.GetHierarchy().GetFieldData(), alone.GetHierarchy().GetFieldData()
+        assert found.GetNumberOfArrays() == expected.GetNumberOfArrays() > 5
+        for i in range(expected.GetNumberOfArrays()):
+            array = expected.GetArray(i)
+            if array:
+                other = dataset_adapter.vtkDataArrayToVTKArray(found.GetArray(array.GetName()))
+                assert numpy.array_equal(other, dataset_adapter.vtkDataArrayToVTKArray(array)), array.GetName()
+        requests = len(source.slices)
+        builder.UpdatePiece(rank, ranks, 0)
+        assert len(source.slices) == requests
+    assert builder.GetNumberOfSlabs() == ranks
+    if rank == 0:
+        print(f"{ranks} processes: the same hierarchy", flush=True)
+
+
+def check_failure(name, fail):
+    """Of one process: all have an error, and go on afterwards."""
+    source = Source()
+    contour = new(isodiamonds.vtkIsodiamondContour(), source, Value=(0, 0.0), ErrorTolerance=0.4, NumberOfBlocks=8)
+    errors = []
+    contour.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+    source.AddObserver("ErrorEvent", lambda *_: None)
+    source.GetExecutive().AddObserver("ErrorEvent", lambda *_: errors.append(1))
+    if rank == ranks - 1:
+        fail(source, contour)
+    contour.UpdatePiece(rank, ranks, 0)
+    assert contour.GetOutput().GetNumberOfPoints() == 0, name
+    source.fails_at = None
+    contour.RemoveObservers("ProgressEvent")
+    contour.SetAbortExecute(0)
+    source.Modified()
+    contour.Modified()
+    contour.UpdatePiece(rank, ranks, 0)
+    cells = gathered(contour.GetOutput())
+    assert rank > 0 or len(cells) > 100, name
+    if rank == 0:
+        print(f"{ranks} processes, {name}: all fail, none waits", flush=True)
+
+
+def abort_at(phase):
+    def fail(source, contour):
+        contour.AddObserver(
+            "ProgressEvent",
+            lambda *_: contour.SetAbortExecute(1) if contour.GetProgressText() == phase else None)
+    return fail
+
+
+def main():
+    contour = isodiamonds.vtkIsodiamondContour
+    volume = isodiamonds.vtkIsodiamondIntervalVolume
+    values = dict(Value=(0, 0.0), ComputeNormals=1, ComputeGradients=1)
+    check("contour", contour, [
+        dict(values, ErrorTolerance=0.0), dict(ErrorTolerance=0.4), dict(ErrorTolerance=3.0),
+        dict(UseRegionOfInterest=1, RegionOfInterest=(0, 20, 0, 20, 0, 40), ErrorTolerance=0.1)])
+    check("contour with a target", contour, [dict(values, TargetNumberOfTriangles=2000)])
+    check("two contours in nine slabs", contour, [
+        dict(Value=(0, 0.0)), dict(Value=(1, 4.0), MinimumPieceSize=10, ErrorTolerance=0.3),
+        dict(Simplify=1)], blocks=9)
+    check("contour of values that are not finite", contour,
+          [dict(Value=(0, 0.0), ErrorTolerance=0.4)], has_nan=True)
+    check("interval volume", volume, [
+        dict(Isorange=(-0.5, 4.0), ErrorTolerance=0.0), dict(ErrorTolerance=0.5), dict(ComputeGradients=1),
+        dict(SimulationQuality=1)])
+    check_hierarchy()
+    if ranks > 1:
+        for request in (1, 2, 3, 4):
+            check_failure(f"no part {request}", lambda source, _: setattr(source, "fails_at", request))
+        for phase in ("Reading signs", "Classifying diamonds", "Placing isovertices", "Measuring errors",
+                      "Finding thresholds", "Reading point data"):
+            check_failure(f"aborted while {phase}", abort_at(phase))
+
+
+vtkObject.GlobalWarningDisplayOff()
+try:
+    main()
+except BaseException:
+    # The others wait for this process: without it mpiexec ends them.
+    traceback.print_exc()
+    sys.stderr.flush()
+    os._exit(1)
