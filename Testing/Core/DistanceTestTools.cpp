@@ -114,53 +114,89 @@ double NearestTriangle::Box::SquaredDistance(const std::array<double, 3>& point)
   return squared;
 }
 
+std::array<NearestTriangle::Part, 2> NearestTriangle::Part::Halves() const
+{
+  const std::size_t middle = this->First + (this->End - this->First) / 2;
+  return { Part{ 2 * this->Number + 1, this->First, middle },
+    Part{ 2 * this->Number + 2, middle, this->End } };
+}
+
 NearestTriangle::NearestTriangle(SurfaceTriangles triangles)
   : Triangles(std::move(triangles))
 {
-  for (std::size_t i = 0; i < this->Triangles.size(); ++i)
+  if (!this->Triangles.empty())
   {
-    const auto& corners = this->Triangles[i].Corners;
-    this->Boxes.push_back({ corners[0], corners[0] });
-    if (i % GroupSize == 0)
-    {
-      this->Groups.push_back({ corners[0], corners[0] });
-    }
-    for (const std::array<double, 3>& corner : corners)
-    {
-      this->Boxes.back().Add(corner);
-      this->Groups.back().Add(corner);
-    }
+    this->MakeBoxes(this->All());
   }
+}
+
+void NearestTriangle::MakeBoxes(const Part& part)
+{
+  const auto at = [this](std::size_t i)
+  { return this->Triangles.begin() + static_cast<std::ptrdiff_t>(i); };
+  Box box{ at(part.First)->Corners[0], at(part.First)->Corners[0] };
+  std::for_each(at(part.First), at(part.End),
+    [&box](const reference::SurfaceTriangle& triangle)
+    {
+      for (const std::array<double, 3>& corner : triangle.Corners)
+      {
+        box.Add(corner);
+      }
+    });
+  this->Boxes.resize(std::max(this->Boxes.size(), part.Number + 1));
+  this->Boxes[part.Number] = box;
+  if (part.IsLeaf())
+  {
+    return;
+  }
+  const auto length = [&box](int axis) { return box.High[axis] - box.Low[axis]; };
+  const int yz = length(1) > length(2) ? 1 : 2;
+  const int axis = length(0) > length(yz) ? 0 : yz;
+  const auto halves = part.Halves();
+  std::nth_element(at(part.First), at(halves[1].First), at(part.End),
+    [axis](const reference::SurfaceTriangle& a, const reference::SurfaceTriangle& b)
+    {
+      return a.Corners[0][axis] + a.Corners[1][axis] + a.Corners[2][axis] <
+        b.Corners[0][axis] + b.Corners[1][axis] + b.Corners[2][axis];
+    });
+  this->MakeBoxes(halves[0]);
+  this->MakeBoxes(halves[1]);
 }
 
 double NearestTriangle::Distance(const std::array<double, 3>& point, double enough) const
 {
-  constexpr std::array<double, 3> unit = { 1.0, 1.0, 1.0 };
   if (this->Triangles.empty())
   {
     return std::numeric_limits<double>::infinity();
   }
-  double distance = reference::Distance(point, this->Triangles[this->Last], unit);
-  const std::size_t first = this->Last / GroupSize; // the next point often is near to the last one
-  for (std::size_t k = 0; k < this->Groups.size() && distance > enough; ++k)
-  {
-    const std::size_t group = (first + k) % this->Groups.size();
-    if (this->Groups[group].SquaredDistance(point) >= distance * distance)
-    {
-      continue;
-    }
-    const std::size_t end = std::min((group + 1) * GroupSize, this->Triangles.size());
-    for (std::size_t i = group * GroupSize; i < end; ++i)
-    {
-      if (this->Boxes[i].SquaredDistance(point) < distance * distance)
-      {
-        const double other = reference::Distance(point, this->Triangles[i], unit);
-        this->Last = other < distance ? i : this->Last;
-        distance = std::min(distance, other);
-      }
-    }
-  }
+  // The next point often is near to the last one.
+  double distance = reference::Distance(point, this->Triangles[this->Last], { 1.0, 1.0, 1.0 });
+  this->Search(this->All(), point, enough, distance);
   return distance;
+}
+
+void NearestTriangle::Search(
+  const Part& part, const std::array<double, 3>& point, double enough, double& distance) const
+{
+  if (distance <= enough || this->Boxes[part.Number].SquaredDistance(point) >= distance * distance)
+  {
+    return;
+  }
+  if (part.IsLeaf())
+  {
+    for (std::size_t i = part.First; i < part.End; ++i)
+    {
+      const double other = reference::Distance(point, this->Triangles[i], { 1.0, 1.0, 1.0 });
+      this->Last = other < distance ? i : this->Last;
+      distance = std::min(distance, other);
+    }
+    return;
+  }
+  const auto halves = part.Halves();
+  const bool isFirstNearer = this->Boxes[halves[0].Number].SquaredDistance(point) <=
+    this->Boxes[halves[1].Number].SquaredDistance(point);
+  this->Search(halves[isFirstNearer ? 0 : 1], point, enough, distance);
+  this->Search(halves[isFirstNearer ? 1 : 0], point, enough, distance);
 }
 
 double ForEachSample(const reference::SurfaceTriangle& triangle, double step,

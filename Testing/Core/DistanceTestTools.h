@@ -33,8 +33,8 @@ SurfaceTriangles Placed(const SurfaceTriangles& triangles, const isodiamond::Gri
 SurfaceTriangles Placed(const Mesh& mesh, const isodiamond::GridGeometry& world);
 SurfaceTriangles Placed(const Volume& volume, int surface, const isodiamond::GridGeometry& world);
 
-/** The distances of points to the nearest of many triangles: no more than boxes around some at a
- *  time spare the look at all of them. */
+/** The distances of points to the nearest of many triangles, by a tree of boxes around halves of
+ *  them: large fields have millions, and a look at each box for each point takes hours. */
 class NearestTriangle
 {
 public:
@@ -53,11 +53,24 @@ private:
     double SquaredDistance(const std::array<double, 3>& point) const;
   };
 
-  static constexpr std::size_t GroupSize = 16;
+  /** The triangles from first to end; its halves have the numbers 2 n + 1 and 2 n + 2. */
+  struct Part
+  {
+    std::size_t Number;
+    std::size_t First;
+    std::size_t End;
 
-  SurfaceTriangles Triangles;
-  std::vector<Box> Boxes;  ///< of triangles
-  std::vector<Box> Groups; ///< of so many at a time
+    bool IsLeaf() const { return this->End - this->First <= 4; }
+    std::array<Part, 2> Halves() const;
+  };
+
+  Part All() const { return { 0, 0, this->Triangles.size() }; }
+  void MakeBoxes(const Part& part);
+  void Search(
+    const Part& part, const std::array<double, 3>& point, double enough, double& distance) const;
+
+  SurfaceTriangles Triangles; ///< each half of a part is beside the other
+  std::vector<Box> Boxes;     ///< by the numbers of parts
   mutable std::size_t Last = 0;
 };
 

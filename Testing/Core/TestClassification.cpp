@@ -131,6 +131,8 @@ TEST(Classification, InTwoStepsIsAsInOne)
             const test::Field passing = field;
             return StagedBuild(passing.View(), region, SerialFor, options);
           }();
+          StagedBuild elsewhere(std::move(staged));
+          staged = std::move(elsewhere);
           const IsodiamondHierarchy hierarchy(expected, SerialFor);
           EXPECT_TRUE(test::AnyMesh(staged.FullResolution(), Query{})
                         .IsSameInAnyOrder(test::AnyMesh(hierarchy, Query{})));

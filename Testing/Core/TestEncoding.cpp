@@ -28,6 +28,64 @@ TEST(Encoding, IsSmallerThanThePapersRecords)
       8 * arrays.BrickMasks.size() + 2 * arrays.Records.size() + arrays.Isovertices.size()));
 }
 
+// What is kept is thrown away by its size: a cache that does not know it grows.
+TEST(Encoding, SizesAreThoseOfAllArrays)
+{
+  const test::Field field = test::SphereField({ 33, 33, 33 });
+  for (const Isoregion& region : { Isoregion(0.25), Isoregion(0.25, 3.0) })
+  {
+    BuildOptions options = test::Interior(region.IsVolume());
+    const test::Built built(
+      BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, options), SerialFor);
+    const IsodiamondHierarchy& hierarchy = *built.Hierarchy;
+    const EncodingArrays<OwnedArray>& arrays = built.Encoding.Arrays;
+    std::size_t bricks = 0;
+    std::size_t lookups = 0;
+    std::size_t diamonds = 0;
+    std::size_t inside = 0;
+    for (int scale = 0; scale < hierarchy.Diamonds().ScaleCount(); ++scale)
+    {
+      bricks += hierarchy.Diamonds().Level(scale).Bricks.size();
+      lookups += hierarchy.Diamonds().Level(scale).Lookup.size();
+    }
+    hierarchy.Diamonds().ForEach(
+      [&](const Place&, std::uint32_t rank)
+      {
+        ++diamonds;
+        inside += region.IsVolume() && hierarchy.Sign(rank) == InsideSign ? 1 : 0;
+      });
+    EXPECT_EQ(diamonds, arrays.Records.size());
+    EXPECT_EQ(inside > 0, region.IsVolume());
+    EXPECT_EQ(arrays.InteriorCodes.empty(), !region.IsVolume());
+    // A float for each sample inside.
+    EXPECT_EQ(hierarchy.StorageSize(),
+      static_cast<std::int64_t>(4 * arrays.BrickCounts.size() + 4 * arrays.BrickIndices.size() +
+        8 * arrays.BrickMasks.size() + 2 * diamonds + arrays.Isovertices.size() +
+        2 * arrays.InteriorCodes.size() + 8 * arrays.Followers.size() +
+        (region.IsVolume() ? 4 * inside : 0)));
+    // Edges of one surface or of two, and the first isovertex; highest thresholds; what is inside.
+    EXPECT_EQ(hierarchy.DerivedSize(),
+      static_cast<std::int64_t>((region.IsVolume() ? 8 : 6) * diamonds +
+        (4 + sizeof(Brick)) * bricks + 4 * lookups + (region.IsVolume() ? 8 * (bricks + 1) : 0)));
+  }
+}
+
+TEST(Isoregion, NeedsALowerEndThatIsLess)
+{
+  EXPECT_THROW(Isoregion(1.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(Isoregion(2.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(Isoregion(std::numeric_limits<double>::quiet_NaN(), 1.0), std::invalid_argument);
+  EXPECT_NO_THROW(Isoregion(1.0, std::numeric_limits<double>::infinity()));
+}
+
+TEST(Samples, TellHowManyBytesOneTakes)
+{
+  const std::vector<double> doubles(8);
+  const std::vector<std::uint16_t> shorts(8);
+  EXPECT_EQ(BytesOfSample(SampleView<double>(doubles.data(), { 2, 2, 2 })), 8);
+  EXPECT_EQ(BytesOfSample(SampleView<std::uint16_t>(shorts.data(), { 2, 2, 2 })), 2);
+}
+
 namespace
 {
 

@@ -167,6 +167,22 @@ TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
   ExpectNear(normal, { 0.0, -0.6, 0.8 });
   ExpectNear(NormalOf({ 0.0, 0.0, 0.0 }), { 0.0, 0.0, 1.0 });
   ExpectNear(NormalOf({ 0.0, std::nan(""), 0.0 }), { 0.0, 0.0, 1.0 });
+  ExpectNear(NormalOf({ 0.0, HUGE_VAL, 0.0 }), { 0.0, 0.0, 1.0 });
+  ExpectNear(NormalOf({ 1.7e308, 0.0, 1.7e308 }), { 0.0, 0.0, 1.0 }); // its length is not finite
+}
+
+TEST(GridGeometry, SmallestStepIsTheLeastOfAnyAxis)
+{
+  AffineMap map;
+  map.Rows = { { { 0.0, 3.0, 0.0, 9.0 }, { -2.0, 0.0, 0.0, 9.0 }, { 0.0, 4.0, 7.0, 9.0 } } };
+  EXPECT_EQ(GridGeometry(map).SmallestStep(), 2.0);
+  const std::vector<double> rising = { -9.0, 0.0, 1.25, 4.0 };
+  const std::vector<double> falling = { 3.0, 2.5, 0.0 };
+  const std::vector<double> wide = { 10.0, 20.0 };
+  EXPECT_EQ(GridGeometry({ wide, rising, falling }).SmallestStep(), 0.5);
+  EXPECT_EQ(GridGeometry({ rising, wide, wide }).SmallestStep(), 1.25);
+  const std::vector<double> positions = BentPositions();
+  EXPECT_EQ(GridGeometry(SamplePositions{ positions.data(), Size }).SmallestStep(), 0.0);
 }
 
 TEST(AffineMap, HasItsDeterminantAndInverse)

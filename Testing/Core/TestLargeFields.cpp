@@ -116,6 +116,59 @@ TEST(LargeFields, KeepThePromiseOfBothSurfaces)
   }
 }
 
+// There is so much to do in such a field that threads take over where diamonds are still large. An
+// error depends on what is near: in a corner, which by itself is done otherwise, it is the same.
+TEST(LargeFields, HaveTheErrorsOfTheirParts)
+{
+  const test::Field all = test::WaveField({ 129, 129, 129 });
+  test::Field part{ "part", { 65, 65, 65 }, {}, all.Isovalue };
+  for (int z = 0; z < 65; ++z)
+  {
+    for (int y = 0; y < 65; ++y)
+    {
+      for (int x = 0; x < 65; ++x)
+      {
+        part.Samples.push_back(all.Samples[(z * 129 + y) * 129 + x]);
+      }
+    }
+  }
+  const test::Built ofAll = test::Build(Model::Relevant, all);
+  const test::Built ofPart = test::Build(Model::Relevant, part);
+  const auto errors = [](const test::Built& built, const test::Field& field) {
+    return DistanceErrors(*built.Hierarchy, field.View(), AffineMap(), true, test::ThreadedFor(2));
+  };
+  const std::vector<ErrorCode::Type> expected = errors(ofPart, part);
+  const std::vector<ErrorCode::Type> found = errors(ofAll, all);
+  const ErrorCode code(DistanceErrorScale(ofPart.Hierarchy->SampleGrid(), AffineMap()));
+  const ErrorCode codeOfAll(DistanceErrorScale(ofAll.Hierarchy->SampleGrid(), AffineMap()));
+  std::map<int, int> seen; // by scale
+  ofPart.Hierarchy->Diamonds().ForEach(
+    [&](const Place& place, std::uint32_t rank)
+    {
+      const int h = 1 << place.Scale;
+      bool isInside = place.Scale < 5; // all of its tetrahedra, so also those that these are from
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        isInside = isInside && h * (place.Position[axis] + 1) <= 64;
+      }
+      if (!isInside)
+      {
+        return;
+      }
+      const std::int64_t there = ofAll.Hierarchy->Diamonds().Rank(place);
+      ASSERT_NE(there, DiamondSet::None);
+      // Codes have steps, other ones in a larger grid.
+      const double one = code.Decode(expected[rank]);
+      const double other = codeOfAll.Decode(found[there]);
+      ASSERT_LE(one, code.Decode(code.Encode(other * (1.0 + 1e-9)))) << "scale " << place.Scale;
+      ASSERT_LE(other, codeOfAll.Decode(codeOfAll.Encode(one * (1.0 + 1e-9))))
+        << "scale " << place.Scale;
+      seen[place.Scale] += one > 0.0 && one < HUGE_VAL ? 1 : 0;
+    });
+  EXPECT_GT(seen[4], 0);
+  EXPECT_GT(seen[3], 0);
+}
+
 // The reference is slow, but not where there is little: each error from both sides.
 TEST(LargeFields, HaveTheReferencesErrorsWhereThereIsLittle)
 {

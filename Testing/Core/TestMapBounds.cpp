@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 using namespace isodiamond;
@@ -145,13 +146,33 @@ TEST(DomainMap, BoundsTheWayBackFromAllPatches)
             patches.push_back(triangle);
           }
         }
+        // Whatever goes to the patches has to come there, where lengths have them.
+        test::SurfaceTriangles places;
+        for (const NumberedPatch& patch : around)
+        {
+          for (int i = 0; i < patch.Patch.TriangleCount; ++i)
+          {
+            reference::SurfaceTriangle& triangle = places.emplace_back();
+            for (int j = 0; j < 3; ++j)
+            {
+              triangle.Corners[j] =
+                lengths(IsovertexOn(hierarchy, patch.Tetrahedron, patch.Patch.Triangles[i][j], 0));
+            }
+          }
+        }
+        const test::NearestTriangle onPatches(places);
+        double beside = 0.0;
+        const auto mayMove = [&](const Vector& place, double squared)
+        {
+          beside = squared < Infinity ? std::max(beside, onPatches.Distance(place)) : beside;
+          return squared < Infinity;
+        };
         // With and without a reason to leave the border of a patch.
         const double least = domain.Bound(
-          diamond, around, [](double) { return false; },
-          [](const Vector&, double squared) { return squared < Infinity; });
+          diamond, around, [](double) { return false; }, mayMove);
         const double bound = domain.Bound(
-          diamond, around, [](double) { return true; },
-          [](const Vector&, double squared) { return squared < Infinity; });
+          diamond, around, [](double) { return true; }, mayMove);
+        ASSERT_LE(beside, 1e-9);
         if (patches.empty())
         {
           return;

@@ -7,6 +7,7 @@
 
 #include "ReferenceError.h"
 #include "ReferenceMinimal.h"
+#include "ReferenceRegion.h"
 
 #include <gtest/gtest.h>
 
@@ -261,6 +262,45 @@ TEST(Refinement, HierarchyOfDiamondsVisitsFewerAsTheToleranceGrows)
     EXPECT_LT(visited, previous);
     previous = visited;
   }
+}
+
+// With its ancestors, and nothing else; nor is that known to an MI only.
+TEST(Refinement, SubdividesWhatIsNamedWhateverIsTolerated)
+{
+  const test::Field field = test::SphereField({ 17, 14, 17 });
+  const test::Built relevant = test::Build(Model::Relevant, field);
+  const test::Built minimal = test::Build(Model::Minimal, field);
+  const Grid& grid = relevant.Hierarchy->SampleGrid();
+  const reference::Hierarchy hierarchy(field.Dims);
+  const Query coarse{ 3.0 };
+  const RefinedSet without(*relevant.Hierarchy, coarse, SerialFor);
+  int added = 0;
+  for (int i = 0; i < hierarchy.Size(); i += 7)
+  {
+    const Place place = test::PlaceOf(grid, hierarchy.At(i).Center);
+    if (!minimal.Hierarchy->Diamonds().Contains(place) || without.Contains(place))
+    {
+      continue;
+    }
+    ++added;
+    reference::DiamondSet expected(hierarchy.Size(), false);
+    for (int k = 0; k < hierarchy.Size(); ++k)
+    {
+      expected[k] = k == i || without.Contains(test::PlaceOf(grid, hierarchy.At(k).Center));
+    }
+    expected = reference::CloseOverParents(hierarchy, expected);
+    Query query = coarse;
+    query.Also = { place };
+    const RefinedSet with(*relevant.Hierarchy, query, SerialFor);
+    for (int k = 0; k < hierarchy.Size(); ++k)
+    {
+      ASSERT_EQ(with.Contains(test::PlaceOf(grid, hierarchy.At(k).Center)), expected[k])
+        << "diamond " << k << " with " << i;
+    }
+    EXPECT_TRUE(
+      test::Extract(*minimal.Hierarchy, query) == test::Extract(*relevant.Hierarchy, query));
+  }
+  EXPECT_GT(added, 50);
 }
 
 // Cells are cut out of meshes, so these have full resolution there, whatever the tolerance.

@@ -442,6 +442,7 @@ TEST(Region, AtItsExtremesIsAUniformMesh)
   EXPECT_TRUE(extract({ { 0, 0, 5 }, { 32, 32, 4 } }) == outside);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(extract({ { 0, nan, 0 }, { 32, 32, 32 } }), std::invalid_argument);
+  EXPECT_THROW(extract({ { 0, 0, 0 }, { 32, 32, nan } }), std::invalid_argument);
   // A coarser tolerance inside than outside asks for nothing more.
   EXPECT_TRUE(
     test::Extract(*built.Hierarchy,

@@ -343,6 +343,26 @@ TEST(Stuffing, IsAMirrorImageInAMirroredWorld)
   }
 }
 
+// Coordinates on each axis that an affine map has, too; the surfaces end at the grid's walls.
+TEST(Stuffing, IsTheSameWhereCoordinatesAreThoseOfAnAffineMap)
+{
+  const test::Field field = GyroidField(13, 1.0);
+  const test::Built built = BuildVolume(field, { field.Isovalue, HUGE_VAL });
+  const AffineMap map = test::Spacing(0.5, 2.0, 1.0);
+  AxisCoordinates axes;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int i = 0; i < field.Dims[axis]; ++i)
+    {
+      axes[axis].push_back(map.Rows[axis][axis] * i + map.Rows[axis][3]);
+    }
+  }
+  const Stuffed mapped(*built.Hierarchy, Query{}, map);
+  const Stuffed listed(*built.Hierarchy, Query{}, GridGeometry(axes));
+  EXPECT_TRUE(mapped.Mesh.Tetrahedra == listed.Mesh.Tetrahedra);
+  EXPECT_TRUE(mapped.Mesh.Positions == listed.Mesh.Positions);
+}
+
 TEST(Stuffing, LeavesOutWhatIsHidden)
 {
   const test::Field field = test::SphereField({ 17, 17, 17 });

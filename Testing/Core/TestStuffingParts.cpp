@@ -3,11 +3,14 @@
 #include "CoreTestTools.h"
 #include "RandomTestTools.h"
 
+#include "Patches/IntervalPatches.h"
+#include "Stuffing/Background.h"
 #include "Stuffing/BestPlace.h"
 #include "Stuffing/Improvement.h"
 #include "Stuffing/LocalMesh.h"
 #include "Stuffing/RingFilling.h"
 #include "Stuffing/SurfaceChanges.h"
+#include "Stuffing/SurfaceLinks.h"
 
 #include <gtest/gtest.h>
 
@@ -437,6 +440,58 @@ TEST(LocalMesh, FindsRings)
   EXPECT_EQ(ring.Points.size(), 3U);
   EXPECT_EQ(ring.Points[1], 0U);
   EXPECT_FALSE(mesh.FindRing(1, 2, 7, ring)); // no edge
+  const LocalMesh twoPaths(
+    MeshOf({ { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 1, 1, 0 }, { -1, 0, 0 }, { -1, -1, 0 } },
+      { { 0, 1, 2, 3 }, { 0, 1, 4, 5 } }));
+  EXPECT_FALSE(twoPaths.FindRing(0, 1, 7, ring));
+}
+
+// A vertex in a tetrahedron with two corners on the surface, of whose edge others are around.
+TEST(SurfaceLinks, WantOneRunOfVerticesInsideAroundOppositeEdges)
+{
+  constexpr std::uint32_t vertex = 0;
+  constexpr std::uint32_t a = 1;
+  constexpr std::uint32_t b = 2;
+  constexpr std::array<std::uint32_t, 4> ring = { 3, 4, 5, 6 };
+  constexpr std::uint32_t behindA = 7;
+  constexpr std::uint32_t behindB = 8;
+  CutMesh mesh;
+  mesh.Vertices.resize(9);
+  const auto add = [&mesh](const Corners& corners)
+  {
+    mesh.Tetrahedra.emplace_back();
+    mesh.Tetrahedra.back().Vertices = corners;
+  };
+  for (const std::uint32_t end : { ring[0], ring[3] })
+  {
+    add({ vertex, a, b, end });
+  }
+  add({ vertex, a, ring[0], ring[3] });
+  add({ vertex, b, ring[0], ring[3] });
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::uint32_t next = ring[(i + 1) % 4];
+    add({ behindA, a, ring[i], next });
+    add({ behindB, b, ring[i], next });
+    if (i < 3)
+    {
+      add({ a, b, ring[i], next });
+    }
+  }
+  const std::vector<Vector> positions(mesh.Vertices.size());
+  const Background background(
+    mesh, positions, std::vector<Walls::Type>(mesh.Vertices.size(), 0), positions, false);
+  constexpr std::uint8_t inside = OnLower + 1;
+  for (const bool isTwice : { false, true })
+  {
+    std::vector<std::uint8_t> states(mesh.Vertices.size(), 0);
+    states[vertex] = states[a] = states[b] = OnLower;
+    states[behindA] = states[behindB] = states[ring[0]] = inside;
+    states[ring[2]] = isTwice ? inside : 0;
+    const SurfaceLinks links(background, states);
+    EXPECT_TRUE(links.CanBeOn(vertex, 0, false));
+    EXPECT_EQ(links.CanBeOn(vertex, 0, true), !isTwice);
+  }
 }
 
 // Of the tetrahedron that the new place is in: in parts that are all positive.

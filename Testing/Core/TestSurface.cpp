@@ -253,24 +253,55 @@ TEST(Surface, TellsOfEachPointOnce)
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), extraction.PointCount());
 }
 
+namespace
+{
+
+/** Six times the volume; all tetrahedra have to be positive. */
+std::int64_t SixVolumesOf(const DiamondMesh& mesh)
+{
+  std::int64_t six = 0;
+  for (const std::array<std::int64_t, 4>& t : mesh.Tetrahedra)
+  {
+    const Point& o = mesh.Points[t[0]];
+    const int part = tables::Determinant(
+      mesh.Points[t[1]] + -1 * o, mesh.Points[t[2]] + -1 * o, mesh.Points[t[3]] + -1 * o);
+    EXPECT_GT(part, 0);
+    six += part;
+  }
+  return six;
+}
+
+}
+
+TEST(DiamondMesh, HasNothingBeyondTheGrid)
+{
+  for (const std::array<int, 3>& dims :
+    std::vector<std::array<int, 3>>{ { 14, 13, 9 }, { 3, 17, 17 }, { 9, 17, 6 } })
+  {
+    // In a corner only: what is left large elsewhere sticks out of the grid.
+    test::Field field{ "corner", dims, {}, 0.5 };
+    field.Samples.assign(std::size_t{ 1 } * dims[0] * dims[1] * dims[2], 0.0F);
+    field.Samples[0] = 1.0F;
+    const test::Built relevant = test::Build(Model::Relevant, field);
+    for (const double tolerance : { 0.0, 1e9 })
+    {
+      const DiamondMesh mesh =
+        ExtractDiamondMesh(RefinedSet(*relevant.Hierarchy, { tolerance }, SerialFor));
+      EXPECT_FALSE(mesh.Tetrahedra.empty());
+      for (const Point& point : mesh.Points)
+      {
+        EXPECT_TRUE(relevant.Hierarchy->SampleGrid().IsSampled(point));
+      }
+      EXPECT_LE(SixVolumesOf(mesh), 6 * (dims[0] - 1) * (dims[1] - 1) * (dims[2] - 1));
+    }
+  }
+}
+
 TEST(DiamondMesh, TilesTheDomainForRelevantAndScalarHierarchies)
 {
   const test::Field field = test::SphereField({ 17, 17, 17 });
   const test::Built relevant = test::Build(Model::Relevant, field);
   const test::Built minimal = test::Build(Model::Minimal, field);
-  const auto volume = [](const DiamondMesh& mesh)
-  {
-    std::int64_t six = 0;
-    for (const std::array<std::int64_t, 4>& t : mesh.Tetrahedra)
-    {
-      const Point& o = mesh.Points[t[0]];
-      const int part = tables::Determinant(
-        mesh.Points[t[1]] + -1 * o, mesh.Points[t[2]] + -1 * o, mesh.Points[t[3]] + -1 * o);
-      EXPECT_GT(part, 0);
-      six += part;
-    }
-    return six;
-  };
   const auto corners = [](const DiamondMesh& mesh, std::size_t tetrahedron)
   {
     std::array<Point, 4> points{};
@@ -301,13 +332,13 @@ TEST(DiamondMesh, TilesTheDomainForRelevantAndScalarHierarchies)
   {
     const DiamondMesh whole =
       ExtractDiamondMesh(RefinedSet(*relevant.Hierarchy, { tolerance }, SerialFor));
-    EXPECT_EQ(volume(whole), 6 * 16 * 16 * 16);
+    EXPECT_EQ(SixVolumesOf(whole), 6 * 16 * 16 * 16);
     // An MI knows nothing of where no surface is, and all of where one is.
     const DiamondMesh part =
       ExtractDiamondMesh(RefinedSet(*minimal.Hierarchy, { tolerance }, SerialFor));
     EXPECT_EQ(tetrahedra(part, true), tetrahedra(whole, true));
     EXPECT_EQ(tetrahedra(part, true).empty(), tolerance == 1e9); // no corner of the cube is above
     EXPECT_EQ(tetrahedra(part, false).size(), part.Tetrahedra.size());
-    EXPECT_LE(volume(part), 6 * 16 * 16 * 16);
+    EXPECT_LE(SixVolumesOf(part), 6 * 16 * 16 * 16);
   }
 }
