@@ -134,8 +134,10 @@ TEST(LargeFields, HaveTheErrorsOfTheirParts)
   }
   const test::Built ofAll = test::Build(Model::Relevant, all);
   const test::Built ofPart = test::Build(Model::Relevant, part);
-  const auto errors = [](const test::Built& built, const test::Field& field) {
-    return DistanceErrors(*built.Hierarchy, field.View(), AffineMap(), true, test::ThreadedFor(2));
+  const auto errors = [](const test::Built& built, const test::Field& field)
+  {
+    return DistanceErrors(
+      *built.Hierarchy, Finiteness(field.View()), AffineMap(), true, test::ThreadedFor(2));
   };
   const std::vector<ErrorCode::Type> expected = errors(ofPart, part);
   const std::vector<ErrorCode::Type> found = errors(ofAll, all);
