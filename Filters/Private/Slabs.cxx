@@ -132,13 +132,27 @@ isodiamond::AnySamples SlicesOf(const isodiamond::AnySamples& samples, int first
     samples);
 }
 
+/** Whether upstream can make a part of its whole extent. ParaView puts a filter behind every source
+ *  that passes requests on, but does not tell. */
+bool MakesParts(vtkInformation* information)
+{
+  if (information->Get(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT()) != 0)
+  {
+    return true;
+  }
+  vtkExecutive* upstream = vtkExecutive::PRODUCER()->GetExecutive(information);
+  vtkAlgorithm* algorithm = upstream ? upstream->GetAlgorithm() : nullptr;
+  return algorithm && algorithm->IsA("vtkPVPostFilter") &&
+    algorithm->GetNumberOfInputConnections(0) == 1 &&
+    MakesParts(algorithm->GetInputInformation(0, 0));
+}
+
 /** Into how many slabs the input is cut. @param peers how many processes share them, each at least
  *  one */
 int CountSlabs(vtkInformation* inputInformation, int asked, int peers)
 {
   const bool canBeCut = inputInformation && vtkImageData::GetData(inputInformation) &&
-    inputInformation->Has(Pipeline::WHOLE_EXTENT()) &&
-    inputInformation->Get(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT()) != 0;
+    inputInformation->Has(Pipeline::WHOLE_EXTENT()) && MakesParts(inputInformation);
   if (!canBeCut || asked == 1)
   {
     return 1;

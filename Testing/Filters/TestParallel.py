@@ -18,7 +18,7 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 import isodiamonds
 
 FOLDER = sys.argv[1]
-EXTENT = [-8, 8, -7, 9, -6, 8]
+EXTENT = [-8, 8, -7, 9, -6, 26]  # 8 slices for each of four processes: they share the volume
 LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
 controller = vtkMultiProcessController.GetGlobalController()
 rank = controller.GetLocalProcessId()
@@ -146,6 +146,10 @@ def main():
             serial(isodiamonds.vtkIsodiamondIntervalVolume(), Isorange=(150, 200),
                    ErrorTolerance=tolerance),
         )
+
+    # Each has asked for its part of the volume.
+    extent = wavelet.GetClientSideObject().GetOutputDataObject(0).GetExtent()
+    assert ranks == 1 or extent[5] - extent[4] < EXTENT[5] - EXTENT[4], extent
 
     hierarchy = IsodiamondHierarchy(wavelet, Isovalue=150, ErrorMetric="Distance")
     hierarchy.UpdatePipeline()

@@ -50,6 +50,17 @@ assert table["Triangles at tolerance 0"] == full, table
 assert full > table["Triangles at tolerance 0.1"] > table["Triangles at tolerance 0.5"] > coarse
 
 
+# In blocks: ParaView's sources make no more of the volume than is asked for.
+triangles = []
+for blocks in (1, 4):
+    parts = Wavelet(WholeExtent=[-16, 16] * 3)
+    cut = IsodiamondContour(parts, Isosurfaces=[160], ErrorTolerance=0.5, NumberOfBlocks=blocks)
+    cut.UpdatePipeline()
+    triangles.append(cut.GetDataInformation().GetNumberOfCells())
+    made = parts.GetClientSideObject().GetOutputDataObject(0).GetExtent()
+    assert made[5] - made[4] == (32 if blocks == 1 else 16), made  # of 33 slices a fourth, and 8 more
+assert triangles[0] == triangles[1] > 0, triangles
+
 # Tolerances in voxels, of which there are two in a unit; the slider, too.
 source = vtkRTAnalyticSource()
 source.SetWholeExtent(-10, 10, -10, 10, -10, 10)
