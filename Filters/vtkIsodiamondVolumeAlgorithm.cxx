@@ -24,6 +24,7 @@
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -103,7 +104,12 @@ int vtkIsodiamondVolumeAlgorithm::GetNumberOfSlabs()
 double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
 {
   double largest = 0.0;
-  for (vtkDataSet* grid : vtkIsodiamond::LeavesOf(this->GetInput()))
+  vtkSmartPointer<vtkDataObject> input = this->GetInput();
+  if (this->Plan->NumberOfSlabs() > 1)
+  {
+    input = vtkIsodiamond::WholeImage(this->GetInputInformation(0, 0));
+  }
+  for (vtkDataSet* grid : vtkIsodiamond::LeavesOf(input))
   {
     const double inUnits = vtkIsodiamond::LargestTolerance(
       static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), grid, this->FindInputArray(grid));

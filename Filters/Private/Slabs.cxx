@@ -220,6 +220,17 @@ void SlabPlan::Note(vtkAlgorithm* filter, vtkInformation* request, int when)
   }
 }
 
+vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input)
+{
+  vtkImageData* slab = vtkImageData::GetData(input);
+  auto whole = vtkSmartPointer<vtkImageData>::New();
+  whole->SetExtent(WholeExtentOf(input).data());
+  whole->SetOrigin(slab->GetOrigin());
+  whole->SetSpacing(slab->GetSpacing());
+  whole->SetDirectionMatrix(slab->GetDirectionMatrix());
+  return whole;
+}
+
 std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArray) const
 {
   std::optional<ControllerPeers> peers;
@@ -243,17 +254,12 @@ Slabs::Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
   , FindArray(std::move(findArray))
   , WholeExtent(WholeExtentOf(inputInformation))
   , Cut(isodiamond::StreamedBuild::Cut(DimensionsOf(this->WholeExtent), count))
-  , Whole(vtkSmartPointer<vtkImageData>::New())
+  , Whole(WholeImage(inputInformation))
   , Others(peers)
 {
   const Slab atHand = this->Read(SlabAtHand(this->Input, count, this->Together()));
-  vtkImageData* image = vtkImageData::SafeDownCast(atHand.Given.Grid);
-  this->Whole->SetExtent(this->WholeExtent.data());
-  this->Whole->SetOrigin(image->GetOrigin());
-  this->Whole->SetSpacing(image->GetSpacing());
-  this->Whole->SetDirectionMatrix(image->GetDirectionMatrix());
   this->ArrayName = atHand.Given.ArrayName;
-  this->OtherArrays = image->GetPointData()->GetNumberOfArrays() > 1;
+  this->OtherArrays = atHand.Given.Grid->GetPointData()->GetNumberOfArrays() > 1;
 
   auto* upstream =
     vtkDemandDrivenPipeline::SafeDownCast(vtkExecutive::PRODUCER()->GetExecutive(this->Input));

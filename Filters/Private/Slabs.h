@@ -64,6 +64,9 @@ private:
   bool IsPeerWithout = false; ///< whether one of the peers has not got what it asked for
 };
 
+/** The whole image of which an input is a slab, without its arrays. */
+vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input);
+
 /** Some slices of an image. */
 struct Slab
 {

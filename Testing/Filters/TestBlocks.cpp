@@ -187,6 +187,8 @@ TEST(Blocks, MakeTheSameSurface)
     const int thickness = (63 + blocks - 1) / blocks + 16;
     EXPECT_LE(both.SourceOfParts->MostVoxels, 33 * 31 * std::min(thickness, 63));
 
+    EXPECT_EQ(both.InBlocks->GetErrorToleranceRange()[1], both.AtOnce->GetErrorToleranceRange()[1]);
+
     // What comes after asks for nothing.
     const int requests = both.SourceOfParts->Requests;
     both.ForEach([](vtkIsodiamondContour* contour) { contour->SetErrorTolerance(0.0); });
