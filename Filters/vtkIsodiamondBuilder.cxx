@@ -175,10 +175,6 @@ int vtkIsodiamondBuilder::RequestData(
     [&](vtkIsodiamond::Task& task)
     {
       vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-      if (this->Plan->NumberOfSlabs() == 1)
-      {
-        vtkIsodiamond::CheckWhole(input, inputVector[0]->GetInformationObject(0), this->Piece);
-      }
       this->Build(input, task, output);
       if (this->Piece[0] > 0)
       {
@@ -192,11 +188,12 @@ int vtkIsodiamondBuilder::RequestData(
 void vtkIsodiamondBuilder::Build(
   vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output)
 {
-  std::unique_ptr<vtkIsodiamond::Slabs> slabs;
-  if (this->Plan->NumberOfSlabs() > 1)
+  vtkInformation* information = this->GetInputInformation(0, 0);
+  const std::unique_ptr<vtkIsodiamond::Slabs> slabs =
+    this->Plan->Open(information, [this](vtkDataSet* part) { return this->FindInputArray(part); });
+  if (!slabs)
   {
-    slabs = this->Plan->Open(this->GetInputInformation(0, 0),
-      [this](vtkDataSet* part) { return this->FindInputArray(part); });
+    vtkIsodiamond::CheckWhole(input, information, this->Piece);
   }
   const bool isKnown = this->Built && this->BuiltOf == input && this->BuiltAt > input->GetMTime() &&
     this->BuiltAt > this->GetMTime();

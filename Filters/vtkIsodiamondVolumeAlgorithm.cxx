@@ -178,14 +178,12 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       vtkIsodiamond::WorldQuery query = this->GetQuery();
       vtkIsodiamond::CheckTolerances(query);
       vtkInformation* input = inputVector[0]->GetInformationObject(0);
-      vtkDataSet* grid = vtkDataSet::GetData(inputVector[0]);
       vtkIsodiamond::InputArray array;
-      std::unique_ptr<vtkIsodiamond::Slabs> slabs;
+      const std::unique_ptr<vtkIsodiamond::Slabs> slabs =
+        this->Plan->Open(input, [this](vtkDataSet* part) { return this->FindInputArray(part); });
       vtkIsodiamond::Volume volume;
-      if (this->Plan->NumberOfSlabs() > 1)
+      if (slabs)
       {
-        slabs =
-          this->Plan->Open(input, [this](vtkDataSet* part) { return this->FindInputArray(part); });
         volume = slabs->WholeVolume();
       }
       else
@@ -196,6 +194,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
                           "make parts of them do, by the distance metric, without an interior "
                           "tolerance and without closing the boundary.");
         }
+        vtkDataSet* grid = vtkDataSet::GetData(inputVector[0]);
         vtkIsodiamond::CheckWhole(grid, input, this->Piece);
         array = this->FindInputArray(grid);
         volume = vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());

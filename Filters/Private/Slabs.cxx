@@ -231,8 +231,12 @@ vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input)
   return whole;
 }
 
-std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArray) const
+std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArray)
 {
+  if (this->Count == 1)
+  {
+    return nullptr;
+  }
   std::optional<ControllerPeers> peers;
   if (this->IsShared)
   {
@@ -241,6 +245,17 @@ std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArr
       throw std::runtime_error("Another process has got no part of the volume.");
     }
     peers.emplace();
+  }
+  const bool isHidden = HiddenCellsOf(vtkImageData::GetData(input), 0).Any();
+  if (peers ? peers->Any(isHidden) : isHidden)
+  {
+    // Which diamonds touch hidden cells is told by all of these, and what is inside by field
+    // errors.
+    this->Count = 1;
+    this->IsShared = false;
+    RequestWhole(input);
+    vtkExecutive::PRODUCER()->GetExecutive(input)->Update(vtkExecutive::PRODUCER()->GetPort(input));
+    return nullptr;
   }
   std::unique_ptr<Slabs> slabs;
   isodiamond::InStep(peers ? &*peers : nullptr,
@@ -313,7 +328,7 @@ Slab Slabs::Read(const Slices& slices) const
   if (slab.Given.Hidden.Any())
   {
     throw std::runtime_error(
-      "Blanked cells and ghosts need the whole volume at once: set the number of blocks to 1.");
+      "Blanked cells, of which the first block has none, need the number of blocks 1.");
   }
   return slab;
 }

@@ -54,9 +54,10 @@ public:
 
   int NumberOfSlabs() const { return this->Count; }
 
-  /** For RequestData, if there is more than one. @throws std::exception if it cannot be had, here
-   * or by a peer */
-  std::unique_ptr<Slabs> Open(vtkInformation* input, ArrayFinder findArray) const;
+  /** For RequestData.
+   *  @return null if the input is there at once; as it is where cells turn out to be hidden
+   *  @throws std::exception if it cannot be had, here or by a peer */
+  std::unique_ptr<Slabs> Open(vtkInformation* input, ArrayFinder findArray);
 
 private:
   int Count = 1;
