@@ -7,6 +7,8 @@
 #include "Private/ControllerPeers.h"
 #include "Private/Input.h"
 #include "Private/PointData.h"
+#include "Private/SlabPlan.h"
+#include "Private/SlabRequest.h"
 #include "Private/Task.h"
 
 #include "vtkSmartPointer.h"
@@ -16,7 +18,6 @@
 #include <optional>
 #include <vector>
 
-class vtkAlgorithm;
 class vtkImageData;
 class vtkInformation;
 
@@ -29,50 +30,11 @@ class vtkInformation;
 namespace vtkIsodiamond
 {
 
-class Slabs;
-
-/** Finds the array to process. */
-using ArrayFinder = std::function<InputArray(vtkDataSet*)>;
-
-/** How the input of a filter comes: at once, or in slabs, to it alone or to peers of other
- * processes, each of which has its share of them. Decided before it is read. */
-class SlabPlan
-{
-public:
-  /**
-   * For RequestUpdateExtent: decides, and asks upstream for the whole input, or for one slab.
-   *
-   * @param canBeCut whether the filter can do with slabs
-   * @param blocks how many there should be; 0 for one, or for one a process of those that work
-   *        together, or for as many as keep the input within what memory is there
-   */
-  void Request(vtkInformation* input, vtkInformation* output, bool canBeCut, int blocks);
-
-  /** For ModifyRequest: who gets nothing from upstream is not executed, and tells its peers, who
-   *  would wait for it. */
-  void Note(vtkAlgorithm* filter, vtkInformation* request, int when);
-
-  int NumberOfSlabs() const { return this->Count; }
-
-  /** For RequestData.
-   *  @return null if the input is there at once; as it is where cells turn out to be hidden
-   *  @throws std::exception if it cannot be had, here or by a peer */
-  std::unique_ptr<Slabs> Open(vtkInformation* input, ArrayFinder findArray);
-
-private:
-  int Count = 1;
-  bool IsShared = false;
-  bool IsPeerWithout = false; ///< whether one of the peers has not got what it asked for
-};
-
-/** The whole image of which an input is a slab, without its arrays. */
-vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input);
-
 /** Some slices of an image. */
 struct Slab
 {
-  isodiamond::StreamedBuild::Slices Slices; ///< those that were asked for
-  isodiamond::SampleSlab Samples;           ///< of these, and no others
+  vtkIsodiamond::Slices Slices;   ///< those that were asked for
+  isodiamond::SampleSlab Samples; ///< of these, and no others
   /** What upstream gave, which may be more, and the slice that it begins with. */
   Volume Given;
   int First = 0;
@@ -112,16 +74,16 @@ public:
    *  @param shared whether a slab is to have the slices, too, that it shares with its neighbours */
   void ForEach(Task& task, const char* phase, double begin, double end, bool shared,
     const std::function<void(const Slab&)>& body,
-    const std::function<void(const isodiamond::StreamedBuild::Slices&)>& ofOthers = nullptr) const;
+    const std::function<void(const Slices&)>& ofOthers = nullptr) const;
 
 private:
-  Slab Get(const isodiamond::StreamedBuild::Slices& slices) const;
-  Slab Read(const isodiamond::StreamedBuild::Slices& slices) const;
+  Slab Get(const Slices& slices) const;
+  Slab Read(const Slices& slices) const;
 
   vtkInformation* Input;
   ArrayFinder FindArray;
   std::array<int, 6> WholeExtent{};
-  std::vector<isodiamond::StreamedBuild::Slices> Cut;
+  std::vector<Slices> Cut;
   vtkSmartPointer<vtkImageData> Whole;
   std::string ArrayName;
   bool OtherArrays = false;

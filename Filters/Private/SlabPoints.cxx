@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The point data of a volume that comes in slabs.
+#include "Mesh/MeshPoints.h"
+#include "Private/Arrays.h"
+#include "Private/Slabs.h"
+
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+
+namespace vtkIsodiamond
+{
+namespace
+{
+
+/** The points of a hierarchy whose data a slab has, numbered anew and placed in what was given. */
+struct PointsOfSlab
+{
+  std::vector<isodiamond::MeshPoint> Points;
+  std::vector<vtkIdType> Stored; ///< their numbers in the hierarchy
+
+  PointsOfSlab(const isodiamond::IsodiamondHierarchy& hierarchy, const Slab& slab)
+  {
+    const bool isLast = slab.Slices.End == slab.Slices.Last + 1;
+    isodiamond::ForEachStoredPoint(hierarchy, isodiamond::SerialFor,
+      [&](isodiamond::MeshPoint point)
+      {
+        const double slice = point.Index[2];
+        if (slice >= slab.Slices.Begin && (slice < slab.Slices.End || isLast))
+        {
+          this->Stored.push_back(point.Id);
+          point.Id = static_cast<std::int64_t>(this->Points.size());
+          point.Index[2] -= slab.First;
+          this->Points.push_back(point);
+        }
+      });
+  }
+};
+
+/** Bytes of an array. */
+std::uint8_t* Bytes(vtkDataArray* array)
+{
+  return static_cast<std::uint8_t*>(array->GetVoidPointer(0));
+}
+std::int64_t CountBytes(vtkDataArray* array)
+{
+  return std::int64_t{ array->GetNumberOfValues() } * array->GetDataTypeSize();
+}
+
+/** An array like another, all 0. */
+vtkSmartPointer<vtkDataArray> ZerosLike(vtkDataArray* other, vtkIdType count)
+{
+  auto array = vtkSmartPointer<vtkDataArray>::Take(other->NewInstance());
+  array->SetName(other->GetName());
+  array->SetNumberOfComponents(other->GetNumberOfComponents());
+  AllocateTuples(array, count);
+  std::fill_n(Bytes(array), CountBytes(array), std::uint8_t{ 0 });
+  return array;
+}
+
+}
+
+std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slabs,
+  const VolumePointData& wanted, const isodiamond::IsodiamondHierarchy& hierarchy, Task& task)
+{
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
+  const auto add = [&](const Slab& slab)
+  {
+    const PointsOfSlab own(hierarchy, slab);
+    const auto count = static_cast<vtkIdType>(own.Points.size());
+    vtkNew<vtkPointData> data;
+    for (const PointWriter& write : FromVolume(slab.Given, wanted)(count, data))
+    {
+      isodiamond::ForEachIndex(
+        task.For(), count, 1024, [&](std::int64_t i) { write(own.Points[i]); });
+    }
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      if (static_cast<int>(arrays.size()) == i)
+      {
+        arrays.push_back(ZerosLike(data->GetArray(i), isodiamond::StoredPointCount(hierarchy)));
+      }
+      for (vtkIdType id = 0; id < count; ++id)
+      {
+        arrays[i]->SetTuple(own.Stored[id], id, data->GetArray(i));
+      }
+    }
+  };
+  isodiamond::Peers* const peers = slabs.Together();
+  if (wanted.Normals || wanted.Gradients || (wanted.Others && slabs.HaveOtherArrays()))
+  {
+    isodiamond::InStep(
+      peers, [&] { slabs.ForEach(task, "Reading point data", 0.0, 1.0, true, add); });
+  }
+  for (vtkDataArray* array : arrays)
+  {
+    if (peers)
+    {
+      peers->Or(Bytes(array), CountBytes(array));
+    }
+  }
+  for (const std::string& name : wanted.Names)
+  {
+    if (std::none_of(arrays.begin(), arrays.end(),
+          [&](vtkDataArray* array) { return name == array->GetName(); }))
+    {
+      throw std::invalid_argument("The input has no other point array \"" + name + "\".");
+    }
+  }
+  return arrays;
+}
+
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkIsodiamond_SlabRequest_h
+#define vtkIsodiamond_SlabRequest_h
+
+#include "Build/StagedBuild.h"
+#include "Field/Peers.h"
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+
+class vtkImageData;
+class vtkInformation;
+
+/**
+ * @file SlabRequest.h
+ * Slabs of an image, some slices each, as extents that a pipeline is asked for.
+ */
+namespace vtkIsodiamond
+{
+
+using Slices = isodiamond::StreamedBuild::Slices;
+
+/** Whether upstream can make a part of its whole extent: the Wavelet source, readers of raw files,
+ *  .vti and .pvti, for instance. */
+bool MakesParts(vtkInformation* input);
+
+///@{
+/** The whole extent, and its number of samples on each axis. */
+std::array<int, 6> WholeExtentOf(vtkInformation* input);
+std::array<int, 3> WholeDimensionsOf(vtkInformation* input);
+///@}
+
+/** The whole image of which an input is a slab, without its arrays. */
+vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input);
+
+/** A slab without the slices that it shares with others. */
+Slices Alone(Slices slices);
+
+/** Who of the peers has a slab. */
+int OwnerOf(int slab, int count, const isodiamond::Peers& peers);
+
+/** The slab that upstream has given last, or the first one that a peer has.
+ *  @param count of them @param peers null for nobody */
+Slices SlabAtHand(vtkInformation* input, int count, const isodiamond::Peers* peers);
+
+/** Asks upstream for a slab, by the time that it is updated next. */
+void RequestSlab(vtkInformation* input, const Slices& slices);
+
+/** Whether upstream has given what it was asked for. */
+bool IsGiven(vtkInformation* input);
+
+}
+
+#endif
