@@ -195,7 +195,8 @@ bool HaveSameBytes(const AnyValues& a, const AnyValues& b)
       {
         const auto& others = std::get<std::decay_t<decltype(values)>>(b);
         return values.size() == others.size() &&
-          std::memcmp(values.data(), others.data(), values.size() * sizeof(values[0])) == 0;
+          (values.empty() ||
+            std::memcmp(values.data(), others.data(), values.size() * sizeof(values[0])) == 0);
       },
       a);
 }
