@@ -30,7 +30,7 @@ public:
     return this->Region.SignOf(static_cast<double>(this->Samples.Pointer()[index]));
   }
 
-  /** An edge with these signs along it. @param step between the points at the ends of a step */
+  /** An edge with these signs along it; by its centre and what is between the ends of a step. */
   EdgeSamples<T> Along(EdgeSamples<T> edge, const Point& /*centre*/, const Point& /*step*/) const
   {
     return edge;
