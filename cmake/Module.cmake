@@ -7,7 +7,7 @@ if(ISODIAMONDS_BUILD_PARAVIEW_PLUGIN)
     5.11 COMPONENTS RemotingCore RemotingServerManager)
 else()
   isodiamonds_find(VTK "its development files, 9.1 or later (Debian: libvtk9-dev)"
-    9.1 COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc FiltersCore)
+    9.1 COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc FiltersCore ParallelCore vtksys)
 endif()
 if(BUILD_TESTING)
   # What the tests use besides: here, because imported targets belong to the folder that finds them.
