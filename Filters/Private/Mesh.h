@@ -8,7 +8,6 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 
@@ -31,8 +30,9 @@ struct Mesh
 {
   vtkSmartPointer<vtkPoints> Points;   ///< world positions
   vtkSmartPointer<vtkCellArray> Cells; ///< 32-bit storage where ids fit and all are kept
-  vtkNew<vtkPointData> PointData;
-  vtkNew<vtkCellData> CellData; ///< "Level"
+  vtkSmartPointer<vtkPointData> PointData = vtkSmartPointer<vtkPointData>::New();
+  /** "Level". */
+  vtkSmartPointer<vtkCellData> CellData = vtkSmartPointer<vtkCellData>::New();
   /** The smallest and the largest, in degrees, of tetrahedra for simulations. */
   std::optional<std::array<double, 2>> DihedralAngles;
   /** Of such tetrahedra: diamonds whose leaves have surfaces that are too far away. */
