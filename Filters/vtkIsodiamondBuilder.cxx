@@ -198,7 +198,7 @@ void vtkIsodiamondBuilder::Build(
   const bool isKnown = this->Built && this->BuiltOf == input && this->BuiltAt > input->GetMTime() &&
     this->BuiltAt > this->GetMTime();
   // Peers build together, or nobody does.
-  if (slabs && slabs->Together() ? !slabs->Together()->Any(!isKnown) : isKnown)
+  if (!isodiamond::IsAnywhere(slabs ? slabs->Together() : nullptr, !isKnown))
   {
     output->ShallowCopy(this->Built);
     return;

@@ -211,12 +211,16 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
           const vtkIsodiamond::CacheTrimmer trimmer{ *this->Hierarchies,
             std::int64_t{ this->CacheSize } << 20 };
           this->Hierarchies->Prepare(array.Array, volume, options);
+          double built = 0.0;
           if (slabs && slabs->Together())
           {
-            this->BuildTogether(volume, query, task);
+            built = 0.8;
+            vtkIsodiamond::Task building = task.Part(0.0, built);
+            this->BuildTogether(volume, query, building);
             slabs->Disperse();
           }
-          this->ExtractAtTolerance(volume, query, unit, task, output);
+          vtkIsodiamond::Task extracting = task.Part(built, 1.0);
+          this->ExtractAtTolerance(volume, query, unit, extracting, output);
         });
       vtkIsodiamond::KeepPiece(output, this->Piece);
       this->NumberOfRemovedPieces += this->RemovedFromBlock;

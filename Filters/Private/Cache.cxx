@@ -20,13 +20,6 @@ isodiamond::Peers* PeersOf(const Volume& volume)
   return volume.InSlabs ? volume.InSlabs->Together() : nullptr;
 }
 
-/** Whether something is true here, or at any of the peers: they build together, or nobody does. */
-bool IsAnywhere(const Volume& volume, bool here)
-{
-  isodiamond::Peers* const peers = PeersOf(volume);
-  return peers ? peers->Any(here) : here;
-}
-
 /** Whether two worlds, which are not curvilinear, have the same lengths. They may have if not. */
 bool HaveSameLengths(const isodiamond::GridGeometry& a, const isodiamond::GridGeometry& b)
 {
@@ -138,7 +131,8 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
         entry.From == this->Current;
     });
   const bool isKnown = found != this->Entries.end();
-  if (IsAnywhere(volume, !isKnown))
+  // Peers build together, or nobody does.
+  if (isodiamond::IsAnywhere(PeersOf(volume), !isKnown))
   {
     if (isKnown)
     {
@@ -187,7 +181,8 @@ const std::vector<vtkSmartPointer<vtkDataArray>>& Cache::StoredPointData(const V
 {
   const isodiamond::IsodiamondHierarchy& hierarchy = this->Get(volume, region, need, task);
   Entry& entry = this->Entries.front();
-  if (IsAnywhere(volume, !entry.Stored || !(*entry.Stored == wanted)))
+  const bool isStored = entry.Stored && *entry.Stored == wanted;
+  if (isodiamond::IsAnywhere(PeersOf(volume), !isStored))
   {
     entry.Stored.reset();
     entry.StoredArrays = MakeStoredPointData(*volume.InSlabs, wanted, hierarchy, task);

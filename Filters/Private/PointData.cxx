@@ -199,6 +199,19 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
   };
 }
 
+void CheckNames(
+  const VolumePointData& wanted, const std::vector<vtkSmartPointer<vtkDataArray>>& arrays)
+{
+  for (const std::string& name : wanted.Names)
+  {
+    if (std::none_of(arrays.begin(), arrays.end(),
+          [&](vtkDataArray* array) { return name == array->GetName(); }))
+    {
+      throw std::invalid_argument("The input has no other point array \"" + name + "\".");
+    }
+  }
+}
+
 std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Volume& volume,
   const VolumePointData& wanted, const isodiamond::IsodiamondHierarchy& hierarchy,
   const isodiamond::ParallelFor& parallelFor)
@@ -206,21 +219,15 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Volume& vol
   vtkNew<vtkPointData> made;
   const std::vector<PointWriter> writers =
     FromVolume(volume, wanted)(isodiamond::StoredPointCount(hierarchy), made);
-  for (const std::string& name : wanted.Names)
-  {
-    if (!made->HasArray(name.c_str()))
-    {
-      throw std::invalid_argument("The input has no other point array \"" + name + "\".");
-    }
-  }
-  for (const PointWriter& write : writers)
-  {
-    isodiamond::ForEachStoredPoint(hierarchy, parallelFor, write);
-  }
   std::vector<vtkSmartPointer<vtkDataArray>> arrays(made->GetNumberOfArrays());
   for (int i = 0; i < made->GetNumberOfArrays(); ++i)
   {
     arrays[i] = made->GetArray(i);
+  }
+  CheckNames(wanted, arrays);
+  for (const PointWriter& write : writers)
+  {
+    isodiamond::ForEachStoredPoint(hierarchy, parallelFor, write);
   }
   return arrays;
 }

@@ -129,7 +129,7 @@ std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArr
   bool isHidden = false;
   isodiamond::InStep(
     others, [&] { isHidden = HiddenCellsOf(vtkImageData::GetData(input), 0).Any(); });
-  if (others ? others->Any(isHidden) : isHidden)
+  if (isodiamond::IsAnywhere(others, isHidden))
   {
     // Which diamonds touch hidden cells is told by all of these, and what is inside by field
     // errors.

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <stdexcept>
 
 namespace vtkIsodiamond
 {
@@ -26,7 +25,8 @@ struct PointsOfSlab
   PointsOfSlab(const isodiamond::IsodiamondHierarchy& hierarchy, const Slab& slab)
   {
     const bool isLast = slab.Slices.End == slab.Slices.Last + 1;
-    isodiamond::ForEachStoredPoint(hierarchy, isodiamond::SerialFor,
+    isodiamond::ForEachStoredPointNear(hierarchy, slab.Slices.Begin, slab.Slices.End,
+      isodiamond::SerialFor,
       [&](isodiamond::MeshPoint point)
       {
         const double slice = point.Index[2];
@@ -103,14 +103,7 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slab
       peers->Or(Bytes(array), CountBytes(array));
     }
   }
-  for (const std::string& name : wanted.Names)
-  {
-    if (std::none_of(arrays.begin(), arrays.end(),
-          [&](vtkDataArray* array) { return name == array->GetName(); }))
-    {
-      throw std::invalid_argument("The input has no other point array \"" + name + "\".");
-    }
-  }
+  CheckNames(wanted, arrays);
   return arrays;
 }
 

@@ -87,7 +87,8 @@ Slices SlabAtHand(vtkInformation* input, int count, const isodiamond::Peers* pee
 {
   const std::array<int, 6> whole = WholeExtentOf(input);
   const int* extent = vtkImageData::GetData(input)->GetExtent();
-  for (const Slices& slices : isodiamond::StreamedBuild::Cut(WholeDimensionsOf(input), count))
+  const std::vector<Slices> cut = isodiamond::StreamedBuild::Cut(WholeDimensionsOf(input), count);
+  for (const Slices& slices : cut)
   {
     for (const Slices& given : { slices, Alone(slices) })
     {
@@ -97,8 +98,7 @@ Slices SlabAtHand(vtkInformation* input, int count, const isodiamond::Peers* pee
       }
     }
   }
-  const int own = peers ? FirstOwn(count, *peers) : 0;
-  return isodiamond::StreamedBuild::Cut(WholeDimensionsOf(input), count)[own];
+  return cut[peers ? FirstOwn(count, *peers) : 0];
 }
 
 void RequestSlab(vtkInformation* input, const Slices& slices)

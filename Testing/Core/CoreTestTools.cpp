@@ -3,9 +3,12 @@
 
 #include "ReferenceExact.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <set>
@@ -187,6 +190,45 @@ isodiamond::BuildOptions Distance(const isodiamond::GridGeometry& world)
   options.Metric = isodiamond::ErrorMetric::Distance;
   options.World = world;
   return options;
+}
+
+namespace
+{
+
+/** Also of values that are not equal to themselves. */
+bool HaveSameBytes(const isodiamond::AnyValues& a, const isodiamond::AnyValues& b)
+{
+  return a.index() == b.index() &&
+    std::visit(
+      [&](const auto& values)
+      {
+        const auto& others = std::get<std::decay_t<decltype(values)>>(b);
+        return values.size() == others.size() &&
+          (values.empty() ||
+            std::memcmp(values.data(), others.data(), values.size() * sizeof(values[0])) == 0);
+      },
+      a);
+}
+
+}
+
+void ExpectSame(const isodiamond::Encoding& found, const isodiamond::Encoding& expected)
+{
+  EXPECT_EQ(found.Arrays.BrickCounts, expected.Arrays.BrickCounts);
+  EXPECT_EQ(found.Arrays.BrickIndices, expected.Arrays.BrickIndices);
+  EXPECT_EQ(found.Arrays.BrickMasks, expected.Arrays.BrickMasks);
+  EXPECT_EQ(found.Arrays.Records, expected.Arrays.Records);
+  EXPECT_EQ(found.Arrays.Isovertices, expected.Arrays.Isovertices);
+  EXPECT_EQ(found.Arrays.InteriorCodes, expected.Arrays.InteriorCodes);
+  EXPECT_EQ(found.Arrays.Followers, expected.Arrays.Followers);
+  EXPECT_TRUE(HaveSameBytes(found.InsideValues, expected.InsideValues));
+  EXPECT_EQ(found.Header.TheModel, expected.Header.TheModel);
+  EXPECT_EQ(found.Header.ErrorScale, expected.Header.ErrorScale);
+  EXPECT_EQ(found.Header.FieldScale, expected.Header.FieldScale);
+  EXPECT_EQ(found.Header.RemovedPieces, expected.Header.RemovedPieces);
+  EXPECT_EQ(found.Header.ActiveCount, expected.Header.ActiveCount);
+  EXPECT_EQ(found.Header.CreationCount, expected.Header.CreationCount);
+  EXPECT_EQ(found.Header.RelevantCount, expected.Header.RelevantCount);
 }
 
 BuiltScalars BuildScalars(const Field& field)

@@ -74,6 +74,9 @@ isodiamond::BuildOptions Interior(bool refine);
 /** The distance metric in a world. */
 isodiamond::BuildOptions Distance(const isodiamond::GridGeometry& world = isodiamond::AffineMap());
 
+/** Expects that encodings are the same to the bit, and in what was counted. */
+void ExpectSame(const isodiamond::Encoding& found, const isodiamond::Encoding& expected);
+
 /** An HD with its arrays. */
 struct BuiltScalars
 {

@@ -148,12 +148,7 @@ TEST(Classification, InTwoStepsIsAsInOne)
             staged.Finish(Model::Minimal, field.View(), SerialFor, stopping), std::runtime_error);
           const Encoding found =
             staged.Finish(Model::Minimal, field.View(), test::ThreadedFor(2), options);
-          EXPECT_TRUE(found.Arrays.BrickMasks == expected.Arrays.BrickMasks);
-          EXPECT_TRUE(found.Arrays.Records == expected.Arrays.Records);
-          EXPECT_TRUE(found.Arrays.Isovertices == expected.Arrays.Isovertices);
-          EXPECT_TRUE(found.Arrays.InteriorCodes == expected.Arrays.InteriorCodes);
-          EXPECT_EQ(found.Header.TheModel, expected.Header.TheModel);
-          EXPECT_EQ(found.Header.ErrorScale, expected.Header.ErrorScale);
+          test::ExpectSame(found, expected);
           ++compared;
         }
       }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
-#include <cstring>
 #include <functional>
 #include <mutex>
 #include <stdexcept>
@@ -186,38 +185,6 @@ private:
   int Meetings = 0;
 };
 
-/** Also of values that are not equal to themselves. */
-bool HaveSameBytes(const AnyValues& a, const AnyValues& b)
-{
-  return a.index() == b.index() &&
-    std::visit(
-      [&](const auto& values)
-      {
-        const auto& others = std::get<std::decay_t<decltype(values)>>(b);
-        return values.size() == others.size() &&
-          (values.empty() ||
-            std::memcmp(values.data(), others.data(), values.size() * sizeof(values[0])) == 0);
-      },
-      a);
-}
-
-void ExpectSame(const Encoding& found, const Encoding& expected)
-{
-  EXPECT_EQ(found.Arrays.BrickCounts, expected.Arrays.BrickCounts);
-  EXPECT_EQ(found.Arrays.BrickIndices, expected.Arrays.BrickIndices);
-  EXPECT_EQ(found.Arrays.BrickMasks, expected.Arrays.BrickMasks);
-  EXPECT_EQ(found.Arrays.Records, expected.Arrays.Records);
-  EXPECT_EQ(found.Arrays.Isovertices, expected.Arrays.Isovertices);
-  EXPECT_EQ(found.Arrays.Followers, expected.Arrays.Followers);
-  EXPECT_TRUE(HaveSameBytes(found.InsideValues, expected.InsideValues));
-  EXPECT_EQ(found.Header.ErrorScale, expected.Header.ErrorScale);
-  EXPECT_EQ(found.Header.FieldScale, expected.Header.FieldScale);
-  EXPECT_EQ(found.Header.RemovedPieces, expected.Header.RemovedPieces);
-  EXPECT_EQ(found.Header.ActiveCount, expected.Header.ActiveCount);
-  EXPECT_EQ(found.Header.CreationCount, expected.Header.CreationCount);
-  EXPECT_EQ(found.Header.RelevantCount, expected.Header.RelevantCount);
-}
-
 /** An encoding and its mesh of full resolution. */
 struct Whole
 {
@@ -241,9 +208,41 @@ void Compare(
   StagedBuild staged = BuildInSlabs(samples, header.Region, slabs, threads, options);
   EXPECT_TRUE(test::AnyMesh(staged.FullResolution(), Query{}).IsSameInAnyOrder(expected.Mesh));
   // Whatever is said to be the samples: they are not looked at.
-  ExpectSame(
+  test::ExpectSame(
     staged.Finish(header.TheModel, SampleView<float>(), threads, options), expected.TheEncoding);
 }
+
+}
+
+namespace
+{
+
+/** What a hierarchy is built of, in slabs or at once. */
+struct RandomCase
+{
+  test::RandomSamples Samples;
+  Isoregion Region;
+  BuildOptions Options;
+  Whole Expected;
+
+  RandomCase(test::Random& random, int longest, int most)
+    : Samples(random, longest, most)
+    , Region(test::RandomRegion(random, this->Samples))
+    , Options(OptionsFor(random, this->Samples.Dimensions))
+    , Expected(test::Pick(random, 2) == 0 ? Model::Relevant : Model::Minimal, this->Samples.View(),
+        this->Region, this->Options)
+  {
+  }
+
+private:
+  static BuildOptions OptionsFor(test::Random& random, const std::array<int, 3>& dimensions)
+  {
+    BuildOptions options = test::RandomOptions(random, dimensions);
+    options.Metric = ErrorMetric::Distance;
+    options.RefineInterior = false;
+    return options;
+  }
+};
 
 }
 
@@ -254,14 +253,8 @@ TEST(Slabs, MakeTheHierarchyOfTheWholeVolume)
     {
       SCOPED_TRACE(seed);
       test::Random random(seed);
-      const test::RandomSamples samples(random, 24, 6000);
-      const Isoregion region = test::RandomRegion(random, samples);
-      BuildOptions options = test::RandomOptions(random, samples.Dimensions);
-      options.Metric = ErrorMetric::Distance;
-      options.RefineInterior = false;
-      const Model model = test::Pick(random, 2) == 0 ? Model::Relevant : Model::Minimal;
-      Compare(samples.View(), 1 + test::Pick(random, 27), options,
-        Whole(model, samples.View(), region, options));
+      const RandomCase whole(random, 24, 6000);
+      Compare(whole.Samples.View(), 1 + test::Pick(random, 27), whole.Options, whole.Expected);
     });
   EXPECT_GT(cases, 0);
 }
@@ -273,25 +266,21 @@ TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
     {
       SCOPED_TRACE(seed);
       test::Random random(seed);
-      const test::RandomSamples samples(random, 40, 4000);
-      const Isoregion region = test::RandomRegion(random, samples);
-      BuildOptions options = test::RandomOptions(random, samples.Dimensions);
-      options.Metric = ErrorMetric::Distance;
-      options.RefineInterior = false;
-      const Model model = test::Pick(random, 2) == 0 ? Model::Relevant : Model::Minimal;
-      const int peers = 1 + test::Pick(random, std::min(4, samples.Dimensions[2]));
+      const RandomCase whole(random, 40, 4000);
+      const int peers = 1 + test::Pick(random, std::min(4, whole.Samples.Dimensions[2]));
       const int slabs = peers + test::Pick(random, 5);
-      const Whole expected(model, samples.View(), region, options);
+      const Encoding& expected = whole.Expected.TheEncoding;
       std::mutex mutex; // of expectations
       Gathering(peers).Run(
         [&](Peers& own)
         {
-          BuildOptions together = options;
+          BuildOptions together = whole.Options;
           together.Together = &own;
-          StagedBuild staged = BuildInSlabs(samples.View(), region, slabs, SerialFor, together);
-          const Encoding found = staged.Finish(model, SampleView<float>(), SerialFor, together);
+          const Encoding found =
+            BuildInSlabs(whole.Samples.View(), whole.Region, slabs, SerialFor, together)
+              .Finish(expected.Header.TheModel, SampleView<float>(), SerialFor, together);
           const std::lock_guard<std::mutex> lock(mutex);
-          ExpectSame(found, expected.TheEncoding);
+          test::ExpectSame(found, expected);
         });
     });
   EXPECT_GT(cases, 0);

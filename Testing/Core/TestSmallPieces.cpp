@@ -793,21 +793,6 @@ TEST(SmallPieces, DoNotChangeTheSamples)
   EXPECT_GT(flipped, 100);
 }
 
-namespace
-{
-
-void ExpectSame(const Encoding& a, const Encoding& b)
-{
-  EXPECT_EQ(a.Header.RemovedPieces, b.Header.RemovedPieces);
-  EXPECT_EQ(a.Arrays.BrickIndices, b.Arrays.BrickIndices);
-  EXPECT_EQ(a.Arrays.BrickMasks, b.Arrays.BrickMasks);
-  EXPECT_EQ(a.Arrays.Records, b.Arrays.Records);
-  EXPECT_EQ(a.Arrays.Isovertices, b.Arrays.Isovertices);
-  EXPECT_EQ(a.Arrays.InteriorCodes, b.Arrays.InteriorCodes);
-}
-
-}
-
 TEST(SmallPieces, DoNotDependOnThreads)
 {
   const test::Field field = test::NoiseField({ 40, 33, 64 }, 15);
@@ -817,7 +802,8 @@ TEST(SmallPieces, DoNotDependOnThreads)
     ASSERT_GT(one.Removed, 100);
     for (const BuildOptions& options : { BuildOptions(), test::Interior(true) })
     {
-      ExpectSame(one.Build(options).Encoding, one.Build(options, test::ThreadedFor(3)).Encoding);
+      test::ExpectSame(
+        one.Build(options).Encoding, one.Build(options, test::ThreadedFor(3)).Encoding);
     }
   }
 }
@@ -833,7 +819,7 @@ TEST(SmallPieces, OfNoneOrOneSampleAreNone)
     options.MinimumPieceSize = 1;
     const Encoding found =
       BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, options);
-    ExpectSame(found, expected);
+    test::ExpectSame(found, expected);
     EXPECT_EQ(found.Header.RemovedPieces, 0);
   }
 }

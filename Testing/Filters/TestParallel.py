@@ -6,43 +6,18 @@ Every process runs this script (pvbatch --symmetric), and the filters of its own
 pipeline; the first one collects the meshes and compares them."""
 import os
 import sys
-import traceback
 
 import numpy
 from paraview.simple import *
-from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
-from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 import isodiamonds
+from ParallelTestTools import cells, controller, gathered, lexsorted, rank, ranks, run
 
 FOLDER = sys.argv[1]
 EXTENT = [-8, 8, -7, 9, -6, 26]  # 8 slices for each of four processes: they share the volume
 LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
-controller = vtkMultiProcessController.GetGlobalController()
-rank = controller.GetLocalProcessId()
-ranks = controller.GetNumberOfProcesses()
-
-
-def cells(mesh):
-    """The mesh's cells: corners with their point data, one row for each cell."""
-    size = mesh.GetCell(0).GetNumberOfPoints() if mesh.GetNumberOfCells() > 0 else 1
-    array = mesh.GetCells() if mesh.IsA("vtkUnstructuredGrid") else None
-    if array is None:
-        array = mesh.GetPolys() if mesh.GetNumberOfPolys() > 0 else mesh.GetVerts()
-    corners = vtk_to_numpy(array.GetConnectivityArray()).reshape(-1, size)
-    columns = [vtk_to_numpy(mesh.GetPoints().GetData())] if mesh.GetNumberOfPoints() > 0 else []
-    for i in range(mesh.GetPointData().GetNumberOfArrays()):
-        columns.append(vtk_to_numpy(mesh.GetPointData().GetArray(i)))
-    if not len(corners):
-        return numpy.zeros((0, 0))
-    points = numpy.column_stack([column.astype(float) for column in columns])
-    return points[corners].reshape(len(corners), -1)
-
-
-def lexsorted(rows):
-    return rows[numpy.lexsort(rows.T[::-1])]
 
 
 def faces_of_one(rows, size):
@@ -73,17 +48,7 @@ def pieces(proxy):
         iterator = output.NewIterator()
         iterator.InitTraversal()
         output = iterator.GetCurrentDataObject()
-    if ranks == 1:
-        return [output]
-    if rank > 0:
-        controller.Send(output, 0, 7)
-        return []
-    received = [output]
-    for process in range(1, ranks):
-        mesh = output.NewInstance()
-        controller.Receive(mesh, process, 7)
-        received.append(mesh)
-    return received
+    return gathered(output)
 
 
 def compare(name, proxy, filter):
@@ -191,10 +156,4 @@ def main():
     compare("points", IsodiamondPoints(hierarchy), of_hierarchy(isodiamonds.vtkIsodiamondPoints()))
 
 
-try:
-    main()
-except BaseException:
-    # The others wait for this process: without it mpiexec ends them.
-    traceback.print_exc()
-    sys.stderr.flush()
-    os._exit(1)
+run(main)

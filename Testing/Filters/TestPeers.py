@@ -2,24 +2,16 @@
 """In pvbatch with any number of processes, a source that gives each of them what it asks for, and no
 more: each asks for its share of the volume, and together they have the mesh that one process makes,
 to the bit. Whoever fails does not let the others wait."""
-import os
-import sys
-import traceback
-
 import numpy
 from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
-from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 import isodiamonds
+from ParallelTestTools import cells, gathered, lexsorted, rank, ranks, run
 
 SIZE = (35, 30, 75)
-controller = vtkMultiProcessController.GetGlobalController()
-rank = controller.GetLocalProcessId()
-ranks = controller.GetNumberOfProcesses()
 
 
 class Source(VTKPythonAlgorithmBase):
@@ -59,35 +51,14 @@ class Source(VTKPythonAlgorithmBase):
 
 
 def rows(mesh):
-    """The mesh's cells: corners with their point data, one row for each, sorted."""
-    mesh = dataset_adapter.WrapDataObject(mesh)
-    vtk_cells = mesh.VTKObject.GetCells() if mesh.VTKObject.IsA("vtkUnstructuredGrid") else mesh.VTKObject.GetPolys()
-    corners = 4 if mesh.VTKObject.IsA("vtkUnstructuredGrid") else 3
-    ids = dataset_adapter.vtkDataArrayToVTKArray(vtk_cells.GetConnectivityArray()).reshape(-1, corners)
-    if not len(ids):
-        return numpy.zeros((0, 1))
-    columns = [mesh.Points, *(mesh.PointData[name] for name in sorted(mesh.PointData.keys()))]
-    points = numpy.column_stack([numpy.asarray(column, dtype=float) for column in columns])
-    return points[ids].reshape(len(ids), -1)
+    return cells(mesh, by_name=True)
 
 
-def gathered(mesh):
-    """What all processes have, on the first one."""
-    own = mesh.NewInstance()
-    own.ShallowCopy(mesh)
-    if rank > 0:
-        controller.Send(own, 0, 7)
-        return None
-    meshes = [own]
-    for process in range(1, ranks):
-        other = own.NewInstance()
-        controller.Receive(other, process, 7)
-        meshes.append(other)
-    return numpy.concatenate([rows(mesh) for mesh in meshes])
-
-
-def lexsorted(array):
-    return array[numpy.lexsort(array.T[::-1])]
+def together(filter):
+    """The cells that a filter has in all processes, on the first one."""
+    filter.UpdatePiece(rank, ranks, 0)
+    pieces = [rows(mesh) for mesh in gathered(filter.GetOutputDataObject(0))]
+    return numpy.concatenate([piece for piece in pieces if len(piece)]) if rank == 0 else None
 
 
 def new(filter, source, **properties):
@@ -107,16 +78,14 @@ def check(name, make, settings, has_nan=False, blocks=0):
     slabs = max(ranks, min(blocks, SIZE[2] // 8))
     for properties in settings:
         new(shared, source, **properties)
-        shared.UpdatePiece(rank, ranks, 0)
-        together = gathered(shared.GetOutputDataObject(0))
+        found = together(shared)
         if rank == 0:
             new(alone, source_alone, **properties)
             alone.Update()
             expected = rows(alone.GetOutputDataObject(0))
             assert len(expected) > 100, (name, len(expected))
-            assert together.shape == expected.shape, (name, properties, together.shape, expected.shape)
-            a, b = lexsorted(together), lexsorted(expected)
-            assert numpy.array_equal(a, b, equal_nan=True), (name, properties)
+            assert found.shape == expected.shape, (name, properties, found.shape, expected.shape)
+            assert numpy.array_equal(lexsorted(found), lexsorted(expected), equal_nan=True), (name, properties)
     assert shared.GetNumberOfSlabs() == (slabs if ranks > 1 or blocks > 1 else 1), (name, shared.GetNumberOfSlabs())
     if ranks > 1:
         # The process's own slabs, with 8 slices on both sides.
@@ -125,7 +94,7 @@ def check(name, make, settings, has_nan=False, blocks=0):
         assert min(s[0] for s in source.slices) >= first, (name, source.slices)
         assert max(s[1] for s in source.slices) <= last, (name, source.slices)
     if rank == 0:
-        print(f"{ranks} processes, {name}: {len(together)} cells, {slabs} slabs", flush=True)
+        print(f"{ranks} processes, {name}: {len(found)} cells, {slabs} slabs", flush=True)
 
 
 def check_hierarchy():
@@ -161,21 +130,21 @@ def check_failure(name, fail):
     source = Source()
     contour = new(isodiamonds.vtkIsodiamondContour(), source, Value=(0, 0.0), ErrorTolerance=0.4, NumberOfBlocks=8)
     errors = []
-    contour.AddObserver("ErrorEvent", lambda *_: errors.append(1))
-    source.AddObserver("ErrorEvent", lambda *_: None)
-    source.GetExecutive().AddObserver("ErrorEvent", lambda *_: errors.append(1))
+    for teller in (contour, source, source.GetExecutive()):
+        teller.AddObserver("ErrorEvent", lambda *_: errors.append(1))
     if rank == ranks - 1:
         fail(source, contour)
     contour.UpdatePiece(rank, ranks, 0)
     assert contour.GetOutput().GetNumberOfPoints() == 0, name
+    # Who aborts it knows without being told.
+    assert errors or (rank == ranks - 1 and name.startswith("aborted")), name
     source.fails_at = None
     contour.RemoveObservers("ProgressEvent")
     contour.SetAbortExecute(0)
     source.Modified()
     contour.Modified()
-    contour.UpdatePiece(rank, ranks, 0)
-    cells = gathered(contour.GetOutput())
-    assert rank > 0 or len(cells) > 100, name
+    found = together(contour)
+    assert rank > 0 or len(found) > 100, name
     if rank == 0:
         print(f"{ranks} processes, {name}: all fail, none waits", flush=True)
 
@@ -213,11 +182,4 @@ def main():
             check_failure(f"aborted while {phase}", abort_at(phase))
 
 
-vtkObject.GlobalWarningDisplayOff()
-try:
-    main()
-except BaseException:
-    # The others wait for this process: without it mpiexec ends them.
-    traceback.print_exc()
-    sys.stderr.flush()
-    os._exit(1)
+run(main)

@@ -48,7 +48,7 @@ struct StagedBuild::State
   std::optional<FieldErrors> Errors;
   Source From;
   std::optional<BuildSteps> Done;
-  std::optional<Finiteness> IsFinite; ///< of samples that came in slabs
+  std::optional<Finiteness> IsFinite; ///< once distances are measured, or the samples came in slabs
   Encoding Relevant;
   std::optional<IsodiamondHierarchy> Hierarchy;
 };
@@ -89,10 +89,13 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
   {
     kept.Errors.emplace(kept.TheGrid, kept.Samples, kept.For);
   }
+  if (options.Metric == ErrorMetric::Distance && !kept.IsFinite)
+  {
+    kept.IsFinite.emplace(kept.Samples);
+  }
   DiamondCodes codes = options.Metric == ErrorMetric::Field
     ? kept.Done->MeasureField()
-    : kept.Done->MeasureDistances(
-        *kept.Hierarchy, kept.IsFinite ? *kept.IsFinite : Finiteness(kept.Samples));
+    : kept.Done->MeasureDistances(*kept.Hierarchy, *kept.IsFinite);
   Encoding finished;
   InStep(options.Together,
     [&]
@@ -102,6 +105,19 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
       finished = kept.Done->Complete(model, std::move(kept.Relevant), std::move(codes));
     });
   return finished;
+}
+
+namespace
+{
+
+/** The slices of the centres of a slab's diamonds: what has its centre behind the last slice comes
+ *  with that. */
+EncodingPasses::Slices OfCentres(const Grid& grid, const StreamedBuild::Slices& slices)
+{
+  const bool isLast = slices.End == grid.Dimensions()[2];
+  return { slices.Begin, isLast ? EncodingPasses::AllSlices.End : slices.End };
+}
+
 }
 
 /** What slabs have told. */
@@ -190,21 +206,14 @@ void StreamedBuild::Classify()
     });
 }
 
-/** Those of the centres of diamonds: what has its centre behind the last slice comes with that. */
-EncodingPasses::Slices StreamedBuild::OfCentres(const Slices& slices) const
-{
-  const bool isLast = slices.End == this->Kept->TheGrid.Dimensions()[2];
-  return { slices.Begin, isLast ? EncodingPasses::AllSlices.End : slices.End };
-}
-
 void StreamedBuild::AddValues(const SampleSlab& slab, const Slices& slices)
 {
-  this->Current->Encoder->Add(slab, this->OfCentres(slices));
+  this->Current->Encoder->Add(slab, OfCentres(this->Kept->TheGrid, slices));
 }
 
 void StreamedBuild::SkipValues(const Slices& slices)
 {
-  this->Current->Encoder->Skip(this->OfCentres(slices));
+  this->Current->Encoder->Skip(OfCentres(this->Kept->TheGrid, slices));
 }
 
 StagedBuild StreamedBuild::Finish()

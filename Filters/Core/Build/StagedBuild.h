@@ -3,7 +3,6 @@
 #define isodiamond_StagedBuild_h
 
 #include "Build/Builder.h"
-#include "Hierarchy/EncodingPasses.h"
 
 #include <array>
 #include <memory>
@@ -105,7 +104,6 @@ public:
 
 private:
   struct Progress;
-  EncodingPasses::Slices OfCentres(const Slices& slices) const;
 
   std::unique_ptr<StagedBuild::State> Kept;
   std::unique_ptr<Progress> Current;

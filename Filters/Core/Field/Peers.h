@@ -96,6 +96,12 @@ void InStep(Peers* peers, Work&& work)
   }
 }
 
+/** Whether something is true here, or at any of the peers. @param peers may be null */
+inline bool IsAnywhere(Peers* peers, bool here)
+{
+  return peers != nullptr ? peers->Any(here) : here;
+}
+
 /** The loops of a process: over everything, and over its share of what peers do together. */
 struct Loops
 {

@@ -41,12 +41,12 @@ private:
   const SampleView<T>& Samples;
 };
 
-/** The same where small pieces were removed: the signs of what is left. */
+/** The signs of a lattice: where small pieces were removed, or the volume comes in slabs. */
 template <typename T>
-class RemainingSigns
+class LatticeSigns
 {
 public:
-  explicit RemainingSigns(const SignLattice& signs)
+  explicit LatticeSigns(const SignLattice& signs)
     : Signs(signs)
   {
   }

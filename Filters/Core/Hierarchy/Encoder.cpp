@@ -27,7 +27,7 @@ Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples
       };
       if (signs != nullptr)
       {
-        encode(RemainingSigns<Value>(*signs));
+        encode(LatticeSigns<Value>(*signs));
       }
       else
       {

@@ -4,7 +4,7 @@
 
 #include "Field/Peers.h"
 #include "Field/Samples.h"
-#include "Field/SignLattice.h"
+#include "Hierarchy/IsovertexPlacement.h"
 
 #include <array>
 #include <cstdint>
@@ -36,35 +36,22 @@ private:
 
 /** The samples along an edge as IsovertexPlacement.h wants them: values where they are needed, at
  *  its ends and those of the steps that cross a surface, and signs everywhere. */
-class GatheredEdge
+class GatheredEdge : public EdgeSigns
 {
 public:
-  /** @param values may be null where only signs are asked for
-   *  @param step between the lattice points at the ends of a step */
-  GatheredEdge(const GatheredSamples* values, const SignLattice& signs, const Point& centre,
-    const Point& step, int steps)
-    : Values(values)
-    , Signs(signs)
-    , Centre(centre)
-    , Step(step)
+  /** @param values may be null where only signs are asked for */
+  GatheredEdge(const GatheredSamples* values, const EdgeSigns& signs, int steps)
+    : EdgeSigns(signs)
+    , Values(values)
     , Count(steps)
   {
   }
 
   int Steps() const { return this->Count; }
-  Point At(int i) const { return this->Centre + i * this->Step; }
-  int Sign(int i) const { return this->Signs.Sign(0, this->At(i)); }
   double operator()(int i) const { return (*this->Values)(this->At(i)); }
-  bool IsAbove(const Isoregion& /*region*/, int surface, int i) const
-  {
-    return this->Sign(i) > surface;
-  }
 
 private:
   const GatheredSamples* Values;
-  const SignLattice& Signs;
-  Point Centre;
-  Point Step;
   int Count;
 };
 

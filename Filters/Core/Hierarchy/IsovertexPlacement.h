@@ -60,30 +60,47 @@ private:
   int Count;
 };
 
-/** The same with the signs of a lattice from which small pieces were removed. */
-template <typename T>
-class SignedEdgeSamples : public EdgeSamples<T>
+/** The signs along an edge, as a lattice of them has it. */
+class EdgeSigns
 {
 public:
   /** @param step between the lattice points at the ends of a step */
-  SignedEdgeSamples(
-    const EdgeSamples<T>& values, const SignLattice& signs, const Point& centre, const Point& step)
-    : EdgeSamples<T>(values)
-    , Signs(signs)
+  EdgeSigns(const SignLattice& signs, const Point& centre, const Point& step)
+    : Signs(signs)
     , CentrePoint(centre)
     , Step(step)
   {
   }
 
+  Point At(int i) const { return this->CentrePoint + i * this->Step; }
+  int Sign(int i) const { return this->Signs.Sign(0, this->At(i)); }
   bool IsAbove(const Isoregion& /*region*/, int surface, int i) const
   {
-    return this->Signs.Sign(0, this->CentrePoint + i * this->Step) > surface;
+    return this->Sign(i) > surface;
   }
 
 private:
   const SignLattice& Signs;
   Point CentrePoint;
   Point Step;
+};
+
+/** The samples along an edge with the signs of a lattice, from which small pieces may be removed.
+ */
+template <typename T>
+class SignedEdgeSamples
+  : public EdgeSamples<T>
+  , public EdgeSigns
+{
+public:
+  using EdgeSigns::IsAbove;
+
+  SignedEdgeSamples(
+    const EdgeSamples<T>& values, const SignLattice& signs, const Point& centre, const Point& step)
+    : EdgeSamples<T>(values)
+    , EdgeSigns(signs, centre, step)
+  {
+  }
 };
 
 namespace placement

@@ -30,7 +30,7 @@ StreamedEncoder::StreamedEncoder(const EncodingHeader& header, const Grid& grid,
   , Gathered(grid.Dimensions(), {})
 {
   static_assert(1 << (FirstLongScale - 1) == Overlap, "a slab has all of the short edges");
-  const RemainingSigns<std::uint8_t> signOf(signs);
+  const LatticeSigns<std::uint8_t> signOf(signs);
   this->Passes.Count(ReaderOfSigns(header, grid, signOf));
   this->Gathered = this->WantedSamples();
 }
@@ -41,7 +41,8 @@ GatheredEdge StreamedEncoder::LongEdge(
   const Point& offset = tables::Parities[Parity(place.Position)].Offsets[vertex];
   const int length = 1 << place.Scale;
   const bool exact = this->Header.ExactIsovertices;
-  return { values, this->Signs, Centre(place), (exact ? 1 : length) * offset, exact ? length : 1 };
+  return { values, EdgeSigns(this->Signs, Centre(place), (exact ? 1 : length) * offset),
+    exact ? length : 1 };
 }
 
 GatheredSamples StreamedEncoder::WantedSamples() const
@@ -68,7 +69,7 @@ void StreamedEncoder::Add(const SampleSlab& slab, const EncodingPasses::Slices& 
     [&](const auto& view)
     {
       using Value = typename std::decay_t<decltype(view)>::Value;
-      const RemainingSigns<Value> signOf(this->Signs);
+      const LatticeSigns<Value> signOf(this->Signs);
       const DiamondReader reader(this->Header, this->TheGrid, view, signOf, slab.First);
       if (!this->HasValues)
       {
@@ -84,7 +85,7 @@ void StreamedEncoder::Add(const SampleSlab& slab, const EncodingPasses::Slices& 
 
 void StreamedEncoder::Skip(const EncodingPasses::Slices& slices)
 {
-  const RemainingSigns<std::uint8_t> signOf(this->Signs);
+  const LatticeSigns<std::uint8_t> signOf(this->Signs);
   this->Passes.Skip(
     FirstLongScale, slices, this->Code, ReaderOfSigns(this->Header, this->TheGrid, signOf));
 }
@@ -97,7 +98,7 @@ void StreamedEncoder::Merge(Peers& peers)
 
 Encoding StreamedEncoder::Finish()
 {
-  const RemainingSigns<std::uint8_t> signOf(this->Signs);
+  const LatticeSigns<std::uint8_t> signOf(this->Signs);
   this->Passes.WriteIsovertices(FirstLongScale, this->Set.ScaleCount(), EncodingPasses::AllSlices,
     this->Code, ReaderOfSigns(this->Header, this->TheGrid, signOf),
     [&](const Place& place, int vertex) { return this->LongEdge(&this->Gathered, place, vertex); });

@@ -7,6 +7,7 @@
 #include "Mesh/ExtractionPasses.h"
 
 #include <cstdint>
+#include <utility>
 
 /**
  * @file MeshPoints.h
@@ -116,10 +117,11 @@ inline std::int64_t StoredNumber(const IsodiamondHierarchy& hierarchy, const Mes
   return point.Surface == 0 ? hierarchy.IsovertexCount() + point.Stored : point.Stored;
 }
 
-/** Calls body(point) for all points that a hierarchy stores, in parallel; ids are their numbers. */
+/** Calls body(point) for points that a hierarchy stores, in parallel; ids are their numbers. Those
+ *  between two slices are among them, ends included. */
 template <typename Body>
-void ForEachStoredPoint(
-  const IsodiamondHierarchy& hierarchy, const ParallelFor& parallelFor, Body&& body)
+void ForEachStoredPointNear(const IsodiamondHierarchy& hierarchy, int firstSlice, int lastSlice,
+  const ParallelFor& parallelFor, Body&& body)
 {
   const bool isVolume = hierarchy.Region().IsVolume();
   const std::vector<BrickPlace> bricks = AllBricks(hierarchy.Diamonds());
@@ -127,6 +129,12 @@ void ForEachStoredPoint(
     [&](std::int64_t i)
     {
       const BrickLevel& level = hierarchy.Diamonds().Level(bricks[i].Scale);
+      // A diamond reaches as far as the next position.
+      const int z = level.Box.Origin(level.Bricks[bricks[i].Index].BoxIndex)[2];
+      if ((z + 8) << bricks[i].Scale < firstSlice || (z - 1) * (1 << bricks[i].Scale) > lastSlice)
+      {
+        return;
+      }
       std::int64_t inside = isVolume ? hierarchy.FirstInsideValue(i) : 0;
       hierarchy.Diamonds().ForEachInBrick(bricks[i].Scale, level.Bricks[bricks[i].Index],
         [&](const Place& place, std::uint32_t rank)
@@ -145,6 +153,15 @@ void ForEachStoredPoint(
           inside += hasCentre ? 1 : 0;
         });
     });
+}
+
+/** The same for all points that a hierarchy stores. */
+template <typename Body>
+void ForEachStoredPoint(
+  const IsodiamondHierarchy& hierarchy, const ParallelFor& parallelFor, Body&& body)
+{
+  ForEachStoredPointNear(
+    hierarchy, 0, hierarchy.SampleGrid().Last(2), parallelFor, std::forward<Body>(body));
 }
 
 /** Writes 3 coordinates a point. */
