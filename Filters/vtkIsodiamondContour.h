@@ -86,12 +86,12 @@ public:
 
   ///@{
   /**
-   * Simplify the mesh: three tenths of the tolerance go to the hierarchy, the rest to the library
-   * meshoptimizer, whose result is measured, both ways and all of every triangle, and put back
-   * where it is too far away or its topology is another. So the tolerance stays what it is, with a
-   * fraction of the triangles, which take longer to make. Points are some of those that the
-   * surface would have had; the cell array `Level` is left out. Needs the distance metric, and
-   * to have been built with meshoptimizer; results depend on its version. Default: off.
+   * Simplify the mesh: three tenths of the tolerance go to the hierarchy, the rest to collapses of
+   * edges, whose result is measured, both ways and all of every triangle, and undone where it is
+   * too far away. So the tolerance stays what it is, and the topology, with a fraction of the
+   * triangles, which take longer to make. Points are some of those that the surface would have
+   * had; the cell array `Level` is left out. Needs the distance
+   * metric. Default: off.
    */
   vtkSetMacro(Simplify, bool);
   vtkGetMacro(Simplify, bool);

@@ -5,8 +5,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
 
 # libxxhash: hashes by which the filters know content again.
-# libmeshoptimizer: for Simplify, which does without where it is not there.
-compile_packages="cmake ninja-build g++ libxxhash-dev libmeshoptimizer-dev"
+compile_packages="cmake ninja-build g++ libxxhash-dev"
 # Rendering without a screen.
 render_packages="xvfb xauth"
 # The MRI head of the demo.

@@ -14,10 +14,9 @@ namespace vtkIsodiamond
 class ControllerPeers : public isodiamond::Peers
 {
 public:
-  /** How many processes make an output together, each as many pieces of it as there are of them and
-   *  its own one: all of them execute the filter then, and may wait for each other. 1 if they do
-   * not.
-   */
+  /** How many processes make an output together: each is asked for its own piece, of as many as
+   *  there are processes. Then all of them execute the filter, and may wait for each other.
+   *  @return 1 if they do not */
   static int CountOf(vtkInformation* outputInformation);
 
   ControllerPeers();

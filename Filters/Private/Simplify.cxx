@@ -5,7 +5,7 @@
 #include "Private/Simulation.h"
 #include "Private/Tuples.h"
 #include "Private/UsedPoints.h"
-#include "Simplification/MeshOptimizer.h"
+#include "Simplification/Simplification.h"
 
 #include "vtkCellArray.h"
 #include "vtkPoints.h"
@@ -48,12 +48,6 @@ isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& toleranc
 
 void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume)
 {
-  if (!isodiamond::MeshOptimizer())
-  {
-    throw std::invalid_argument(
-      "Simplify needs the library meshoptimizer, which was not there when "
-      "this was built (Debian: libmeshoptimizer-dev).");
-  }
   if (isVolume)
   {
     throw std::invalid_argument("Simplify is for isosurfaces, not for interval volumes.");
@@ -80,10 +74,10 @@ WorldQuery BeforeSimplifying(
 void SimplifyMesh(const WorldQuery& query, const Measure& measure,
   const isodiamond::GridGeometry& world, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
-  const isodiamond::AllowedMesh simple = isodiamond::Simplify(
-    ToCore(mesh, PlacedTolerance(query, measure, world)), isodiamond::MeshOptimizer(), parallelFor);
-  const UsedPoints used(simple.Mesh.Triangles, simple.Mesh.Positions.size());
-  mesh.Cells = used.Write(simple.Mesh.Triangles, parallelFor);
+  const isodiamond::TriangleMesh simple =
+    isodiamond::Simplify(ToCore(mesh, PlacedTolerance(query, measure, world)), parallelFor);
+  const UsedPoints used(simple.Triangles, simple.Positions.size());
+  mesh.Cells = used.Write(simple.Triangles, parallelFor);
   mesh.Points = PointsOf(mesh.Points, used.Kept);
   KeepTuples(mesh.PointData, used.Kept);
   mesh.CellData->Initialize();

@@ -53,17 +53,6 @@ vtkSmartPointer<vtkPolyData> Full(vtkImageData* image)
   return Update(MakeContour(image));
 }
 
-/** Built without meshoptimizer there is nothing to test. */
-bool CanSimplify()
-{
-  const auto contour = MakeContour(test::BallImage({ 9, 9, 9 }));
-  contour->SimplifyOn();
-  contour->SetErrorTolerance(1.0);
-  auto messages = test::Watch(contour);
-  contour->Update();
-  return messages->Errors.find("libmeshoptimizer") == std::string::npos;
-}
-
 /** The greatest excess of distances of a mesh's points, and of points on its triangles, from
  *  another mesh over what is tolerated there. */
 double Excess(
@@ -155,10 +144,6 @@ void ExpectSameShape(vtkPolyData* mesh, vtkPolyData* full)
 
 TEST(Simplify, KeepsToleranceAndTopology)
 {
-  if (!CanSimplify())
-  {
-    GTEST_SKIP() << "built without meshoptimizer";
-  }
   const auto image = Image();
   image->SetSpacing(0.5, 0.5, 0.75);
   const auto full = Full(image);
@@ -191,10 +176,6 @@ TEST(Simplify, KeepsToleranceAndTopology)
 
 TEST(Simplify, ToleranceOfEachPlace)
 {
-  if (!CanSimplify())
-  {
-    GTEST_SKIP() << "built without meshoptimizer";
-  }
   const auto image = Image();
   const auto full = Full(image);
   const auto contour = MakeContour(image);
@@ -231,10 +212,6 @@ TEST(Simplify, ToleranceOfEachPlace)
 
 TEST(Simplify, SeveralIsovaluesHiddenCellsAndCaps)
 {
-  if (!CanSimplify())
-  {
-    GTEST_SKIP() << "built without meshoptimizer";
-  }
   const auto image = Image();
   image->AllocatePointGhostArray();
   image->GetPointGhostArray()->SetValue(
@@ -258,10 +235,6 @@ TEST(Simplify, SeveralIsovaluesHiddenCellsAndCaps)
 
 TEST(Simplify, HasATargetToo)
 {
-  if (!CanSimplify())
-  {
-    GTEST_SKIP() << "built without meshoptimizer";
-  }
   const auto image = Image();
   const auto full = Full(image);
   const vtkIdType target = full->GetNumberOfCells() / 10;
@@ -298,10 +271,6 @@ TEST(Simplify, HasATargetToo)
 
 TEST(Simplify, SaysWhatItCannot)
 {
-  if (!CanSimplify())
-  {
-    GTEST_SKIP() << "built without meshoptimizer";
-  }
   const auto image = test::BallImage({ 17, 17, 17 });
   const auto contour = MakeContour(image);
   contour->SetValue(0, 0.0);

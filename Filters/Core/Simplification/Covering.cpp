@@ -38,6 +38,38 @@ std::uint32_t Covering::NearestAt(std::uint32_t point, const Vector& place) cons
   return nearest;
 }
 
+std::vector<std::uint32_t> Covering::Around(
+  const std::array<Vector, 3>& corners, std::uint32_t start, double reach) const
+{
+  constexpr std::size_t most = 400;
+  const Vector middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
+  double radius = 0.0;
+  for (const Vector& corner : corners)
+  {
+    radius = std::max(radius, std::sqrt(Dot(corner - middle, corner - middle)));
+  }
+  std::vector<std::uint32_t> around = { start };
+  std::vector<bool> isKnown(this->Mesh.Triangles.size());
+  isKnown[start] = true;
+  for (std::size_t i = 0; i < around.size() && around.size() < most; ++i)
+  {
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const std::uint32_t next = this->Links.Neighbour(around[i], edge);
+      if (next == Connectivity::None || isKnown[next])
+      {
+        continue;
+      }
+      isKnown[next] = true;
+      if (this->Distances[next].Squared(middle) <= (reach + radius) * (reach + radius))
+      {
+        around.push_back(next);
+      }
+    }
+  }
+  return around;
+}
+
 bool Covering::Split(
   const Piece& piece, const Vector& at, const Vector& normal, Piece& inside, Piece& beyond)
 {

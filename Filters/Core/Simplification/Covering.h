@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace isodiamond
 {
@@ -25,37 +26,6 @@ namespace isodiamond
 class Covering
 {
 public:
-  /** @param mesh,connectivity must outlive it, and be without fault */
-  Covering(const TriangleMesh& mesh, const Connectivity& connectivity);
-
-  /** Unit normal of a triangle of the mesh; 0 if it has no area. */
-  const Vector& Normal(std::uint32_t triangle) const { return this->Normals[triangle]; }
-
-  /** The triangle at a point of the mesh that is nearest to a place. @pre the point is used */
-  std::uint32_t NearestAt(std::uint32_t point, const Vector& place) const;
-
-  /**
-   * Cuts a triangle into pieces.
-   *
-   * @param start a triangle of the mesh nearby
-   * @param near a piece that is so near to a triangle of the mesh need not be cut
-   * @param use (triangle of the mesh, greatest distance of the piece from it, area of the piece) ->
-   *        whether to go on
-   * @return whether all pieces were used; not if the way is too long
-   */
-  template <typename Use>
-  bool Cut(const std::array<Vector, 3>& corners, std::uint32_t start, double near, Use&& use) const
-  {
-    Piece piece;
-    piece.Count = 3;
-    std::copy(corners.begin(), corners.end(), piece.Corners.begin());
-    Way way;
-    way.Near = near * near;
-    return this->Walk(piece, start, way, use);
-  }
-
-private:
-  static constexpr int MostSteps = 1000;
   static constexpr int MostCorners = 16;
 
   /** A convex polygon. */
@@ -73,17 +43,163 @@ private:
       ++this->Count;
     }
 
-    double Area() const
-    {
-      Vector sum{};
-      for (int i = 2; i < this->Count; ++i)
-      {
-        sum =
-          sum + Cross(this->Corners[i - 1] - this->Corners[0], this->Corners[i] - this->Corners[0]);
-      }
-      return 0.5 * std::sqrt(Dot(sum, sum));
-    }
+    double Area() const { return AreaOf(this->Corners.data(), this->Count); }
   };
+
+  /** @param mesh,connectivity must outlive it, and be without fault */
+  Covering(const TriangleMesh& mesh, const Connectivity& connectivity);
+
+  /** Of a polygon. */
+  static double AreaOf(const Vector* corners, int count)
+  {
+    Vector sum{};
+    for (int i = 2; i < count; ++i)
+    {
+      sum = sum + Cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
+    }
+    return 0.5 * std::sqrt(Dot(sum, sum));
+  }
+
+  /** Unit normal of a triangle of the mesh; 0 if it has no area. */
+  const Vector& Normal(std::uint32_t triangle) const { return this->Normals[triangle]; }
+
+  /** Whether all corners of a piece are so near to a triangle of the mesh. */
+  bool IsNear(std::uint32_t triangle, const Vector* corners, int count, double allowed) const
+  {
+    const TriangleDistance& distance = this->Distances[triangle];
+    return std::all_of(corners, corners + count,
+      [&](const Vector& corner) { return distance.Squared(corner) <= allowed * allowed; });
+  }
+
+  /** The triangle at a point of the mesh that is nearest to a place. @pre the point is used */
+  std::uint32_t NearestAt(std::uint32_t point, const Vector& place) const;
+
+  /**
+   * Cuts a triangle into pieces.
+   *
+   * @param start a triangle of the mesh nearby
+   * @param near a piece that is so near to a triangle of the mesh need not be cut
+   * @param use (triangle of the mesh, greatest distance of the piece from it, piece) -> whether to
+   * go on
+   * @return whether all pieces were used; not if the way is too long
+   */
+  template <typename Use>
+  bool Cut(const std::array<Vector, 3>& corners, std::uint32_t start, double near, Use&& use) const
+  {
+    Piece piece;
+    piece.Count = 3;
+    std::copy(corners.begin(), corners.end(), piece.Corners.begin());
+    Way way;
+    way.Near = near * near;
+    return this->Walk(piece, start, way, use);
+  }
+
+  /**
+   * The same where walking finds no good pieces, which takes longer: a triangle is cut in four
+   * until each piece is near to any of the triangles around.
+   *
+   * @param reach how far away from it triangles are of interest
+   * @param use (triangle of the mesh, piece) -> whether the piece is near enough to it
+   * @return whether all pieces were
+   */
+  template <typename Use>
+  bool LookAround(
+    const std::array<Vector, 3>& corners, std::uint32_t start, double reach, Use&& use) const
+  {
+    const std::vector<std::uint32_t> around = this->Around(corners, start, reach);
+    return this->IsNearAround(corners, around, reach, 0, use);
+  }
+
+  /**
+   * Both: what is not near to the triangle that it was walked to is looked at around that.
+   *
+   * @param allowed how far away a piece may be
+   * @param use (triangle of the mesh, corners of a piece, their count) -> whether it is near enough
+   */
+  template <typename Use>
+  bool Covers(
+    const std::array<Vector, 3>& corners, std::uint32_t start, double allowed, Use&& use) const
+  {
+    const auto lookAround = [&](const std::array<Vector, 3>& piece, std::uint32_t from)
+    {
+      return this->LookAround(piece, from, allowed,
+        [&](std::uint32_t triangle, const std::array<Vector, 3>& part)
+        { return use(triangle, part.data(), 3); });
+    };
+    bool isFar = false;
+    return this->Cut(corners, start, UncutPart * allowed,
+             [&](std::uint32_t triangle, double /*distance*/, const Piece& piece)
+             {
+               if (use(triangle, piece.Corners.data(), piece.Count))
+               {
+                 return true;
+               }
+               for (int i = 2; i < piece.Count && !isFar; ++i)
+               {
+                 isFar = !lookAround(
+                   { piece.Corners[0], piece.Corners[i - 1], piece.Corners[i] }, triangle);
+               }
+               return !isFar;
+             }) ||
+      lookAround(corners, start);
+  }
+
+private:
+  /** Pieces that are nearer than this part of what is allowed are not cut any further. */
+  static constexpr double UncutPart = 0.3;
+  static constexpr int MostDepth = 5;
+
+  /** Triangles that may be within reach, connected to the start. */
+  std::vector<std::uint32_t> Around(
+    const std::array<Vector, 3>& corners, std::uint32_t start, double reach) const;
+
+  template <typename Use>
+  bool IsNearAround(const std::array<Vector, 3>& corners, const std::vector<std::uint32_t>& around,
+    double reach, int depth, Use&& use) const
+  {
+    // Those nearest to the middle first.
+    const Vector middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
+    double radius = 0.0;
+    for (const Vector& corner : corners)
+    {
+      radius = std::max(radius, std::sqrt(Dot(corner - middle, corner - middle)));
+    }
+    std::vector<std::pair<double, std::uint32_t>> near;
+    for (const std::uint32_t triangle : around)
+    {
+      const double squared = this->Distances[triangle].Squared(middle);
+      if (squared <= (reach + radius) * (reach + radius))
+      {
+        near.emplace_back(squared, triangle);
+      }
+    }
+    std::sort(near.begin(), near.end());
+    if (near.empty() || near.front().first > reach * reach)
+    {
+      return false;
+    }
+    std::vector<std::uint32_t> left;
+    for (const auto& [squared, triangle] : near)
+    {
+      if (squared <= reach * reach && use(triangle, corners))
+      {
+        return true;
+      }
+      left.push_back(triangle);
+    }
+    if (depth == MostDepth)
+    {
+      return false;
+    }
+    const std::array<Vector, 3> sides = { 0.5 * (corners[0] + corners[1]),
+      0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0]) };
+    return this->IsNearAround(sides, left, reach, depth + 1, use) &&
+      this->IsNearAround({ corners[0], sides[0], sides[2] }, left, reach, depth + 1, use) &&
+      this->IsNearAround({ corners[1], sides[1], sides[0] }, left, reach, depth + 1, use) &&
+      this->IsNearAround({ corners[2], sides[2], sides[1] }, left, reach, depth + 1, use);
+  }
+
+  static constexpr int MostSteps = 1000;
 
   /** The inward normal of the plane through an edge. */
   Vector PlaneOf(std::uint32_t triangle, int edge, std::uint32_t neighbour) const
@@ -161,7 +277,7 @@ private:
       --way.Length;
       squared = this->SquaredDistance(piece, triangle);
     }
-    return use(triangle, std::sqrt(squared), piece.Area());
+    return use(triangle, std::sqrt(squared), piece);
   }
 
   const TriangleMesh& Mesh;

@@ -2,7 +2,7 @@
 #ifndef isodiamond_MeshBlocks_h
 #define isodiamond_MeshBlocks_h
 
-#include "Simplification/Simplification.h"
+#include "Field/Vector.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,15 +20,14 @@ struct MeshBlocks
   std::size_t Count() const { return this->First.size() - 1; }
 };
 
-/** Cubes that have triangles. @param shift of their corners, in their size */
-MeshBlocks CutIntoBlocks(const TriangleMesh& mesh, double size, double shift);
-
-/** Two halves along the axis that a mesh is longest on. */
-MeshBlocks CutInTwo(const TriangleMesh& mesh);
-
-/** A block with points of its own. @param points is given their ids in the mesh */
-AllowedMesh TakeBlock(const AllowedMesh& mesh, const MeshBlocks& blocks, std::size_t number,
-  std::vector<std::uint32_t>& points);
+/**
+ * Cuts triangles again and again where they are spread farthest, until no block has too many.
+ *
+ * @param middles of the triangles
+ * @param most triangles of a block
+ * @param part of the triangles that are before a cut: with another one cuts are elsewhere
+ */
+MeshBlocks CutIntoBlocks(const std::vector<Vector>& middles, std::size_t most, double part);
 
 }
 

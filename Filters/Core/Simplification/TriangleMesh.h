@@ -14,6 +14,13 @@ namespace isodiamond
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/** Normal to a triangle, twice as long as its area. */
+inline Vector Across(const std::vector<Vector>& positions, const Triangle& triangle)
+{
+  const Vector& a = positions[triangle[0]];
+  return Cross(positions[triangle[1]] - a, positions[triangle[2]] - a);
+}
+
 /** Triangles by the ids of their points, with one orientation. */
 struct TriangleMesh
 {

@@ -168,7 +168,7 @@ bool IsNear(const std::array<Vector, 3>& corners, const SurfaceMesh& surface,
 {
   const double allowance = allowanceOf(start);
   if (cover.Cut(corners, start, UncutPart * allowance,
-        [&](std::uint32_t triangle, double distance, double /*area*/)
+        [&](std::uint32_t triangle, double distance, const Covering::Piece& /*piece*/)
         { return distance <= allowanceOf(triangle); }))
   {
     return true;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_AllowedMesh_h
+#define isodiamond_AllowedMesh_h
+
+#include "Simplification/TriangleMesh.h"
+
+#include <vector>
+
+namespace isodiamond
+{
+
+/** A mesh, and how far from each triangle another one may be that is made of it. */
+struct AllowedMesh
+{
+  TriangleMesh Mesh;
+  std::vector<double> Allowances; ///< by triangle; at least 0
+};
+
+}
+
+#endif

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Simplification/EdgeCollapses.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isodiamond
+{
+
+EdgeCollapses::EdgeCollapses(const MeshPart& part, const Connectivity& links, double usedPart)
+  : UsedPart(usedPart)
+  , Positions(part.Original.Mesh.Positions)
+  , Samples(part.Samples)
+  , Triangles(part.Triangles)
+  , Neighbours(part.Triangles.size())
+  , Normals(part.Triangles.size())
+  , FirstSample(part.Triangles.size(), None)
+  , NextSample(part.Samples.size(), None)
+  , Homes(part.Samples.size(), None)
+  , NextOver(part.Samples.size(), None)
+  , AnyTriangle(this->Positions.size(), None)
+  , Stays(part.IsFixed)
+  , IsLeftAlone(this->Positions.size())
+  , Quadrics(this->Positions.size())
+  , Best(this->Positions.size())
+  , Versions(this->Positions.size())
+  , Marks(this->Positions.size())
+  , LastStep(part.Triangles.size(), None)
+  , RemovedIn(this->Positions.size(), None)
+{
+  for (std::uint32_t i = 0; i < this->Triangles.size(); ++i)
+  {
+    const Triangle& triangle = this->Triangles[i];
+    const Vector across = Across(this->Positions, triangle);
+    const double length = std::sqrt(Dot(across, across));
+    this->Normals[i] = length > 0.0 ? (1.0 / length) * across : Vector{};
+    const Quadric plane(
+      this->Positions[triangle[0]] - this->Positions.front(), this->Normals[i], 0.5 * length);
+    for (int k = 0; k < 3; ++k)
+    {
+      this->Neighbours[i][k] = links.Neighbour(i, k);
+      this->AnyTriangle[triangle[k]] = i;
+      this->Quadrics[triangle[k]].Add(plane);
+      if (this->Neighbours[i][k] == None)
+      {
+        this->Stays[triangle[k]] = true;
+        this->Stays[triangle[(k + 1) % 3]] = true;
+      }
+    }
+  }
+  for (std::uint32_t i = 0; i < this->Samples.size(); ++i)
+  {
+    const std::uint32_t home = this->Samples[i].Home;
+    if (home != None)
+    {
+      this->PutOver(home, i);
+    }
+  }
+  for (std::uint32_t point = 0; point < this->Positions.size(); ++point)
+  {
+    if (links.IsUsed(point))
+    {
+      std::ptrdiff_t seen = 0;
+      this->ForEachNeighbour(
+        point, [&](std::uint32_t, std::uint32_t triangle) { seen += triangle != None ? 1 : 0; });
+      this->IsLeftAlone[point] = seen != links.end(point) - links.begin(point);
+    }
+  }
+}
+
+bool EdgeCollapses::FindHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const
+{
+  std::uint32_t start = this->AnyTriangle[vertex];
+  for (int i = 0;
+       this->Triangles[start][(PlaceOf(this->Triangles[start], vertex) + 1) % 3] != first; ++i)
+  {
+    if (i == MostNeighbours)
+    {
+      return false;
+    }
+    start = this->Neighbours[start][(PlaceOf(this->Triangles[start], vertex) + 2) % 3];
+  }
+  hole.Count = 0;
+  std::uint32_t at = start;
+  do
+  {
+    if (hole.Count == MostNeighbours)
+    {
+      return false;
+    }
+    const int place = PlaceOf(this->Triangles[at], vertex);
+    hole.Points[hole.Count] = this->Triangles[at][(place + 1) % 3];
+    hole.Triangles[hole.Count] = at;
+    ++hole.Count;
+    at = this->Neighbours[at][(place + 2) % 3];
+  } while (at != start);
+  return hole.Count > 2;
+}
+
+/** The link condition, and nothing new between vertices at the border. The hole is filled from its
+ *  first point. */
+bool EdgeCollapses::KeepsTopology(const Hole& hole)
+{
+  const std::uint32_t target = hole.Points[0];
+  if (hole.Count == 3)
+  {
+    // The one new triangle must not be there on the other side.
+    const std::uint32_t opposite = hole.Triangles[1];
+    const std::uint32_t beyond =
+      this->Neighbours[opposite][PlaceOf(this->Triangles[opposite], hole.Points[1])];
+    if (beyond != None &&
+      std::find(this->Triangles[beyond].begin(), this->Triangles[beyond].end(), target) !=
+        this->Triangles[beyond].end())
+    {
+      return false;
+    }
+  }
+  ++this->Mark;
+  for (int i = 2; i < hole.Count - 1; ++i)
+  {
+    if (this->Stays[target] && this->Stays[hole.Points[i]])
+    {
+      return false;
+    }
+    this->Marks[hole.Points[i]] = this->Mark;
+  }
+  bool isNew = true;
+  this->ForEachNeighbour(target,
+    [&](std::uint32_t neighbour, std::uint32_t /*triangle*/)
+    { isNew = isNew && this->Marks[neighbour] != this->Mark; });
+  return isNew;
+}
+
+/** Whether a sample is near enough to what fills the hole; then it goes with that. */
+bool EdgeCollapses::IsNear(std::uint32_t sample, const Hole::Place& place)
+{
+  int at = 1;
+  while (at + 1 < this->FillingCount && this->Fillings[at].IsBeyond(place))
+  {
+    ++at;
+  }
+  Filling& filling = this->Fillings[at];
+  const double allowed = this->UsedPart * this->Samples[sample].Allowance;
+  if (!(filling.Distance.Squared(this->Samples[sample].Position) <= allowed * allowed))
+  {
+    return false;
+  }
+  this->NextOver[sample] = filling.FirstSample;
+  filling.FirstSample = sample;
+  return true;
+}
+
+/** Fills a hole by triangles from its first point: the i-th one has the points 0, i and i + 1.
+ *  @return whether all samples over it are near enough */
+bool EdgeCollapses::Fill(std::uint32_t vertex, const Hole& hole)
+{
+  const int last = hole.Count - 1;
+  this->FillingCount = last;
+  const Vector& corner = this->Positions[hole.Points[0]];
+  for (int i = 1; i < last; ++i)
+  {
+    const Vector& second = this->Positions[hole.Points[i]];
+    const Vector& third = this->Positions[hole.Points[i + 1]];
+    const Vector across = Cross(second - corner, third - corner);
+    const double length = std::sqrt(Dot(across, across));
+    if (!(Dot(across, hole.Normal) > hole.LeastCosine * length))
+    {
+      return false;
+    }
+    Filling& filling = this->Fillings[i];
+    filling.Normal = (1.0 / length) * across;
+    filling.Distance = TriangleDistance(corner, second, third);
+    filling.Start = hole.Places[0];
+    filling.Spoke = { hole.Places[i + 1][0] - hole.Places[0][0],
+      hole.Places[i + 1][1] - hole.Places[0][1] };
+    filling.FirstSample = None;
+  }
+  if (!this->IsNear(vertex, { 0.0, 0.0 }))
+  {
+    return false;
+  }
+  const Vector& origin = this->Positions[vertex];
+  for (int i = 0; i < hole.Count; ++i)
+  {
+    for (std::uint32_t at = this->FirstSample[hole.Triangles[i]]; at != None;
+         at = this->NextSample[at])
+    {
+      if (!this->IsNear(at, hole.See(this->Samples[at].Position - origin)))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void EdgeCollapses::Offer(std::uint32_t vertex, double cost, std::uint32_t target)
+{
+  // The next one after the one that was refused.
+  Candidate best{ HUGE_VAL, vertex, None, this->Versions[vertex] };
+  const Quadric& quadric = this->Quadrics[vertex];
+  this->ForEachNeighbour(vertex,
+    [&](std::uint32_t neighbour, std::uint32_t /*triangle*/)
+    {
+      if (this->IsLeftAlone[neighbour])
+      {
+        return;
+      }
+      const double price = quadric.At(this->Positions[neighbour] - this->Positions.front());
+      const bool isLater = price > cost || (price == cost && neighbour > target);
+      if (isLater && (price < best.Cost || (price == best.Cost && neighbour < best.Target)))
+      {
+        best.Cost = price;
+        best.Target = neighbour;
+      }
+    });
+  this->Best[vertex] = { best.Cost, best.Target, cost > -HUGE_VAL };
+  if (best.Target != None)
+  {
+    this->Queue.push(best);
+  }
+}
+
+/** Whether what was offered of a vertex is so when a neighbour goes into another one. */
+bool EdgeCollapses::IsStillBest(
+  std::uint32_t vertex, std::uint32_t gone, std::uint32_t target) const
+{
+  const Price& best = this->Best[vertex];
+  return vertex != target && !best.WasRefused && best.Target != gone &&
+    best.Cost <= this->Quadrics[vertex].At(this->Positions[target] - this->Positions.front());
+}
+
+void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
+{
+  const int last = hole.Count - 1;
+  const auto number = static_cast<std::uint32_t>(this->Steps.size());
+  this->Steps.push_back({ vertex, this->TrianglesOfSteps.size(), hole.Count });
+  for (int i = 0; i < hole.Count; ++i)
+  {
+    this->TrianglesOfSteps.push_back(hole.Triangles[i]);
+    this->PointsOfSteps.push_back(hole.Points[i]);
+    this->LastStep[hole.Triangles[i]] = number;
+  }
+  this->RemovedIn[vertex] = number;
+  // The first and the last triangle go: what was beyond them becomes neighbours.
+  const auto edgeOf = [&](std::uint32_t triangle, std::uint32_t neighbour)
+  {
+    const Triangle& all = this->Neighbours[triangle];
+    return all[0] == neighbour ? 0 : all[1] == neighbour ? 1 : 2;
+  };
+  const auto close = [&](std::uint32_t gone, std::uint32_t stays)
+  {
+    const std::uint32_t beyond =
+      this->Neighbours[gone][(PlaceOf(this->Triangles[gone], vertex) + 1) % 3];
+    this->Neighbours[stays][edgeOf(stays, gone)] = beyond;
+    if (beyond != None)
+    {
+      this->Neighbours[beyond][edgeOf(beyond, gone)] = stays;
+    }
+    this->Triangles[gone][0] = None;
+  };
+  const std::uint32_t target = hole.Points[0];
+  const std::uint32_t firstGone = hole.Triangles[0];
+  const std::uint32_t lastGone = hole.Triangles[last];
+  close(firstGone, hole.Triangles[1]);
+  close(lastGone, hole.Triangles[last - 1]);
+  for (int i = 1; i < last; ++i)
+  {
+    const std::uint32_t triangle = hole.Triangles[i];
+    this->Triangles[triangle][PlaceOf(this->Triangles[triangle], vertex)] = target;
+    this->Normals[triangle] = this->Fillings[i].Normal;
+    this->FirstSample[triangle] = this->Fillings[i].FirstSample;
+    for (std::uint32_t at = this->FirstSample[triangle]; at != None; at = this->NextSample[at])
+    {
+      this->NextSample[at] = this->NextOver[at];
+      this->Homes[at] = triangle;
+    }
+    this->AnyTriangle[hole.Points[i]] = triangle;
+  }
+  this->AnyTriangle[target] = hole.Triangles[1];
+  this->AnyTriangle[hole.Points[last]] = hole.Triangles[last - 1];
+  this->AnyTriangle[vertex] = None;
+  this->Quadrics[target].Add(this->Quadrics[vertex]);
+  ++this->Versions[vertex];
+  for (int i = 0; i < hole.Count; ++i)
+  {
+    const std::uint32_t point = hole.Points[i];
+    if (!this->Stays[point] && !this->IsLeftAlone[point] &&
+      !this->IsStillBest(point, vertex, target))
+    {
+      ++this->Versions[point];
+      this->Offer(point, -HUGE_VAL, 0);
+    }
+  }
+}
+
+std::vector<bool> EdgeCollapses::Run()
+{
+  for (std::uint32_t point = 0; point < this->Positions.size(); ++point)
+  {
+    if (this->AnyTriangle[point] != None && !this->Stays[point] && !this->IsLeftAlone[point])
+    {
+      this->Offer(point, -HUGE_VAL, 0);
+    }
+  }
+  Hole hole;
+  while (!this->Queue.empty())
+  {
+    const Candidate at = this->Queue.top();
+    this->Queue.pop();
+    if (at.Version != this->Versions[at.Vertex])
+    {
+      continue;
+    }
+    if (this->FindHole(at.Vertex, at.Target, hole) && this->KeepsTopology(hole) &&
+      hole.SeeFromAbove(this->Positions, this->Normals, at.Vertex) && this->Fill(at.Vertex, hole))
+    {
+      this->Collapse(at.Vertex, hole);
+    }
+    else
+    {
+      this->Offer(at.Vertex, at.Cost, at.Target);
+    }
+  }
+  std::vector<bool> isChanged(this->Triangles.size());
+  for (const std::uint32_t triangle : this->TrianglesOfSteps)
+  {
+    isChanged[triangle] = true;
+  }
+  return isChanged;
+}
+
+std::vector<Triangle> EdgeCollapses::Result(std::vector<std::uint32_t>& numbers) const
+{
+  std::vector<Triangle> result;
+  numbers.clear();
+  for (std::uint32_t i = 0; i < this->Triangles.size(); ++i)
+  {
+    if (this->Triangles[i][0] != None)
+    {
+      result.push_back(this->Triangles[i]);
+      numbers.push_back(i);
+    }
+  }
+  return result;
+}
+
+}

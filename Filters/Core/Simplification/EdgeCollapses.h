@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_EdgeCollapses_h
+#define isodiamond_EdgeCollapses_h
+
+#include "Patches/PatchDistance.h"
+#include "Simplification/Hole.h"
+#include "Simplification/MeshPart.h"
+#include "Simplification/Quadric.h"
+
+#include <array>
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * Collapses edges of a mesh into one of their ends, the cheapest by quadrics first (Garland and
+ * Heckbert, SIGGRAPH 1997), as long as all keeps its allowance.
+ *
+ * A vertex goes, and the hole is filled by triangles from one of its neighbours. Seen along the
+ * mean normal of the hole both fillings have to be the same polygon, covered once, so no part is
+ * turned over; the link condition keeps the topology. Samples of the original stay with the
+ * triangle that they lie over: how far they are from it tells nearly how far the original is. So
+ * the result is to be measured, and what is wrong with it can be undone.
+ *
+ * Vertices at the border stay, and border edges; no new edge joins two such vertices: a neighbour
+ * that shares the border might make the same.
+ */
+class EdgeCollapses
+{
+public:
+  /** @param part stays as it is, and must outlive it
+   *  @param links of its triangles, without faulty points
+   *  @param usedPart of allowances, by samples: between them the surface may be a bit farther off
+   */
+  EdgeCollapses(const MeshPart& part, const Connectivity& links, double usedPart);
+
+  /** Collapses all that it can. @return by number: whether a triangle is another one now, or gone
+   */
+  std::vector<bool> Run();
+
+  /** All triangles by number; the first point is None where one is gone. */
+  const std::vector<Triangle>& All() const { return this->Triangles; }
+
+  /** The triangles that are left.
+   *  @param numbers is given those that they go by here: each has that of a triangle at the
+   *         beginning */
+  std::vector<Triangle> Result(std::vector<std::uint32_t>& numbers) const;
+
+  /** By sample: the number of the triangle that it lies over now; None for points in use. */
+  const std::vector<std::uint32_t>& SampleHomes() const { return this->Homes; }
+
+  /** Undoes the last collapse that made a triangle what it is, and those that removed points, with
+   *  all that came later and built on them. @return by number: which triangles that changed */
+  std::vector<bool> Undo(
+    const std::vector<std::uint32_t>& triangles, const std::vector<std::uint32_t>& points);
+
+private:
+  static constexpr std::uint32_t None = Connectivity::None;
+  static constexpr int MostNeighbours = Hole::MostPoints;
+
+  /** The cheapest collapse of a vertex that has not been refused. */
+  struct Candidate
+  {
+    double Cost;
+    std::uint32_t Vertex;
+    std::uint32_t Target;
+    std::uint32_t Version; ///< of the vertex's neighbourhood
+
+    bool operator<(const Candidate& other) const // the greatest is the first of a queue
+    {
+      return this->Cost != other.Cost  ? this->Cost > other.Cost
+        : this->Vertex != other.Vertex ? this->Vertex > other.Vertex
+                                       : this->Target > other.Target;
+    }
+  };
+
+  /** A triangle that fills a part of a hole, seen along the mean normal. */
+  struct Filling
+  {
+    Vector Normal{};
+    TriangleDistance Distance;
+    Hole::Place Start{}; ///< of the edge to the next one
+    Hole::Place Spoke{};
+    std::uint32_t FirstSample = None;
+
+    bool IsBeyond(const Hole::Place& place) const
+    {
+      return this->Spoke[0] * (place[1] - this->Start[1]) >
+        this->Spoke[1] * (place[0] - this->Start[0]);
+    }
+  };
+
+  /** What was done, to be undone. */
+  struct Step
+  {
+    std::uint32_t Vertex;
+    std::size_t First; ///< of its triangles, and of its points
+    int Count;
+  };
+
+  bool FindHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
+  bool KeepsTopology(const Hole& hole);
+  bool Fill(std::uint32_t vertex, const Hole& hole);
+  bool IsNear(std::uint32_t sample, const Hole::Place& place);
+  void Undo(const Step& step);
+  void Forget(const std::vector<bool>& isUndone);
+  void GiveBackSamples(const Step& step);
+  void PutOver(std::uint32_t triangle, std::uint32_t sample);
+  void TakeAway(std::uint32_t sample);
+  void Collapse(std::uint32_t vertex, const Hole& hole);
+  void Offer(std::uint32_t vertex, double cost, std::uint32_t target);
+  bool IsStillBest(std::uint32_t vertex, std::uint32_t gone, std::uint32_t target) const;
+
+  /** Calls visit(neighbour, triangle from it on to the next one; None if it is the last). */
+  template <typename Visit>
+  void ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const;
+
+  double UsedPart;
+  const std::vector<Vector>& Positions;
+  const std::vector<Sample>& Samples;
+  std::vector<Triangle> Triangles; ///< the first point is None where one is gone
+  std::vector<Triangle> Neighbours;
+  std::vector<Vector> Normals;            ///< of unit length
+  std::vector<std::uint32_t> FirstSample; ///< by triangle: of those over it
+  std::vector<std::uint32_t> NextSample;  ///< by sample: of those over the same triangle
+  std::vector<std::uint32_t> Homes;       ///< by sample
+  std::vector<std::uint32_t> NextOver;    ///< the same, of what fills a hole
+
+  std::vector<std::uint32_t> AnyTriangle; ///< by vertex
+  std::vector<bool> Stays;                ///< at the border, or fixed
+  std::vector<bool> IsLeftAlone; ///< more than one fan of triangles, or more than are counted
+  std::vector<Quadric> Quadrics;
+  struct Price
+  {
+    double Cost = 0.0;
+    std::uint32_t Target = None;
+    bool WasRefused = false; ///< a better one
+  };
+  std::vector<Price> Best; ///< by vertex: what is offered; None if all was refused
+  std::vector<std::uint32_t> Versions;
+  std::vector<std::uint32_t> Marks; ///< which hole a vertex was seen around
+  std::uint32_t Mark = 0;
+
+  std::priority_queue<Candidate> Queue;
+  std::array<Filling, MostNeighbours> Fillings; ///< of the last hole, by its points
+  int FillingCount = 0;
+
+  std::vector<Step> Steps;
+  std::vector<std::uint32_t> TrianglesOfSteps;
+  std::vector<std::uint32_t> PointsOfSteps;
+  std::vector<std::uint32_t> LastStep;  ///< by triangle
+  std::vector<std::uint32_t> RemovedIn; ///< by point: the step
+};
+
+template <typename Visit>
+void EdgeCollapses::ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const
+{
+  // At the border: from where there is nothing before.
+  std::uint32_t first = this->AnyTriangle[vertex];
+  if (this->Stays[vertex])
+  {
+    std::uint32_t before = first;
+    do
+    {
+      first = before;
+      before = this->Neighbours[first][PlaceOf(this->Triangles[first], vertex)];
+    } while (before != None && before != this->AnyTriangle[vertex]);
+  }
+  std::uint32_t at = first;
+  do
+  {
+    const Triangle& triangle = this->Triangles[at];
+    const int place = PlaceOf(triangle, vertex);
+    visit(triangle[(place + 1) % 3], at);
+    const std::uint32_t next = this->Neighbours[at][(place + 2) % 3];
+    if (next == None)
+    {
+      visit(triangle[(place + 2) % 3], None);
+    }
+    at = next;
+  } while (at != None && at != first);
+}
+
+}
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_NearLists_h
+#define isodiamond_NearLists_h
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** Of each triangle of a mesh, those of a simpler one that its pieces were found to be near to. */
+class NearLists
+{
+public:
+  struct List
+  {
+    const std::uint32_t* First;
+    const std::uint32_t* Last;
+    const std::uint32_t* begin() const { return this->First; }
+    const std::uint32_t* end() const { return this->Last; }
+  };
+
+  /** Empty ones. */
+  explicit NearLists(std::size_t count)
+    : Ranges(count)
+  {
+  }
+
+  List operator[](std::size_t triangle) const
+  {
+    const std::uint32_t* const first = this->Items.data() + this->Ranges[triangle].First;
+    return { first, first + this->Ranges[triangle].Count };
+  }
+
+  /** Begins a new list; the items that follow are its. */
+  void Begin(std::size_t triangle) { this->Ranges[triangle] = { this->Items.size(), 0 }; }
+  void Add(std::size_t triangle, std::uint32_t near)
+  {
+    this->Items.push_back(near);
+    ++this->Ranges[triangle].Count;
+  }
+
+private:
+  struct Range
+  {
+    std::size_t First = 0;
+    std::size_t Count = 0;
+  };
+  std::vector<Range> Ranges;
+  std::vector<std::uint32_t> Items;
+};
+
+}
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_SimplifiedMesh_h
+#define isodiamond_SimplifiedMesh_h
+
+#include "Field/Parallel.h"
+#include "Simplification/MeshBlocks.h"
+#include "Simplification/MeshPart.h"
+
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * A mesh that is made simpler, part by part, in passes whose parts are cut elsewhere.
+ *
+ * A part has triangles of the simpler mesh, and those of the original that are near to these
+ * alone. Original triangles that are near to triangles of several parts hold them all: these stay
+ * as they are in the pass. So parts do not know of each other.
+ */
+class SimplifiedMesh
+{
+public:
+  /** @param original must outlive it */
+  explicit SimplifiedMesh(const AllowedMesh& original);
+
+  const std::vector<Triangle>& Triangles() const { return this->Simple; }
+
+  /** Makes all parts simpler.
+   *  @param most triangles of a part @param cut see CutIntoBlocks
+   *  @param usedPart see EdgeCollapses */
+  void Simplify(std::size_t most, double cut, double usedPart, const ParallelFor& parallelFor);
+
+private:
+  struct Division;
+
+  Division Divide(std::size_t most, double cut) const;
+  MeshPart Take(const Division& division, std::size_t number, std::vector<std::uint32_t>& points,
+    std::vector<std::uint32_t>& middles) const;
+
+  const AllowedMesh& Original;
+  std::vector<Triangle> Simple;
+  std::vector<Sample> Samples; ///< the points, then the middles of triangles
+  NearLists Near;              ///< by original triangle
+};
+
+}
+
+#endif

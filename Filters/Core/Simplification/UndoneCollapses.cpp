@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Simplification/EdgeCollapses.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isodiamond
+{
+
+void EdgeCollapses::Undo(const Step& step)
+{
+  const std::uint32_t* triangles = &this->TrianglesOfSteps[step.First];
+  const std::uint32_t* points = &this->PointsOfSteps[step.First];
+  const auto beyond = [&](int stays, std::uint32_t from)
+  { return this->Neighbours[triangles[stays]][PlaceOf(this->Triangles[triangles[stays]], from)]; };
+  const int last = step.Count - 1;
+  std::array<std::uint32_t, MostNeighbours> outer;
+  outer[0] = beyond(1, points[0]);
+  outer[last] = beyond(last - 1, points[last]);
+  for (int i = 1; i < last; ++i)
+  {
+    outer[i] = beyond(i, points[i]);
+  }
+  const auto replace = [&](std::uint32_t triangle, std::uint32_t neighbour, std::uint32_t by)
+  {
+    if (triangle != None)
+    {
+      Triangle& all = this->Neighbours[triangle];
+      *std::find(all.begin(), all.end(), neighbour) = by;
+    }
+  };
+  replace(outer[0], triangles[1], triangles[0]);
+  replace(outer[last], triangles[last - 1], triangles[last]);
+  for (int i = 0; i <= last; ++i)
+  {
+    const int next = i < last ? i + 1 : 0;
+    this->Triangles[triangles[i]] = { step.Vertex, points[i], points[next] };
+    this->Neighbours[triangles[i]] = { triangles[i > 0 ? i - 1 : last], outer[i], triangles[next] };
+    this->AnyTriangle[points[i]] = triangles[i];
+  }
+  this->AnyTriangle[step.Vertex] = triangles[0];
+  this->RemovedIn[step.Vertex] = None;
+  this->TakeAway(step.Vertex);
+  this->GiveBackSamples(step);
+}
+
+void EdgeCollapses::PutOver(std::uint32_t triangle, std::uint32_t sample)
+{
+  this->NextSample[sample] = this->FirstSample[triangle];
+  this->FirstSample[triangle] = sample;
+  this->Homes[sample] = triangle;
+}
+
+void EdgeCollapses::TakeAway(std::uint32_t sample)
+{
+  std::uint32_t* at = &this->FirstSample[this->Homes[sample]];
+  while (*at != sample)
+  {
+    at = &this->NextSample[*at];
+  }
+  *at = this->NextSample[sample];
+  this->Homes[sample] = None;
+}
+
+/** What lies over the triangles that filled a hole lies over those that are there again. */
+void EdgeCollapses::GiveBackSamples(const Step& step)
+{
+  Hole hole;
+  hole.Count = step.Count;
+  std::vector<std::uint32_t> samples;
+  for (int i = 0; i < step.Count; ++i)
+  {
+    const std::uint32_t triangle = this->TrianglesOfSteps[step.First + i];
+    hole.Points[i] = this->PointsOfSteps[step.First + i];
+    hole.Triangles[i] = triangle;
+    const Vector across = Across(this->Positions, this->Triangles[triangle]);
+    const double length = std::sqrt(Dot(across, across));
+    this->Normals[triangle] = length > 0.0 ? (1.0 / length) * across : Vector{};
+    const bool wasThere = i > 0 && i < step.Count - 1;
+    for (std::uint32_t at = wasThere ? this->FirstSample[triangle] : None; at != None;
+         at = this->NextSample[at])
+    {
+      samples.push_back(at);
+    }
+    this->FirstSample[triangle] = None;
+  }
+  const bool isSeen = hole.SeeFromAbove(this->Positions, this->Normals, step.Vertex);
+  for (const std::uint32_t sample : samples)
+  {
+    const int at = isSeen
+      ? hole.TriangleAt(hole.See(this->Samples[sample].Position - this->Positions[step.Vertex]))
+      : 0;
+    this->PutOver(hole.Triangles[at], sample);
+  }
+}
+
+std::vector<bool> EdgeCollapses::Undo(
+  const std::vector<std::uint32_t>& triangles, const std::vector<std::uint32_t>& points)
+{
+  std::vector<bool> isUndone(this->Steps.size());
+  const auto mark = [&](std::uint32_t step)
+  {
+    if (step != None)
+    {
+      isUndone[step] = true;
+    }
+  };
+  for (const std::uint32_t triangle : triangles)
+  {
+    mark(this->LastStep[triangle]);
+    if (this->LastStep[triangle] == None)
+    {
+      for (const std::uint32_t point : this->Triangles[triangle])
+      {
+        this->ForEachNeighbour(point,
+          [&](std::uint32_t, std::uint32_t other)
+          {
+            if (other != None)
+            {
+              mark(this->LastStep[other]);
+            }
+          });
+      }
+    }
+  }
+  for (const std::uint32_t point : points)
+  {
+    mark(this->RemovedIn[point]);
+  }
+  // What builds on it, forwards; then back.
+  std::vector<bool> isTouched(this->Triangles.size());
+  for (std::size_t i = 0; i < this->Steps.size(); ++i)
+  {
+    const auto begin =
+      this->TrianglesOfSteps.begin() + static_cast<std::ptrdiff_t>(this->Steps[i].First);
+    const auto end = begin + this->Steps[i].Count;
+    isUndone[i] = isUndone[i] ||
+      std::any_of(begin, end, [&](std::uint32_t triangle) { return isTouched[triangle]; });
+    if (isUndone[i])
+    {
+      std::for_each(begin, end, [&](std::uint32_t triangle) { isTouched[triangle] = true; });
+    }
+  }
+  for (std::size_t i = this->Steps.size(); i-- > 0;)
+  {
+    if (isUndone[i])
+    {
+      this->Undo(this->Steps[i]);
+    }
+  }
+  this->Forget(isUndone);
+  return isTouched;
+}
+
+/** Steps that are left get new numbers. */
+void EdgeCollapses::Forget(const std::vector<bool>& isUndone)
+{
+  std::size_t kept = 0;
+  std::fill(this->LastStep.begin(), this->LastStep.end(), None);
+  for (std::size_t i = 0; i < this->Steps.size(); ++i)
+  {
+    if (!isUndone[i])
+    {
+      const Step step = this->Steps[i];
+      this->Steps[kept] = step;
+      this->RemovedIn[step.Vertex] = static_cast<std::uint32_t>(kept);
+      for (int k = 0; k < step.Count; ++k)
+      {
+        this->LastStep[this->TrianglesOfSteps[step.First + k]] = static_cast<std::uint32_t>(kept);
+      }
+      ++kept;
+    }
+  }
+  this->Steps.resize(kept);
+}
+
+}
