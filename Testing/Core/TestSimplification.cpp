@@ -6,6 +6,7 @@
 #include "Simplification/EdgeCollapses.h"
 #include "Simplification/PartDistance.h"
 #include "Simplification/Simplification.h"
+#include "Simplification/SimplifiedMesh.h"
 #include "TopologyTestTools.h"
 
 #include <gtest/gtest.h>
@@ -209,6 +210,25 @@ TEST(Simplification, KeepsThePromiseInNoise)
       }
     });
   EXPECT_GT(cases, 0);
+}
+
+// Where samples allow much too much, everything depends on measuring and undoing.
+TEST(Simplification, KeepsThePromiseWhateverSamplesAllow)
+{
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    const AllowedMesh before = MeshOf(field, 0.0, 0.2);
+    SimplifiedMesh simplified(before);
+    for (const double cut : { 0.5, 0.35, 0.6, 0.4 })
+    {
+      const std::size_t last = simplified.Triangles().size();
+      simplified.Simplify(150, cut, 4.0, SerialFor);
+      EXPECT_LE(simplified.Triangles().size(), last);
+      ExpectPromise(before, { before.Mesh.Positions, simplified.Triangles() }, 0.2);
+    }
+    EXPECT_LT(simplified.Triangles().size(), before.Mesh.Triangles.size());
+  }
 }
 
 TEST(Simplification, SavesMostTriangles)

@@ -53,12 +53,6 @@ inline double Cross2(const Hole::Place& a, const Hole::Place& b)
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/** Which of a triangle's points one is. @pre it is one of them */
-inline int PlaceOf(const Triangle& triangle, std::uint32_t point)
-{
-  return triangle[0] == point ? 0 : triangle[1] == point ? 1 : 2;
-}
-
 }
 
 #endif

@@ -103,7 +103,7 @@ struct SimplifiedMesh::Division
   std::vector<bool> IsHeld;          ///< by triangle of the simpler mesh
   Groups Triangles;                  ///< of the simpler mesh, by part
   Groups Originals;                  ///< by part
-  Groups Middles;                    ///< samples, by part
+  Groups Samples;                    ///< that lie over triangles, by part
 
   std::size_t Count() const { return this->Triangles.First.size() - 1; }
 };
@@ -168,7 +168,6 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
     }
   }
   const std::size_t count = blocks.Count();
-  const std::size_t points = this->Original.Mesh.Positions.size();
   Groups triangles(count, partOf.size(), [&](std::uint32_t i) { return partOf[i]; });
   std::vector<std::uint32_t> numbers(partOf.size());
   for (std::size_t i = 0; i < triangles.Items.size(); ++i)
@@ -181,14 +180,14 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
     [&](std::uint32_t i)
     {
       const std::uint32_t home = this->Samples[i].Home;
-      return i < points || home == None ? None : partOf[home];
+      return home == None ? None : partOf[home];
     });
   return { std::move(partOf), std::move(numbers), std::move(isHeld), std::move(triangles),
     std::move(originals), std::move(samples) };
 }
 
-MeshPart SimplifiedMesh::Take(const Division& division, std::size_t number,
-  std::vector<std::uint32_t>& points, std::vector<std::uint32_t>& middles) const
+MeshPart SimplifiedMesh::Take(
+  const Division& division, std::size_t number, std::vector<std::uint32_t>& points) const
 {
   const auto add = [&](const Triangle& triangle)
   { points.insert(points.end(), triangle.begin(), triangle.end()); };
@@ -207,25 +206,19 @@ MeshPart SimplifiedMesh::Take(const Division& division, std::size_t number,
     }
     return triangle;
   };
-  const auto take = [&](std::uint32_t sample)
-  {
-    Sample taken = this->Samples[sample];
-    const bool isHere = taken.Home != None && division.PartOf[taken.Home] == number;
-    taken.Home = isHere ? division.Number[taken.Home] : None;
-    return taken;
-  };
   MeshPart part;
   part.IsFixed.resize(points.size());
   for (const std::uint32_t point : points)
   {
     part.Original.Mesh.Positions.push_back(this->Original.Mesh.Positions[point]);
-    part.Samples.push_back(take(point));
+    part.Samples.push_back({ this->Samples[point].Position, this->Samples[point].Allowance, None });
   }
-  middles.assign(division.Middles.begin(number), division.Middles.end(number));
-  for (const std::uint32_t sample : middles)
-  {
-    part.Samples.push_back(take(sample));
-  }
+  std::for_each(division.Samples.begin(number), division.Samples.end(number),
+    [&](std::uint32_t sample)
+    {
+      part.Samples.push_back(this->Samples[sample]);
+      part.Samples.back().Home = division.Number[this->Samples[sample].Home];
+    });
   for (const std::uint32_t* i = division.Triangles.begin(number);
        i != division.Triangles.end(number); ++i)
   {
@@ -251,23 +244,24 @@ MeshPart SimplifiedMesh::Take(const Division& division, std::size_t number,
   return part;
 }
 
+/** What a part has become. */
+struct SimplifiedMesh::Made
+{
+  std::vector<Triangle> Triangles; ///< by number; the first point is None if one is gone
+  NearLists Near{ 0 };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> Homes; ///< samples, and numbers
+};
+
 void SimplifiedMesh::Simplify(
   std::size_t most, double cut, double usedPart, const ParallelFor& parallelFor)
 {
   const Division division = this->Divide(most, cut);
-  struct Made
-  {
-    std::vector<Triangle> Triangles; ///< by number; the first point is None if one is gone
-    NearLists Near{ 0 };
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> Homes; ///< of samples: numbers
-  };
   std::vector<Made> made(division.Count());
   ForEachIndex(parallelFor, made.size(), 1,
     [&](std::int64_t number)
     {
       std::vector<std::uint32_t> points;
-      std::vector<std::uint32_t> middles;
-      MeshPart part = this->Take(division, number, points, middles);
+      MeshPart part = this->Take(division, number, points);
       made[number].Triangles = SimplifyPart(part, usedPart);
       for (Triangle& triangle : made[number].Triangles)
       {
@@ -277,17 +271,22 @@ void SimplifiedMesh::Simplify(
         }
       }
       made[number].Near = std::move(part.Near);
-      // A sample is here only if its home is; in use it has none.
       for (std::size_t i = 0; i < part.Samples.size(); ++i)
       {
-        const std::uint32_t sample = i < points.size() ? points[i] : middles[i - points.size()];
         if (part.Samples[i].Home != None)
         {
-          made[number].Homes.emplace_back(sample, part.Samples[i].Home);
+          made[number].Homes.emplace_back(
+            i < points.size() ? points[i] : division.Samples.begin(number)[i - points.size()],
+            part.Samples[i].Home);
         }
       }
     });
-  // Triangles that are left get new numbers.
+  this->PutTogether(division, made);
+}
+
+/** Triangles that are left get new numbers, by which all else goes. */
+void SimplifiedMesh::PutTogether(const Division& division, const std::vector<Made>& made)
+{
   std::vector<std::uint32_t> renamed(this->Simple.size(), None);
   std::vector<Triangle> simple;
   for (std::size_t number = 0; number < made.size(); ++number)
@@ -302,30 +301,28 @@ void SimplifiedMesh::Simplify(
     }
   }
   this->Simple = std::move(simple);
+  const std::size_t originals = this->Original.Mesh.Triangles.size();
+  NearLists near(originals);
+  std::vector<bool> isOwned(originals);
   for (std::size_t number = 0; number < made.size(); ++number)
   {
+    const std::uint32_t* const triangles = division.Triangles.begin(number);
     for (const auto& [sample, home] : made[number].Homes)
     {
-      this->Samples[sample].Home = renamed[division.Triangles.begin(number)[home]];
+      this->Samples[sample].Home = renamed[triangles[home]];
     }
-  }
-  NearLists near(this->Original.Mesh.Triangles.size());
-  std::vector<bool> isOwned(this->Original.Mesh.Triangles.size());
-  for (std::size_t number = 0; number < made.size(); ++number)
-  {
-    const auto count = division.Originals.end(number) - division.Originals.begin(number);
-    for (std::ptrdiff_t i = 0; i < count; ++i)
+    const std::uint32_t* original = division.Originals.begin(number);
+    for (std::size_t i = 0; original != division.Originals.end(number); ++i, ++original)
     {
-      const std::uint32_t original = division.Originals.begin(number)[i];
-      isOwned[original] = true;
-      near.Begin(original);
+      isOwned[*original] = true;
+      near.Begin(*original);
       for (const std::uint32_t triangle : made[number].Near[i])
       {
-        near.Add(original, renamed[division.Triangles.begin(number)[triangle]]);
+        near.Add(*original, renamed[triangles[triangle]]);
       }
     }
   }
-  for (std::size_t i = 0; i < isOwned.size(); ++i)
+  for (std::size_t i = 0; i < originals; ++i)
   {
     if (!isOwned[i])
     {

@@ -33,10 +33,13 @@ public:
 
 private:
   struct Division;
+  struct Made;
 
   Division Divide(std::size_t most, double cut) const;
-  MeshPart Take(const Division& division, std::size_t number, std::vector<std::uint32_t>& points,
-    std::vector<std::uint32_t>& middles) const;
+  /** @param points is given the part's points as they are in the mesh */
+  MeshPart Take(
+    const Division& division, std::size_t number, std::vector<std::uint32_t>& points) const;
+  void PutTogether(const Division& division, const std::vector<Made>& made);
 
   const AllowedMesh& Original;
   std::vector<Triangle> Simple;

@@ -14,6 +14,12 @@ namespace isodiamond
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/** Which of a triangle's points one is. @pre it is one of them */
+inline int PlaceOf(const Triangle& triangle, std::uint32_t point)
+{
+  return triangle[0] == point ? 0 : triangle[1] == point ? 1 : 2;
+}
+
 /** Normal to a triangle, twice as long as its area. */
 inline Vector Across(const std::vector<Vector>& positions, const Triangle& triangle)
 {
