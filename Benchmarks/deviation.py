@@ -8,7 +8,8 @@ RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are a phantom made here 
 mricron-data is installed, an MRI head. Needs scipy, Debian's python3-scipy.
 
 Full resolution is Isodiamonds' own surface at tolerance 0 for its two metrics, that of
-vtkFlyingEdges3D for vtkQuadricDecimation and meshopt_simplify, which start from it. The distance
+vtkFlyingEdges3D for vtkQuadricDecimation and meshopt_simplify, which start from it, and for OpenVDB's
+adaptive mesher (Debian's python3-openvdb), which starts from the volume. The distance
 metric's mesh sets the number of triangles for the others; "-" is what was not run, as where
 vtkFlyingEdges3D's surface has no more triangles than that. One thread each.
 
@@ -132,7 +133,7 @@ def print_surface(name, mesh, milliseconds):
     )
 
 
-def compare(volume, topologies, tolerances, limit, simplifies):
+def compare(volume, topologies, tolerances, limit, simplifies, plot):
     size = " x ".join(map(str, volume.image.GetDimensions()))
     print(f"## {volume.name}, {size}, isovalue {volume.isovalue:g}\n\nFull resolution:\n")
     contest = Contest(volume.image, volume.isovalue, topologies, limit, simplifies)
@@ -146,12 +147,39 @@ def compare(volume, topologies, tolerances, limit, simplifies):
     ours, theirs = ((full, NearestTriangle(full)) for full in (ours, theirs))
     results = []
     for tolerance in tolerances:
-        fulls = [ours] * len(contest.ours) + [theirs] * 2
+        fulls = [ours] * len(contest.ours) + [theirs] * 3
         results.append([
             run and assess(*full, *run, tolerance, contest.voxel)
             for full, run in zip(fulls, contest.level(tolerance))
         ])
     print_tables(contest, results, tolerances)
+    if plot:
+        draw_errors(contest.methods, results, plot)
+
+
+def draw_errors(methods, results, path):
+    """Errors over triangles."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, panels = pyplot.subplots(1, 2, figsize=(9.6, 4.2), sharex=True)
+    titles = ("root of the mean square, both ways", "maximum, both ways")
+    for figure_of, (axes, title) in enumerate(zip(panels, titles)):
+        for method, runs in zip(methods, zip(*results)):
+            runs = [run for run in runs if run]
+            errors = [max(run.there[figure_of], run.back[figure_of]) for run in runs]
+            style = "o-" if method == "Simplify" else "s-" if "distance" in method else ".--"
+            axes.loglog([run.triangles for run in runs], errors, style, label=method)
+        axes.set_title(title, fontsize=10)
+        axes.set_xlabel("triangles")
+        axes.grid(alpha=0.3, which="both")
+    panels[0].set_ylabel("distance, voxels")
+    names = panels[0].get_legend_handles_labels()
+    figure.legend(*names, loc="lower center", ncol=len(methods), fontsize=8, frameon=False)
+    figure.tight_layout(rect=(0, 0.05, 1, 1))
+    figure.savefig(path, dpi=110)
 
 
 def draw(volume, topologies, tolerances, folder):
@@ -196,6 +224,9 @@ def parse():
     parser.add_argument(
         "--simplify", action="store_true", help="with a simplified mesh, which sets the number"
     )
+    parser.add_argument(
+        "--plot", metavar="FILE", help="errors over triangles as well, into this file: one volume"
+    )
     parser.add_argument("--pictures", metavar="FOLDER", help="only pictures, into this folder")
     parser.add_argument(
         "--camera",
@@ -231,7 +262,12 @@ def main():
         else:
             limit = math.inf if arguments.all else DECIMATION_LIMIT
             compare(
-                volume, topologies, arguments.tolerances or TOLERANCES, limit, arguments.simplify
+                volume,
+                topologies,
+                arguments.tolerances or TOLERANCES,
+                limit,
+                arguments.simplify,
+                arguments.plot,
             )
 
 

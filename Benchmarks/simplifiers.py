@@ -7,7 +7,8 @@ import time
 
 import numpy
 from isodiamonds import vtkIsodiamondContour
-from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkQuadricDecimation
 
@@ -93,6 +94,57 @@ def simplify(meshopt_simplify, surface, triangles):
     return mesh, milliseconds
 
 
+def load_openvdb():
+    try:
+        import pyopenvdb
+    except ImportError:
+        print("No OpenVDB: it is in Debian's package python3-openvdb\n")
+        return None
+    return pyopenvdb
+
+
+class OpenVDB:
+    """Its adaptive mesher, volumeToMesh, which starts from the volume."""
+
+    def __init__(self, module, image, isovalue):
+        values = vtk_to_numpy(image.GetPointData().GetScalars()).astype(numpy.float32)
+        # Outside is less than inside: the surface is closed at the boundary.
+        self.grid = module.FloatGrid(float(values.min()) - 1)
+        values = values.reshape(image.GetDimensions(), order="F")
+        self.grid.copyFromArray(numpy.ascontiguousarray(values))
+        self.isovalue = isovalue
+        self.origin = numpy.array(image.GetOrigin())
+        self.spacing = numpy.array(image.GetSpacing())
+
+    def mesh(self, adaptivity):
+        """Points, triangles, and milliseconds."""
+        start = time.perf_counter()
+        points, triangles, quads = self.grid.convertToPolygons(self.isovalue, adaptivity)
+        milliseconds = 1000 * (time.perf_counter() - start)
+        halves = [quads[:, (0, 1, 2)], quads[:, (0, 2, 3)]] if len(quads) else []
+        both = numpy.concatenate([part for part in (triangles, *halves) if len(part)])
+        return points, both, milliseconds
+
+    def with_triangles(self, most):
+        """The least adaptivity that leaves no more triangles; None if all leave more."""
+        low, high = 0.0, 1.0
+        if len(self.mesh(high)[1]) > most:
+            return None
+        for _ in range(16):
+            middle = (low + high) / 2
+            low, high = (low, middle) if len(self.mesh(middle)[1]) <= most else (middle, high)
+        points, triangles, milliseconds = self.mesh(high)
+        mesh = vtkPolyData()
+        placed = vtkPoints()
+        placed.SetData(numpy_to_vtk(self.origin + self.spacing * points, deep=True))
+        mesh.SetPoints(placed)
+        cells = vtkCellArray()
+        ids = triangles[:, ::-1].astype(numpy.int64).ravel()  # faces outward
+        cells.SetData(3, numpy_to_vtkIdTypeArray(ids, deep=True))
+        mesh.SetPolys(cells)
+        return mesh, milliseconds
+
+
 def isodiamonds(topology, by_field=False):
     """A contour that preserves the topology of full resolution or not, or does what it does."""
     contour = vtkIsodiamondContour()
@@ -108,7 +160,8 @@ class Contest:
     """The methods on one volume. The first sets the number of triangles for those after ours.
 
     topologies are values of PreserveTopology, each for a mesh of the distance metric, or None to
-    leave it as it is. If one simplifies, its mesh comes first. Surfaces of more triangles than the limit are not decimated.
+    leave it as it is. If one simplifies, its mesh comes first. Surfaces of more triangles than the
+    limit are not decimated.
     """
 
     def __init__(self, image, isovalue, topologies, limit, simplifies=False):
@@ -129,8 +182,10 @@ class Contest:
         fulls = [extract(c, 0) for c in contours]
         self.full, self.milliseconds = fulls[0]
         self.builds = [run - full[1] for run, full in zip(runs, fulls)]
-        self.methods = (*self.ours, "vtkQuadricDecimation", "meshopt_simplify")
+        self.methods = (*self.ours, "vtkQuadricDecimation", "meshopt_simplify", "OpenVDB")
         self.meshopt_simplify = load_meshoptimizer()
+        openvdb = load_openvdb()
+        self.openvdb = openvdb and OpenVDB(openvdb, image, isovalue)
 
     def level(self, tolerance):
         """Mesh and milliseconds of each method, None where one was not run; in voxels."""
@@ -141,4 +196,5 @@ class Contest:
         quadric = triangles < theirs <= self.limit and decimate(self.theirs, triangles)
         meshopt = self.meshopt_simplify if triangles < theirs else None
         meshopt = meshopt and simplify(meshopt, self.theirs, triangles)
-        return [*by_distance, by_field, quadric or None, meshopt]
+        adaptive = self.openvdb and self.openvdb.with_triangles(triangles)
+        return [*by_distance, by_field, quadric or None, meshopt, adaptive]
