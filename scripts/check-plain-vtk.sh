@@ -15,7 +15,7 @@ fi
 exec "$(dirname "${BASH_SOURCE[0]}")/check-debian.sh" "${folder[@]}" "${2:-bookworm}" bash -c '
   set -euo pipefail
   source scripts/common.sh
-  install_packages $compile_packages $render_packages libvtk9-dev libgtest-dev nlohmann-json3-dev python3-dev python3-vtk9
+  install_packages $compile_packages $render_packages libvtk9-dev libgtest-dev nlohmann-json3-dev python3-dev python3-scipy python3-vtk9
   configure_and_build plain-vtk
   cd build-plain-vtk
   on_display ctest --output-on-failure'
