@@ -77,6 +77,16 @@ def load_meshoptimizer():
     return function
 
 
+def mesh_of(points, ids):
+    """Triangles, three ids after the other."""
+    cells = vtkCellArray()
+    cells.SetData(3, numpy_to_vtkIdTypeArray(ids.astype(numpy.int64), deep=True))
+    mesh = vtkPolyData()
+    mesh.SetPoints(points)
+    mesh.SetPolys(cells)
+    return mesh
+
+
 def simplify(meshopt_simplify, surface, triangles):
     points = vtk_to_numpy(surface.GetPoints().GetData()).astype(numpy.float32)
     ids = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).astype(numpy.uint32)
@@ -86,12 +96,7 @@ def simplify(meshopt_simplify, surface, triangles):
     start = time.perf_counter()
     count = meshopt_simplify(result.ctypes.data, *source, *goal)
     milliseconds = 1000 * (time.perf_counter() - start)
-    cells = vtkCellArray()
-    cells.SetData(3, numpy_to_vtkIdTypeArray(result[:count].astype(numpy.int64), deep=True))
-    mesh = vtkPolyData()
-    mesh.SetPoints(surface.GetPoints())
-    mesh.SetPolys(cells)
-    return mesh, milliseconds
+    return mesh_of(surface.GetPoints(), result[:count]), milliseconds
 
 
 def load_openvdb():
@@ -134,15 +139,9 @@ class OpenVDB:
             middle = (low + high) / 2
             low, high = (low, middle) if len(self.mesh(middle)[1]) <= most else (middle, high)
         points, triangles, milliseconds = self.mesh(high)
-        mesh = vtkPolyData()
         placed = vtkPoints()
         placed.SetData(numpy_to_vtk(self.origin + self.spacing * points, deep=True))
-        mesh.SetPoints(placed)
-        cells = vtkCellArray()
-        ids = triangles[:, ::-1].astype(numpy.int64).ravel()  # faces outward
-        cells.SetData(3, numpy_to_vtkIdTypeArray(ids, deep=True))
-        mesh.SetPolys(cells)
-        return mesh, milliseconds
+        return mesh_of(placed, triangles[:, ::-1].ravel()), milliseconds  # faces outward
 
 
 def isodiamonds(topology, by_field=False):

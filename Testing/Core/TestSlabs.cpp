@@ -212,11 +212,6 @@ void Compare(
     staged.Finish(header.TheModel, SampleView<float>(), threads, options), expected.TheEncoding);
 }
 
-}
-
-namespace
-{
-
 /** What a hierarchy is built of, in slabs or at once. */
 struct RandomCase
 {

@@ -2,6 +2,8 @@
 #ifndef isodiamond_CellsAtPoints_h
 #define isodiamond_CellsAtPoints_h
 
+#include "Simplification/IdRange.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,14 +15,7 @@ namespace isodiamond
 class CellsAtPoints
 {
 public:
-  /** A range of cells. */
-  struct Cells
-  {
-    const std::uint32_t* First;
-    const std::uint32_t* Last;
-    const std::uint32_t* begin() const { return this->First; }
-    const std::uint32_t* end() const { return this->Last; }
-  };
+  using Cells = IdRange;
 
   CellsAtPoints() = default;
 

@@ -12,12 +12,8 @@ Covering::Covering(const TriangleMesh& mesh, const Connectivity& connectivity)
   this->Distances.reserve(mesh.Triangles.size());
   for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
   {
-    const Vector a = mesh.Corner(i, 0);
-    const Vector b = mesh.Corner(i, 1);
-    const Vector c = mesh.Corner(i, 2);
-    const Vector normal = Cross(b - a, c - a);
-    const double length = std::sqrt(Dot(normal, normal));
-    this->Normals.push_back(length > 0.0 ? (1.0 / length) * normal : Vector{});
+    const auto [a, b, c] = mesh.Corners(i);
+    this->Normals.push_back(Unit(Cross(b - a, c - a)));
     this->Distances.emplace_back(a, b, c);
   }
 }
@@ -42,12 +38,8 @@ std::vector<std::uint32_t> Covering::Around(
   const std::array<Vector, 3>& corners, std::uint32_t start, double reach) const
 {
   constexpr std::size_t most = 400;
-  const Vector middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
-  double radius = 0.0;
-  for (const Vector& corner : corners)
-  {
-    radius = std::max(radius, std::sqrt(Dot(corner - middle, corner - middle)));
-  }
+  const auto [middle, radius] = BallAround(corners);
+  const double far = reach + radius;
   std::vector<std::uint32_t> around = { start };
   std::vector<bool> isKnown(this->Mesh.Triangles.size());
   isKnown[start] = true;
@@ -61,7 +53,7 @@ std::vector<std::uint32_t> Covering::Around(
         continue;
       }
       isKnown[next] = true;
-      if (this->Distances[next].Squared(middle) <= (reach + radius) * (reach + radius))
+      if (this->Distances[next].Squared(middle) <= far * far)
       {
         around.push_back(next);
       }

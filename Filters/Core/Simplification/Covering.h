@@ -149,6 +149,22 @@ private:
   static constexpr double UncutPart = 0.3;
   static constexpr int MostDepth = 5;
 
+  struct Ball
+  {
+    Vector Middle;
+    double Radius = 0.0;
+  };
+  static Ball BallAround(const std::array<Vector, 3>& corners)
+  {
+    Ball ball{ (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]) };
+    for (const Vector& corner : corners)
+    {
+      const Vector way = corner - ball.Middle;
+      ball.Radius = std::max(ball.Radius, std::sqrt(Dot(way, way)));
+    }
+    return ball;
+  }
+
   /** Triangles that may be within reach, connected to the start. */
   std::vector<std::uint32_t> Around(
     const std::array<Vector, 3>& corners, std::uint32_t start, double reach) const;
@@ -158,12 +174,7 @@ private:
     double reach, int depth, Use&& use) const
   {
     // Those nearest to the middle first.
-    const Vector middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
-    double radius = 0.0;
-    for (const Vector& corner : corners)
-    {
-      radius = std::max(radius, std::sqrt(Dot(corner - middle, corner - middle)));
-    }
+    const auto [middle, radius] = BallAround(corners);
     std::vector<std::pair<double, std::uint32_t>> near;
     for (const std::uint32_t triangle : around)
     {

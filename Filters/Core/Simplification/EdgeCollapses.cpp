@@ -32,10 +32,10 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, const Connectivity& links, do
   {
     const Triangle& triangle = this->Triangles[i];
     const Vector across = Across(this->Positions, triangle);
-    const double length = std::sqrt(Dot(across, across));
-    this->Normals[i] = length > 0.0 ? (1.0 / length) * across : Vector{};
+    this->Normals[i] = Unit(across);
+    const double area = 0.5 * std::sqrt(Dot(across, across));
     const Quadric plane(
-      this->Positions[triangle[0]] - this->Positions.front(), this->Normals[i], 0.5 * length);
+      this->Positions[triangle[0]] - this->Positions.front(), this->Normals[i], area);
     for (int k = 0; k < 3; ++k)
     {
       this->Neighbours[i][k] = links.Neighbour(i, k);

@@ -120,7 +120,7 @@ private:
 
   double UsedPart;
   const std::vector<Vector>& Positions;
-  const std::vector<Sample>& Samples;
+  const std::vector<SurfaceSample>& Samples;
   std::vector<Triangle> Triangles; ///< the first point is None where one is gone
   std::vector<Triangle> Neighbours;
   std::vector<Vector> Normals;            ///< of unit length
@@ -131,7 +131,7 @@ private:
 
   std::vector<std::uint32_t> AnyTriangle; ///< by vertex
   std::vector<bool> Stays;                ///< at the border, or fixed
-  std::vector<bool> IsLeftAlone; ///< more than one fan of triangles, or more than are counted
+  std::vector<bool> IsLeftAlone;          ///< more than one fan of triangles
   std::vector<Quadric> Quadrics;
   struct Price
   {

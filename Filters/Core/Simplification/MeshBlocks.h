@@ -3,6 +3,7 @@
 #define isodiamond_MeshBlocks_h
 
 #include "Field/Vector.h"
+#include "Simplification/IdRange.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,12 @@ struct MeshBlocks
   std::vector<std::size_t> First;   ///< in that order; and the number of all
 
   std::size_t Count() const { return this->First.size() - 1; }
+
+  /** The triangles of a block, ascending. */
+  IdRange operator[](std::size_t block) const
+  {
+    return { this->Order.data() + this->First[block], this->Order.data() + this->First[block + 1] };
+  }
 };
 
 /**

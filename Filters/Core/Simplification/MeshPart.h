@@ -13,7 +13,7 @@ namespace isodiamond
 
 /** A place of the original mesh that is watched: each of its points, and the middle of each of its
  *  triangles. */
-struct Sample
+struct SurfaceSample
 {
   Vector Position;
   double Allowance = 0.0;
@@ -25,10 +25,10 @@ struct Sample
 struct MeshPart
 {
   AllowedMesh Original;
-  std::vector<Triangle> Triangles; ///< of the simpler mesh, on the points of the original
-  std::vector<bool> IsFixed;       ///< by point: stays
-  std::vector<Sample> Samples;     ///< the points first
-  NearLists Near{ 0 };             ///< by original triangle
+  std::vector<Triangle> Triangles;    ///< of the simpler mesh, on the points of the original
+  std::vector<bool> IsFixed;          ///< by point: stays
+  std::vector<SurfaceSample> Samples; ///< the points first
+  NearLists Near{ 0 };                ///< by original triangle
 };
 
 }

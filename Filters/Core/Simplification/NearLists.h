@@ -2,6 +2,8 @@
 #ifndef isodiamond_NearLists_h
 #define isodiamond_NearLists_h
 
+#include "Simplification/IdRange.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,21 +15,13 @@ namespace isodiamond
 class NearLists
 {
 public:
-  struct List
-  {
-    const std::uint32_t* First;
-    const std::uint32_t* Last;
-    const std::uint32_t* begin() const { return this->First; }
-    const std::uint32_t* end() const { return this->Last; }
-  };
-
   /** Empty ones. */
   explicit NearLists(std::size_t count)
     : Ranges(count)
   {
   }
 
-  List operator[](std::size_t triangle) const
+  IdRange operator[](std::size_t triangle) const
   {
     const std::uint32_t* const first = this->Items.data() + this->Ranges[triangle].First;
     return { first, first + this->Ranges[triangle].Count };

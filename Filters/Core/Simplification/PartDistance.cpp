@@ -89,8 +89,8 @@ private:
     std::vector<bool> isKnown(original.Triangles.size());
     for (std::uint32_t i = 0; i < original.Triangles.size(); ++i)
     {
-      const NearLists::List near = this->Part.Near[i];
-      isKnown[i] = near.begin() != near.end() &&
+      const IdRange near = this->Part.Near[i];
+      isKnown[i] = !near.empty() &&
         std::none_of(
           near.begin(), near.end(), [&](std::uint32_t number) { return this->IsTouched[number]; });
       // Else near one of them that is left, at least.
@@ -125,7 +125,7 @@ private:
   /** Nothing is near to a triangle of the original. */
   void MarkOriginal(std::uint32_t original)
   {
-    const NearLists::List near = this->Part.Near[original];
+    const IdRange near = this->Part.Near[original];
     this->Found.Triangles.insert(this->Found.Triangles.end(), near.begin(), near.end());
     const Triangle& points = this->Part.Original.Mesh.Triangles[original];
     std::copy_if(points.begin(), points.end(), std::back_inserter(this->Found.Points),
@@ -138,9 +138,7 @@ private:
   bool IsNearForth(std::uint32_t original, std::uint32_t& place)
   {
     const double allowance = this->Part.Original.Allowances[original];
-    NearLists& lists = this->Part.Near;
-    const std::vector<std::uint32_t> before(lists[original].begin(), lists[original].end());
-    lists.Begin(original);
+    this->NewNear.clear();
     const bool isNear =
       this->SimpleCover.Covers(this->Part.Original.Mesh.Corners(original), place, allowance,
         [&](std::uint32_t simple, const Vector* corners, int count)
@@ -150,19 +148,19 @@ private:
             return false;
           }
           place = simple;
-          const NearLists::List near = lists[original];
-          if (std::find(near.begin(), near.end(), this->Numbers[simple]) == near.end())
+          const std::uint32_t number = this->Numbers[simple];
+          if (std::find(this->NewNear.begin(), this->NewNear.end(), number) == this->NewNear.end())
           {
-            lists.Add(original, this->Numbers[simple]);
+            this->NewNear.push_back(number);
           }
           return true;
         });
-    if (!isNear)
+    if (isNear)
     {
-      lists.Begin(original);
-      for (const std::uint32_t number : before)
+      this->Part.Near.Begin(original);
+      for (const std::uint32_t number : this->NewNear)
       {
-        lists.Add(original, number);
+        this->Part.Near.Add(original, number);
       }
     }
     return isNear;
@@ -176,6 +174,7 @@ private:
   const std::vector<bool>& IsTouched;
   Connectivity SimpleLinks;
   Covering SimpleCover;
+  std::vector<std::uint32_t> NewNear; ///< of one triangle of the original
   Faults Found;
 };
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Simplification/SimplifiedMesh.h"
 
+#include "Simplification/CellsAtPoints.h"
 #include "Simplification/EdgeCollapses.h"
+#include "Simplification/MeshBlocks.h"
 #include "Simplification/PartDistance.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 namespace isodiamond
 {
@@ -51,61 +53,30 @@ std::vector<Triangle> SimplifyPart(MeshPart& part, double usedPart)
   return collapses.All();
 }
 
-/** Numbers in order of what they belong to: first[i] to first[i + 1] are those of i. */
-struct Groups
+/** What belongs to each part. @param partOf (number) -> part, or None */
+template <typename PartOf>
+CellsAtPoints ByPart(std::size_t parts, std::size_t count, PartOf&& partOf)
 {
-  std::vector<std::size_t> First;
-  std::vector<std::uint32_t> Items;
-
-  /** @param groupOf (number) -> group, or None */
-  template <typename GroupOf>
-  Groups(std::size_t groups, std::size_t count, GroupOf&& groupOf)
-    : First(groups + 1)
-  {
-    for (std::uint32_t i = 0; i < count; ++i)
+  std::uint32_t part = None;
+  return { parts, count,
+    [&](std::size_t number) -> IdRange
     {
-      const std::uint32_t group = groupOf(i);
-      if (group != None)
-      {
-        ++this->First[group + 1];
-      }
-    }
-    std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
-    this->Items.resize(this->First.back());
-    std::vector<std::size_t> next(this->First.begin(), this->First.end() - 1);
-    for (std::uint32_t i = 0; i < count; ++i)
-    {
-      const std::uint32_t group = groupOf(i);
-      if (group != None)
-      {
-        this->Items[next[group]++] = i;
-      }
-    }
-  }
-
-  const std::uint32_t* begin(std::size_t group) const
-  {
-    return this->Items.data() + this->First[group];
-  }
-  const std::uint32_t* end(std::size_t group) const
-  {
-    return this->Items.data() + this->First[group + 1];
-  }
-};
+      part = partOf(static_cast<std::uint32_t>(number));
+      return { &part, part == None ? &part : &part + 1 };
+    } };
+}
 
 }
 
 /** The parts of a pass. */
 struct SimplifiedMesh::Division
 {
+  MeshBlocks Triangles;              ///< of the simpler mesh, by part
   std::vector<std::uint32_t> PartOf; ///< by triangle of the simpler mesh
   std::vector<std::uint32_t> Number; ///< in its part
   std::vector<bool> IsHeld;          ///< by triangle of the simpler mesh
-  Groups Triangles;                  ///< of the simpler mesh, by part
-  Groups Originals;                  ///< by part
-  Groups Samples;                    ///< that lie over triangles, by part
-
-  std::size_t Count() const { return this->Triangles.First.size() - 1; }
+  CellsAtPoints Originals;           ///< by part
+  CellsAtPoints Samples;             ///< that lie over triangles, by part
 };
 
 SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
@@ -143,13 +114,16 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
     middles.push_back(
       (1.0 / 3.0) * (positions[triangle[0]] + positions[triangle[1]] + positions[triangle[2]]));
   }
-  const MeshBlocks blocks = CutIntoBlocks(middles, most, cut);
+  MeshBlocks blocks = CutIntoBlocks(middles, most, cut);
   std::vector<std::uint32_t> partOf(this->Simple.size());
+  std::vector<std::uint32_t> numbers(this->Simple.size());
   for (std::uint32_t part = 0; part < blocks.Count(); ++part)
   {
-    for (std::size_t i = blocks.First[part]; i < blocks.First[part + 1]; ++i)
+    const IdRange triangles = blocks[part];
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
     {
-      partOf[blocks.Order[i]] = part;
+      partOf[triangles[i]] = part;
+      numbers[triangles[i]] = i;
     }
   }
   // Original triangles that belong to more than one part hold all that they are near to.
@@ -157,7 +131,7 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
   std::vector<std::uint32_t> ownerOf(this->Original.Mesh.Triangles.size());
   for (std::size_t i = 0; i < ownerOf.size(); ++i)
   {
-    const NearLists::List near = this->Near[i];
+    const IdRange near = this->Near[i];
     ownerOf[i] = partOf[*near.begin()];
     if (std::any_of(near.begin(), near.end(),
           [&](std::uint32_t triangle) { return partOf[triangle] != ownerOf[i]; }))
@@ -167,34 +141,33 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
         near.begin(), near.end(), [&](std::uint32_t triangle) { isHeld[triangle] = true; });
     }
   }
-  const std::size_t count = blocks.Count();
-  Groups triangles(count, partOf.size(), [&](std::uint32_t i) { return partOf[i]; });
-  std::vector<std::uint32_t> numbers(partOf.size());
-  for (std::size_t i = 0; i < triangles.Items.size(); ++i)
-  {
-    const std::uint32_t triangle = triangles.Items[i];
-    numbers[triangle] = static_cast<std::uint32_t>(i - triangles.First[partOf[triangle]]);
-  }
-  Groups originals(count, ownerOf.size(), [&](std::uint32_t i) { return ownerOf[i]; });
-  Groups samples(count, this->Samples.size(),
+  CellsAtPoints originals =
+    ByPart(blocks.Count(), ownerOf.size(), [&](std::uint32_t i) { return ownerOf[i]; });
+  CellsAtPoints samples = ByPart(blocks.Count(), this->Samples.size(),
     [&](std::uint32_t i)
     {
       const std::uint32_t home = this->Samples[i].Home;
       return home == None ? None : partOf[home];
     });
-  return { std::move(partOf), std::move(numbers), std::move(isHeld), std::move(triangles),
+  return { std::move(blocks), std::move(partOf), std::move(numbers), std::move(isHeld),
     std::move(originals), std::move(samples) };
 }
 
 MeshPart SimplifiedMesh::Take(
-  const Division& division, std::size_t number, std::vector<std::uint32_t>& points) const
+  const Division& division, std::uint32_t number, std::vector<std::uint32_t>& points) const
 {
+  const IdRange triangles = division.Triangles[number];
+  const IdRange originals = division.Originals[number];
   const auto add = [&](const Triangle& triangle)
   { points.insert(points.end(), triangle.begin(), triangle.end()); };
-  std::for_each(division.Triangles.begin(number), division.Triangles.end(number),
-    [&](std::uint32_t triangle) { add(this->Simple[triangle]); });
-  std::for_each(division.Originals.begin(number), division.Originals.end(number),
-    [&](std::uint32_t triangle) { add(this->Original.Mesh.Triangles[triangle]); });
+  for (const std::uint32_t triangle : triangles)
+  {
+    add(this->Simple[triangle]);
+  }
+  for (const std::uint32_t original : originals)
+  {
+    add(this->Original.Mesh.Triangles[original]);
+  }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   const auto rename = [&](Triangle triangle)
@@ -213,30 +186,26 @@ MeshPart SimplifiedMesh::Take(
     part.Original.Mesh.Positions.push_back(this->Original.Mesh.Positions[point]);
     part.Samples.push_back({ this->Samples[point].Position, this->Samples[point].Allowance, None });
   }
-  std::for_each(division.Samples.begin(number), division.Samples.end(number),
-    [&](std::uint32_t sample)
-    {
-      part.Samples.push_back(this->Samples[sample]);
-      part.Samples.back().Home = division.Number[this->Samples[sample].Home];
-    });
-  for (const std::uint32_t* i = division.Triangles.begin(number);
-       i != division.Triangles.end(number); ++i)
+  for (const std::uint32_t sample : division.Samples[number])
   {
-    part.Triangles.push_back(rename(this->Simple[*i]));
+    part.Samples.push_back(this->Samples[sample]);
+    part.Samples.back().Home = division.Number[this->Samples[sample].Home];
+  }
+  for (const std::uint32_t triangle : triangles)
+  {
+    part.Triangles.push_back(rename(this->Simple[triangle]));
     for (const std::uint32_t point : part.Triangles.back())
     {
-      part.IsFixed[point] = part.IsFixed[point] || division.IsHeld[*i];
+      part.IsFixed[point] = part.IsFixed[point] || division.IsHeld[triangle];
     }
   }
-  const auto originals = division.Originals.end(number) - division.Originals.begin(number);
-  part.Near = NearLists(originals);
-  for (std::ptrdiff_t i = 0; i < originals; ++i)
+  part.Near = NearLists(originals.size());
+  for (std::size_t i = 0; i < originals.size(); ++i)
   {
-    const std::uint32_t original = division.Originals.begin(number)[i];
-    part.Original.Mesh.Triangles.push_back(rename(this->Original.Mesh.Triangles[original]));
-    part.Original.Allowances.push_back(this->Original.Allowances[original]);
+    part.Original.Mesh.Triangles.push_back(rename(this->Original.Mesh.Triangles[originals[i]]));
+    part.Original.Allowances.push_back(this->Original.Allowances[originals[i]]);
     part.Near.Begin(i);
-    for (const std::uint32_t near : this->Near[original])
+    for (const std::uint32_t near : this->Near[originals[i]])
     {
       part.Near.Add(i, division.Number[near]);
     }
@@ -256,12 +225,12 @@ void SimplifiedMesh::Simplify(
   std::size_t most, double cut, double usedPart, const ParallelFor& parallelFor)
 {
   const Division division = this->Divide(most, cut);
-  std::vector<Made> made(division.Count());
+  std::vector<Made> made(division.Triangles.Count());
   ForEachIndex(parallelFor, made.size(), 1,
     [&](std::int64_t number)
     {
       std::vector<std::uint32_t> points;
-      MeshPart part = this->Take(division, number, points);
+      MeshPart part = this->Take(division, static_cast<std::uint32_t>(number), points);
       made[number].Triangles = SimplifyPart(part, usedPart);
       for (Triangle& triangle : made[number].Triangles)
       {
@@ -276,7 +245,7 @@ void SimplifiedMesh::Simplify(
         if (part.Samples[i].Home != None)
         {
           made[number].Homes.emplace_back(
-            i < points.size() ? points[i] : division.Samples.begin(number)[i - points.size()],
+            i < points.size() ? points[i] : division.Samples[number][i - points.size()],
             part.Samples[i].Home);
         }
       }
@@ -295,7 +264,7 @@ void SimplifiedMesh::PutTogether(const Division& division, const std::vector<Mad
     {
       if (made[number].Triangles[i][0] != None)
       {
-        renamed[division.Triangles.begin(number)[i]] = static_cast<std::uint32_t>(simple.size());
+        renamed[division.Triangles[number][i]] = static_cast<std::uint32_t>(simple.size());
         simple.push_back(made[number].Triangles[i]);
       }
     }
@@ -306,19 +275,19 @@ void SimplifiedMesh::PutTogether(const Division& division, const std::vector<Mad
   std::vector<bool> isOwned(originals);
   for (std::size_t number = 0; number < made.size(); ++number)
   {
-    const std::uint32_t* const triangles = division.Triangles.begin(number);
+    const IdRange triangles = division.Triangles[number];
+    const IdRange ids = division.Originals[number];
     for (const auto& [sample, home] : made[number].Homes)
     {
       this->Samples[sample].Home = renamed[triangles[home]];
     }
-    const std::uint32_t* original = division.Originals.begin(number);
-    for (std::size_t i = 0; original != division.Originals.end(number); ++i, ++original)
+    for (std::size_t i = 0; i < ids.size(); ++i)
     {
-      isOwned[*original] = true;
-      near.Begin(*original);
+      isOwned[ids[i]] = true;
+      near.Begin(ids[i]);
       for (const std::uint32_t triangle : made[number].Near[i])
       {
-        near.Add(*original, renamed[triangles[triangle]]);
+        near.Add(ids[i], renamed[triangles[triangle]]);
       }
     }
   }

@@ -3,7 +3,6 @@
 #define isodiamond_SimplifiedMesh_h
 
 #include "Field/Parallel.h"
-#include "Simplification/MeshBlocks.h"
 #include "Simplification/MeshPart.h"
 
 #include <vector>
@@ -38,13 +37,13 @@ private:
   Division Divide(std::size_t most, double cut) const;
   /** @param points is given the part's points as they are in the mesh */
   MeshPart Take(
-    const Division& division, std::size_t number, std::vector<std::uint32_t>& points) const;
+    const Division& division, std::uint32_t number, std::vector<std::uint32_t>& points) const;
   void PutTogether(const Division& division, const std::vector<Made>& made);
 
   const AllowedMesh& Original;
   std::vector<Triangle> Simple;
-  std::vector<Sample> Samples; ///< the points, then the middles of triangles
-  NearLists Near;              ///< by original triangle
+  std::vector<SurfaceSample> Samples; ///< the points, then the middles of triangles
+  NearLists Near;                     ///< by original triangle
 };
 
 }

@@ -6,6 +6,7 @@
 #include "Simplification/CellsAtPoints.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,13 @@ inline Vector Across(const std::vector<Vector>& positions, const Triangle& trian
 {
   const Vector& a = positions[triangle[0]];
   return Cross(positions[triangle[1]] - a, positions[triangle[2]] - a);
+}
+
+/** A vector of length 1 in the same direction; 0 of one without a length. */
+inline Vector Unit(const Vector& vector)
+{
+  const double length = std::sqrt(Dot(vector, vector));
+  return length > 0.0 ? (1.0 / length) * vector : Vector{};
 }
 
 /** Triangles by the ids of their points, with one orientation. */

@@ -2,7 +2,6 @@
 #include "Simplification/EdgeCollapses.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace isodiamond
 {
@@ -73,9 +72,7 @@ void EdgeCollapses::GiveBackSamples(const Step& step)
     const std::uint32_t triangle = this->TrianglesOfSteps[step.First + i];
     hole.Points[i] = this->PointsOfSteps[step.First + i];
     hole.Triangles[i] = triangle;
-    const Vector across = Across(this->Positions, this->Triangles[triangle]);
-    const double length = std::sqrt(Dot(across, across));
-    this->Normals[triangle] = length > 0.0 ? (1.0 / length) * across : Vector{};
+    this->Normals[triangle] = Unit(Across(this->Positions, this->Triangles[triangle]));
     const bool wasThere = i > 0 && i < step.Count - 1;
     for (std::uint32_t at = wasThere ? this->FirstSample[triangle] : None; at != None;
          at = this->NextSample[at])
