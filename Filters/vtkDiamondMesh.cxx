@@ -4,17 +4,18 @@
 #include "Mesh/DiamondMesh.h"
 #include "Private/Arrays.h"
 #include "Private/Cells.h"
+#include "Private/Mesh.h"
+#include "Private/Piece.h"
 #include "Private/State.h"
 #include "Private/Task.h"
 #include "Private/WorldQuery.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkCellType.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
 #include "vtkSignedCharArray.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -25,12 +26,12 @@ vtkStandardNewMacro(vtkDiamondMesh);
 namespace
 {
 
-void AddArray(vtkUnstructuredGrid* output, const char* name, const std::vector<std::int8_t>& values)
+void AddArray(const char* name, const std::vector<std::int8_t>& values, vtkIsodiamond::Mesh& output)
 {
   const auto array =
     vtkIsodiamond::NewArray<vtkSignedCharArray>(name, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
-  output->GetCellData()->AddArray(array);
+  output.CellData->AddArray(array);
 }
 
 }
@@ -57,11 +58,12 @@ void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
   const vtkIsodiamond::WorldQuery& /*query*/, const isodiamond::RefinedSet& refined,
   vtkIsodiamond::Task& task, vtkDataObject* data)
 {
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::SafeDownCast(data);
   task.Begin("Collecting tetrahedra", 0.0, 1.0);
   const isodiamond::DiamondMesh mesh = isodiamond::ExtractDiamondMesh(refined);
   const isodiamond::AffineMap& world = state.World;
-  vtkNew<vtkPoints> points;
+  vtkIsodiamond::Mesh output;
+  output.Points = vtkSmartPointer<vtkPoints>::New();
+  vtkPoints* const points = output.Points;
   points->GetData()->SetNumberOfComponents(3);
   vtkIsodiamond::AllocateTuples(points->GetData(), static_cast<vtkIdType>(mesh.Points.size()));
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
@@ -69,7 +71,7 @@ void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
     const isodiamond::Point& p = mesh.Points[i];
     points->SetPoint(static_cast<vtkIdType>(i), world(p[0], p[1], p[2]).data());
   }
-  const auto cells =
+  output.Cells =
     vtkIsodiamond::WriteCells(static_cast<std::int64_t>(mesh.Tetrahedra.size()), 4, task.For(),
       [&](auto* connectivity)
       {
@@ -82,8 +84,8 @@ void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
           connectivity = std::copy(ids.begin(), ids.end(), connectivity);
         }
       });
-  output->SetPoints(points);
-  vtkIsodiamond::GiveCells(output, VTK_TETRA, cells);
-  AddArray(output, "Level", mesh.Levels);
-  AddArray(output, "Class", mesh.Classes);
+  AddArray("Level", mesh.Levels, output);
+  AddArray("Class", mesh.Classes, output);
+  vtkIsodiamond::KeepShare(this->Piece, output);
+  output.Give(vtkUnstructuredGrid::SafeDownCast(data), true);
 }

@@ -3,9 +3,7 @@
 
 #include "Private/Input.h"
 #include "Private/Mesh.h"
-#include "Private/Piece.h"
 #include "Private/Simplify.h"
-#include "Private/Simulation.h"
 #include "Private/Target.h"
 #include "Private/WorldQuery.h"
 
@@ -269,7 +267,6 @@ int vtkIsodiamondExtractor::RequestData(
         task.For(),
         [&](const isodiamond::RefinedSet& refined)
         { this->WriteMesh(*execution->State, query, refined, writing, output); });
-      vtkIsodiamond::KeepPiece(output, this->Piece);
       this->NoteTolerance(query.ErrorTolerance, aimed ? &*aimed : nullptr, output);
       this->Last = std::move(execution);
     });
@@ -330,7 +327,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
       [&](const isodiamond::RefinedSet& refined)
       {
         cells = query.Simplify
-          ? this->MakeMesh(state, tried, refined, counting).Cells->GetNumberOfCells()
+          ? this->MakeMesh(state, tried, refined, { 0, 1 }, counting).Cells->GetNumberOfCells()
           : isodiamond::CountCells(refined, parallelFor);
       });
     return cells;
@@ -360,7 +357,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetExtracted(
 //------------------------------------------------------------------------------
 vtkIsodiamond::Mesh vtkIsodiamondExtractor::MakeMesh(const vtkIsodiamond::State& state,
   const vtkIsodiamond::WorldQuery& query, const isodiamond::RefinedSet& refined,
-  vtkIsodiamond::Task& task) const
+  const std::array<int, 2>& piece, vtkIsodiamond::Task& task) const
 {
   const isodiamond::GridGeometry world = state.World;
   vtkIsodiamond::MeshOptions options{ world, state.ArrayName };
@@ -371,19 +368,8 @@ vtkIsodiamond::Mesh vtkIsodiamondExtractor::MakeMesh(const vtkIsodiamond::State&
   {
     options.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
   }
-  vtkIsodiamond::Task extracting = task.Part(0.0, query.Simplify ? 0.4 : 1.0);
-  if (query.SimulationQuality)
-  {
-    return vtkIsodiamond::ExtractForSimulation(refined, query, options, extracting);
-  }
-  vtkIsodiamond::Mesh mesh = vtkIsodiamond::ExtractMesh(refined, options, extracting);
-  if (query.Simplify)
-  {
-    task.Begin("Simplifying", 0.4, 1.0);
-    vtkIsodiamond::SimplifyMesh(
-      query, vtkIsodiamond::Measure(*state.Isodiamonds), world, task.For(), mesh);
-  }
-  return mesh;
+  options.Piece = piece;
+  return vtkIsodiamond::ExtractAsAsked(refined, query, options, task);
 }
 
 //------------------------------------------------------------------------------
@@ -398,7 +384,8 @@ void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
     throw std::invalid_argument("Tetrahedra of an interval volume need an unstructured grid: poly "
                                 "data are for isosurfaces.");
   }
-  const vtkIsodiamond::Mesh mesh = this->MakeMesh(state, query, refined, task);
+  const vtkIsodiamond::Mesh mesh =
+    this->MakeMesh(state, query, refined, { this->Piece[0], this->Piece[1] }, task);
   this->NoteDihedralAngles(mesh, output);
   if (surface)
   {

@@ -15,7 +15,7 @@
  * tolerance costs less time, in proportion to what it returns. All tetrahedra have positive
  * volume; every face of one is a face of another, or lies on a surface or the image's boundary.
  *
- * In parallel every process needs the whole hierarchy, and keeps its share of the mesh's cells: all
+ * In parallel every process needs the whole hierarchy, and makes its share of the mesh's cells: all
  * pieces together are the mesh, with each cell once.
  *
  * @warning With an open boundary, a surface's edges on the image's boundary have one triangle.
@@ -188,7 +188,7 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  /** Makes the output of a query. */
+  /** Makes the output of a query: the share of it that is asked for. */
   virtual void WriteMesh(const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query,
     const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkDataObject* output);
 
@@ -218,7 +218,7 @@ private:
     const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task);
   vtkIsodiamond::Mesh MakeMesh(const vtkIsodiamond::State& state,
     const vtkIsodiamond::WorldQuery& query, const isodiamond::RefinedSet& refined,
-    vtkIsodiamond::Task& task) const;
+    const std::array<int, 2>& piece, vtkIsodiamond::Task& task) const;
   vtkIsodiamond::WorldQuery GetExtracted(
     const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query) const;
   void WarnOfUnusedValues(const vtkIsodiamond::State& state);

@@ -3,6 +3,7 @@
 
 #include "Private/Arrays.h"
 #include "Private/Cells.h"
+#include "Private/Mesh.h"
 #include "Private/Piece.h"
 #include "Private/State.h"
 #include "Private/Task.h"
@@ -12,11 +13,11 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIsodiamondHierarchy.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkSignedCharArray.h"
+#include "vtkSmartPointer.h"
 
 #include <numeric>
 #include <stdexcept>
@@ -42,11 +43,13 @@ void ForEachIsodiamond(const isodiamond::IsodiamondHierarchy& hierarchy, Body&& 
 }
 
 void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
-  const isodiamond::AffineMap& world, vtkPolyData* output)
+  const isodiamond::AffineMap& world, const int piece[2], vtkPolyData* output)
 {
   vtkIdType count = 0;
   ForEachIsodiamond(hierarchy, [&](const isodiamond::Place&, std::uint32_t) { ++count; });
-  vtkNew<vtkPoints> points;
+  vtkIsodiamond::Mesh mesh;
+  mesh.Points = vtkSmartPointer<vtkPoints>::New();
+  vtkPoints* const points = mesh.Points;
   points->GetData()->SetNumberOfComponents(3);
   vtkIsodiamond::AllocateTuples(points->GetData(), count);
   const auto kinds = vtkIsodiamond::NewArray<vtkSignedCharArray>("Kind", count);
@@ -67,15 +70,17 @@ void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
       errors->SetValue(id, hierarchy.Codes().Decode(hierarchy.Threshold(rank)));
       ++id;
     });
-  const auto vertices = vtkIsodiamond::WriteCells(count, 1, isodiamond::SerialFor,
+  mesh.Cells = vtkIsodiamond::WriteCells(count, 1, isodiamond::SerialFor,
     [count](auto* connectivity)
     { std::iota(connectivity, connectivity + count, std::decay_t<decltype(*connectivity)>{}); });
-  output->SetPoints(points);
-  output->SetVerts(vertices);
-  output->GetPointData()->SetScalars(kinds);
-  output->GetPointData()->AddArray(classes);
-  output->GetPointData()->AddArray(levels);
-  output->GetPointData()->AddArray(errors);
+  mesh.PointData->SetScalars(kinds);
+  mesh.PointData->AddArray(classes);
+  mesh.PointData->AddArray(levels);
+  mesh.PointData->AddArray(errors);
+  vtkIsodiamond::KeepShare(piece, mesh);
+  output->SetPoints(mesh.Points);
+  output->SetVerts(mesh.Cells);
+  output->GetPointData()->ShallowCopy(mesh.PointData);
 }
 
 }
@@ -127,7 +132,6 @@ int vtkIsodiamondPoints::RequestData(
         throw std::invalid_argument("A hierarchy of diamonds (HD) stores no isodiamonds; build a "
                                     "relevant or minimal hierarchy from it.");
       }
-      WritePoints(*state->Isodiamonds, state->World, output);
-      vtkIsodiamond::KeepPiece(output, this->Piece);
+      WritePoints(*state->Isodiamonds, state->World, this->Piece, output);
     });
 }

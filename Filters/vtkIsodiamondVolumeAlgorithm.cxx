@@ -222,7 +222,6 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
           vtkIsodiamond::Task extracting = task.Part(built, 1.0);
           this->ExtractAtTolerance(volume, query, unit, extracting, output);
         });
-      vtkIsodiamond::KeepPiece(output, this->Piece);
       this->NumberOfRemovedPieces += this->RemovedFromBlock;
       if (this->MinimumPieceSize > 0)
       {
@@ -382,6 +381,7 @@ vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamon
     ? vtkIsodiamond::FromHierarchy(
         hierarchy, this->Hierarchies->StoredPointData(volume, region, need, wanted, building))
     : vtkIsodiamond::FromVolume(volume, wanted);
+  options.Piece = { this->Piece[0], this->Piece[1] };
   this->RemovedFromBlock += hierarchy.Header().RemovedPieces;
   vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
   return vtkIsodiamond::ExtractAsAsked(hierarchy, query, options, extracting);

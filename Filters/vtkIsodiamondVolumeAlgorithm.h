@@ -15,9 +15,9 @@
  * the field metric. Full resolution needs no metric.
  *
  * The whole input is requested, or slab after slab of it if memory is short (NumberOfBlocks). In
- * parallel every process makes the whole mesh and keeps its share
- * of the cells: all pieces together are the mesh, with each cell once. Where the input can come in
- * slabs, each process asks for its share of these only, and measures its share of the errors.
+ * parallel every process makes its share of the cells of each isosurface, or of the interval
+ * volume: all pieces together are the mesh, with each cell once. Where the input can come in slabs,
+ * each process asks for its share of these only, and measures its share of the errors.
  *
  * @sa vtkIsodiamondContour vtkIsodiamondIntervalVolume
  */

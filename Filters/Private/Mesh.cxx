@@ -5,6 +5,7 @@
 #include "Mesh/SurfaceExtraction.h"
 #include "Private/Arrays.h"
 #include "Private/Cells.h"
+#include "Private/Piece.h"
 #include "Private/Stuff.h"
 #include "Private/Tuples.h"
 
@@ -55,6 +56,39 @@ vtkSmartPointer<vtkPoints> WritePoints(
   vtkSmartPointer<vtkPoints> points = vtkSmartPointer<vtkPoints>::New();
   points->SetData(coordinates);
   return points;
+}
+
+/** Whether cells change after they have been written: only all of them tell what a share is. */
+bool AreCellsChanged(const MeshOptions& options)
+{
+  return options.ForSimulation || (options.Hidden != nullptr && options.Hidden->Any());
+}
+
+/** The cells that are to be written. @param count of the whole mesh */
+isodiamond::CellRange CellsWanted(std::int64_t count, const MeshOptions& options)
+{
+  return AreCellsChanged(options) ? isodiamond::CellRange{ 0, count }
+                                  : ShareOf(count, options.Piece.data());
+}
+
+/** Adds a range of an extraction's cells, to which its points are limited.
+ *  @param write (ids, levels) */
+template <typename Extraction, typename Write>
+void AddCells(Extraction& extraction, const isodiamond::CellRange& cells, int size,
+  const MeshOptions& options, const isodiamond::ParallelFor& parallelFor, Mesh& mesh,
+  const Write& write)
+{
+  const auto levels = NewArray<vtkSignedCharArray>("Level", cells.Count());
+  mesh.Cells = WriteCells(cells.Count(), size, parallelFor,
+    [&](auto* connectivity)
+    {
+      write(connectivity, levels->GetPointer(0));
+      if (options.Piece[1] > 1 && !AreCellsChanged(options))
+      {
+        extraction.KeepPointsOf(connectivity, cells.Count());
+      }
+    });
+  mesh.CellData->AddArray(levels);
 }
 
 template <typename Extraction>
@@ -178,13 +212,12 @@ void Complete(const Extraction& extraction, const MeshOptions& options, Mesh& me
 void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
-  const isodiamond::IntervalExtraction extraction(refined, parallelFor);
+  isodiamond::IntervalExtraction extraction(refined, parallelFor);
+  const isodiamond::CellRange cells = CellsWanted(extraction.TetrahedronCount(), options);
+  AddCells(extraction, cells, 4, options, parallelFor, mesh,
+    [&](auto* connectivity, std::int8_t* levels)
+    { extraction.WriteTetrahedra(cells, options.World.Mirrors(), connectivity, levels); });
   AddPoints(extraction, options, true, mesh);
-  const auto levels = NewArray<vtkSignedCharArray>("Level", extraction.TetrahedronCount());
-  mesh.Cells = WriteCells(extraction.TetrahedronCount(), 4, parallelFor,
-    [&](auto* connectivity)
-    { extraction.WriteTetrahedra(options.World.Mirrors(), connectivity, levels->GetPointer(0)); });
-  mesh.CellData->AddArray(levels);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
   {
     AddValues<vtkDoubleArray>(extraction, options.ArrayName, mesh);
@@ -205,13 +238,12 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
 void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
-  const isodiamond::SurfaceExtraction extraction(refined, parallelFor);
+  isodiamond::SurfaceExtraction extraction(refined, parallelFor);
+  const isodiamond::CellRange cells = CellsWanted(extraction.TriangleCount(), options);
+  AddCells(extraction, cells, 3, options, parallelFor, mesh,
+    [&](auto* connectivity, std::int8_t* levels)
+    { extraction.WriteTriangles(cells, options.World.Mirrors(), connectivity, levels); });
   AddPoints(extraction, options, false, mesh);
-  const auto levels = NewArray<vtkSignedCharArray>("Level", extraction.TriangleCount());
-  mesh.Cells = WriteCells(extraction.TriangleCount(), 3, parallelFor,
-    [&](auto* connectivity)
-    { extraction.WriteTriangles(options.World.Mirrors(), connectivity, levels->GetPointer(0)); });
-  mesh.CellData->AddArray(levels);
   if (options.WithValues)
   {
     const auto values = NewArray<vtkFloatArray>(options.ArrayName.c_str(), extraction.PointCount());
@@ -254,6 +286,10 @@ Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& optio
   else
   {
     ExtractSurface(refined, options, task.For(), mesh);
+  }
+  if (AreCellsChanged(options))
+  {
+    KeepShare(options.Piece.data(), mesh);
   }
   return mesh;
 }

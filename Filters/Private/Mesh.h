@@ -55,13 +55,16 @@ struct MeshOptions
   int PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;
   PointDataMaker MorePointData = nullptr;
   const isodiamond::HiddenCells* Hidden = nullptr; ///< what lies in them is left out
-  bool ForSimulation = false;                      ///< see Stuff.h; of an interval volume
+  /** The share that is wanted, and the number of shares: see Piece.h. */
+  std::array<int, 2> Piece = { 0, 1 };
+  bool ForSimulation = false;     ///< see Stuff.h; of an interval volume
   double DistanceTolerance = 0.0; ///< the least that it may be away from full resolution
   /** The same in a triangle or tetrahedron, by its corners in the world; none to not measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
 };
 
-/** Extracts a mesh. Runs in the calling thread's vtkSMPTools scope. */
+/** Extracts a mesh, or a share of it: of that no more is written than there is in it, unless cells
+ *  have to be left out or moved first. Runs in the calling thread's vtkSMPTools scope. */
 Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& options, Task& task);
 
 }

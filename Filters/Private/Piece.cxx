@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Piece.h"
 
+#include "Mesh/ExtractionPasses.h"
 #include "Private/Arrays.h"
-#include "Private/Cells.h"
+#include "Private/Mesh.h"
 #include "Private/Tuples.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
+#include "vtkDataObject.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <numeric>
@@ -33,74 +31,41 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-/** A range of cells, and the points that they use. */
-struct Part
-{
-  vtkIdType FirstCell = 0;
-  vtkIdType LastCell = 0; ///< not in it
-  std::vector<vtkIdType> Points;
-  vtkSmartPointer<vtkCellArray> Cells; ///< with indices into Points
-};
-
-/** Ids of the whole's points become ids of the part's, in the same order. */
+/** Leaves a range of cells. @return the points that these have, whose ids become those among them,
+ *  in the same order */
 template <typename Array>
-void MakePart(vtkCellArray* cells, vtkIdType pointCount, Part& part)
+std::vector<vtkIdType> KeepCells(
+  const isodiamond::CellRange& range, vtkIdType pointCount, vtkSmartPointer<vtkCellArray>& cells)
 {
   using Id = typename Array::ValueType;
   // As they were given to SetData: none but our own cells come here.
   auto* offsets = vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetOffsetsArray());
   auto* connectivity = vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetConnectivityArray());
   const Id* offset = offsets->GetPointer(0);
-  const Id* begin = connectivity->GetPointer(0) + offset[part.FirstCell];
-  const Id* end = connectivity->GetPointer(0) + offset[part.LastCell];
+  const Id* begin = connectivity->GetPointer(0) + offset[range.First];
+  const Id* end = connectivity->GetPointer(0) + offset[range.Last];
 
-  std::vector<Id> newIds(pointCount, 0); // first whether a point is used
-  for (const Id* id = begin; id != end; ++id)
-  {
-    newIds[*id] = 1;
-  }
-  const vtkIdType used = std::accumulate(newIds.begin(), newIds.end(), vtkIdType{ 0 });
-  part.Points.reserve(static_cast<std::size_t>(used));
+  const isodiamond::KeptPoints kept(pointCount, begin, end - begin, isodiamond::SerialFor);
+  std::vector<vtkIdType> points;
+  points.reserve(kept.Count());
   for (vtkIdType id = 0; id < pointCount; ++id)
   {
-    if (newIds[id] != 0)
+    if (kept.Contains(id))
     {
-      newIds[id] = static_cast<Id>(part.Points.size());
-      part.Points.push_back(id);
+      points.push_back(id);
     }
   }
-
   vtkNew<Array> newOffsets;
-  AllocateTuples(newOffsets, part.LastCell - part.FirstCell + 1);
-  std::transform(offset + part.FirstCell, offset + part.LastCell + 1, newOffsets->GetPointer(0),
-    [first = offset[part.FirstCell]](Id value) { return value - first; });
+  AllocateTuples(newOffsets, range.Count() + 1);
+  std::transform(offset + range.First, offset + range.Last + 1, newOffsets->GetPointer(0),
+    [first = offset[range.First]](Id value) { return value - first; });
   vtkNew<Array> newConnectivity;
   AllocateTuples(newConnectivity, end - begin);
-  std::transform(
-    begin, end, newConnectivity->GetPointer(0), [&newIds](Id id) { return newIds[id]; });
-  part.Cells = vtkSmartPointer<vtkCellArray>::New();
-  part.Cells->SetData(newOffsets, newConnectivity);
-}
-
-void KeepPart(vtkCellArray* cells, const int piece[2], vtkPointSet* mesh, Part& part)
-{
-  const vtkIdType count = cells->GetNumberOfCells();
-  const int number = std::clamp(piece[0], 0, piece[1]);
-  part.FirstCell = count * number / piece[1];
-  part.LastCell = count * std::min(number + 1, piece[1]) / piece[1];
-  if (cells->IsStorage64Bit())
-  {
-    MakePart<vtkTypeInt64Array>(cells, mesh->GetNumberOfPoints(), part);
-  }
-  else
-  {
-    MakePart<vtkTypeInt32Array>(cells, mesh->GetNumberOfPoints(), part);
-  }
-  mesh->SetPoints(PointsOf(mesh->GetPoints(), part.Points));
-  KeepTuples(mesh->GetPointData(), part.Points);
-  std::vector<vtkIdType> cellIds(part.LastCell - part.FirstCell);
-  std::iota(cellIds.begin(), cellIds.end(), part.FirstCell);
-  KeepTuples(mesh->GetCellData(), cellIds);
+  std::copy(begin, end, newConnectivity->GetPointer(0));
+  kept.Rename(newConnectivity->GetPointer(0), end - begin, isodiamond::SerialFor);
+  cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(newOffsets, newConnectivity);
+  return points;
 }
 
 }
@@ -154,33 +119,28 @@ void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const i
   }
 }
 
-void KeepPiece(vtkDataObject* mesh, const int piece[2])
+isodiamond::CellRange ShareOf(std::int64_t cells, const int piece[2])
 {
-  vtkPointSet* points = vtkPointSet::SafeDownCast(mesh);
-  if ((piece[0] == 0 && piece[1] == 1) || !points || !points->GetPoints())
+  const int number = std::clamp(piece[0], 0, piece[1]);
+  return { cells * number / piece[1], cells * std::min(number + 1, piece[1]) / piece[1] };
+}
+
+void KeepShare(const int piece[2], Mesh& mesh)
+{
+  if (piece[0] == 0 && piece[1] == 1)
   {
     return;
   }
-  Part part;
-  if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(mesh))
-  {
-    if (polyData->GetNumberOfVerts() > 0)
-    {
-      KeepPart(polyData->GetVerts(), piece, polyData, part);
-      polyData->SetVerts(part.Cells);
-    }
-    else
-    {
-      KeepPart(polyData->GetPolys(), piece, polyData, part);
-      polyData->SetPolys(part.Cells);
-    }
-  }
-  else if (vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(mesh))
-  {
-    const int type = grid->GetNumberOfCells() > 0 ? grid->GetCellType(0) : VTK_EMPTY_CELL;
-    KeepPart(grid->GetCells(), piece, grid, part);
-    GiveCells(grid, type, part.Cells);
-  }
+  const isodiamond::CellRange range = ShareOf(mesh.Cells->GetNumberOfCells(), piece);
+  const vtkIdType pointCount = mesh.Points->GetNumberOfPoints();
+  const std::vector<vtkIdType> points = mesh.Cells->IsStorage64Bit()
+    ? KeepCells<vtkTypeInt64Array>(range, pointCount, mesh.Cells)
+    : KeepCells<vtkTypeInt32Array>(range, pointCount, mesh.Cells);
+  mesh.Points = PointsOf(mesh.Points, points);
+  KeepTuples(mesh.PointData, points);
+  std::vector<vtkIdType> cellIds(range.Count());
+  std::iota(cellIds.begin(), cellIds.end(), range.First);
+  KeepTuples(mesh.CellData, cellIds);
 }
 
 }

@@ -2,7 +2,9 @@
 #ifndef vtkIsodiamond_Piece_h
 #define vtkIsodiamond_Piece_h
 
-#include "vtkType.h"
+#include "Mesh/ExtractionPasses.h"
+
+#include <cstdint>
 
 class vtkAlgorithm;
 class vtkDataObject;
@@ -10,11 +12,13 @@ class vtkInformation;
 
 /**
  * @file Piece.h
- * In parallel every process makes the whole mesh, from the whole input, and keeps its share of it.
- * See docs/parallel.md.
+ * In parallel every process has the whole hierarchy, and gives its share of the mesh. See
+ * docs/parallel.md.
  */
 namespace vtkIsodiamond
 {
+
+struct Mesh;
 
 /** Asks for the whole input: a hierarchy of a part of a volume is another hierarchy, and of a part
  *  of a hierarchy there is no mesh. */
@@ -38,17 +42,19 @@ void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piec
  */
 void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int piece[2]);
 
+/** The cells of a share: those from cells * piece / pieces until the same of the next piece. Shares
+ *  differ by at most one cell; where there are more of them than cells, some have none.
+ *  @param cells their number in the whole mesh @param piece its number, and number of pieces */
+isodiamond::CellRange ShareOf(std::int64_t cells, const int piece[2]);
+
 /**
- * Leaves a piece of a mesh: its cells from cells * piece / pieces until the same of the next piece,
- * and the points that these use, both in the mesh's order, with all their data. All pieces together
- * have each cell once; points between two pieces are in both, the same to the bit. More pieces than
- * cells leave some without a cell, but with all arrays.
+ * Leaves a share of a mesh: its cells, and the points that these use, both in the mesh's order,
+ * with all their data. All shares together have each cell once; points between two are in both, the
+ * same to the bit.
  *
- * @param mesh a vtkPolyData or vtkUnstructuredGrid, whose cells are of one kind
- * @param piece its number, and number of pieces
  * @throws std::bad_alloc if there is no memory for a copy
  */
-void KeepPiece(vtkDataObject* mesh, const int piece[2]);
+void KeepShare(const int piece[2], Mesh& mesh);
 
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Simplify.h"
 
+#include "Private/Piece.h"
 #include "Private/PlacedTolerance.h"
 #include "Private/Simulation.h"
 #include "Private/Tuples.h"
@@ -44,6 +45,24 @@ isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& toleranc
   return result;
 }
 
+/**
+ * Simplifies the mesh of BeforeSimplifying() within what is left of the tolerances. Points stay
+ * what they are, with their data; cell data have no meaning any more and go.
+ *
+ * @param query the one that was asked for
+ */
+void SimplifyMesh(const WorldQuery& query, const Measure& measure,
+  const isodiamond::GridGeometry& world, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
+{
+  const isodiamond::TriangleMesh simple =
+    isodiamond::Simplify(ToCore(mesh, PlacedTolerance(query, measure, world)), parallelFor);
+  const UsedPoints used(simple.Triangles, simple.Positions.size());
+  mesh.Cells = used.Write(simple.Triangles, parallelFor);
+  mesh.Points = PointsOf(mesh.Points, used.Kept);
+  KeepTuples(mesh.PointData, used.Kept);
+  mesh.CellData->Initialize();
+}
+
 }
 
 void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume)
@@ -71,40 +90,42 @@ WorldQuery BeforeSimplifying(
   return part;
 }
 
-void SimplifyMesh(const WorldQuery& query, const Measure& measure,
-  const isodiamond::GridGeometry& world, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
+Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& query,
+  const MeshOptions& options, Task& task)
 {
-  const isodiamond::TriangleMesh simple =
-    isodiamond::Simplify(ToCore(mesh, PlacedTolerance(query, measure, world)), parallelFor);
-  const UsedPoints used(simple.Triangles, simple.Positions.size());
-  mesh.Cells = used.Write(simple.Triangles, parallelFor);
-  mesh.Points = PointsOf(mesh.Points, used.Kept);
-  KeepTuples(mesh.PointData, used.Kept);
-  mesh.CellData->Initialize();
+  Task extracting = task.Part(0.0, query.Simplify ? 0.3 : 1.0);
+  if (query.SimulationQuality)
+  {
+    return ExtractForSimulation(refined, query, options, extracting);
+  }
+  if (!query.Simplify)
+  {
+    return ExtractMesh(refined, options, extracting);
+  }
+  MeshOptions whole = options;
+  whole.Piece = { 0, 1 };
+  Mesh mesh = ExtractMesh(refined, whole, extracting);
+  task.Begin("Simplifying", 0.3, 1.0);
+  SimplifyMesh(query, Measure(refined.Hierarchy()), options.World, task.For(), mesh);
+  KeepShare(options.Piece.data(), mesh);
+  return mesh;
 }
 
 Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const WorldQuery& query,
   const MeshOptions& options, Task& task)
 {
-  const Measure measure(hierarchy);
   WorldQuery extracted = query;
   if (query.Simplify)
   {
+    const Measure measure(hierarchy);
     CheckSimplify(measure.Metric, hierarchy.Region().IsVolume());
     extracted = BeforeSimplifying(query, measure, options.World);
   }
   task.Begin("Refining", 0.0, 0.3);
   const isodiamond::RefinedSet refined(
     hierarchy, CoreQuery(extracted, hierarchy, options.World), task.For());
-  Task extracting = task.Part(0.3, query.Simplify ? 0.5 : 1.0);
-  Mesh mesh = query.SimulationQuality ? ExtractForSimulation(refined, query, options, extracting)
-                                      : ExtractMesh(refined, options, extracting);
-  if (query.Simplify)
-  {
-    task.Begin("Simplifying", 0.5, 1.0);
-    SimplifyMesh(query, measure, options.World, task.For(), mesh);
-  }
-  return mesh;
+  Task extracting = task.Part(0.3, 1.0);
+  return ExtractAsAsked(refined, query, options, extracting);
 }
 
 }

@@ -21,15 +21,15 @@ WorldQuery BeforeSimplifying(
   const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world);
 
 /**
- * Simplifies the mesh of such a query within what is left of the tolerances. Points stay what they
- * are, with their data; cell data have no meaning any more and go.
+ * The mesh that a query asks for, or the share of it that the options want: for simulations,
+ * simplified, or as it is.
  *
- * @param query the one that was asked for
+ * @param refined set of BeforeSimplifying() where the query simplifies, else of the query
  */
-void SimplifyMesh(const WorldQuery& query, const Measure& measure,
-  const isodiamond::GridGeometry& world, const isodiamond::ParallelFor& parallelFor, Mesh& mesh);
+Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& query,
+  const MeshOptions& options, Task& task);
 
-/** The mesh of a hierarchy that a query asks for, simplified if it is to be. */
+/** The same of a hierarchy. */
 Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const WorldQuery& query,
   const MeshOptions& options, Task& task);
 

@@ -233,8 +233,8 @@ CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden)
   // Bricks are read one by one on their own; then vertices are numbered in their order.
   const std::int64_t bricks = passes.BrickCount();
   std::vector<std::vector<FoundLeaf>> leaves(bricks);
-  passes.ForEachBrickWithCells(
-    [&](std::int64_t brick, std::int64_t /*firstCell*/)
+  passes.ForEachBrickWithCells(passes.AllCells(),
+    [&](std::int64_t brick, const CellRange& /*own*/)
     {
       const LeafReader reader(passes, brick);
       passes.ForEachLeafParent(brick,

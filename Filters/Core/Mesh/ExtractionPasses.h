@@ -3,8 +3,10 @@
 #define isodiamond_ExtractionPasses_h
 
 #include "Mesh/CurrentMesh.h"
+#include "Mesh/KeptPoints.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace isodiamond
@@ -44,6 +46,15 @@ struct DiamondPoints
   }
 };
 
+/** Cells of a mesh that follow each other. */
+struct CellRange
+{
+  std::int64_t First = 0;
+  std::int64_t Last = 0; ///< not among them
+
+  std::int64_t Count() const { return this->Last - this->First; }
+};
+
 /**
  * What all extractions do: count points and cells in every brick, sum up, write in every brick.
  *
@@ -51,6 +62,9 @@ struct DiamondPoints
  * point ids and of cells of its own, and within it everything is in the order of the diamonds, so
  * order and values of the output do not depend on threads. Counting notes a diamond's points and
  * those of its children that are leaves; writing asks no more what is refined.
+ *
+ * Of some cells only, those are written, and then the points that they use: KeepPointsOf() has ids
+ * and points of the share alone.
  */
 class ExtractionPasses
 {
@@ -92,6 +106,25 @@ public:
   /** Points and cells of all bricks. */
   const Counts& Total() const { return this->First.back(); }
 
+  CellRange AllCells() const { return { 0, this->Total().Cells }; }
+
+  /** Leaves the points that some cells use, whose ids become those among these. */
+  template <typename Id>
+  void KeepPointsOf(Id* ids, std::int64_t size)
+  {
+    this->Kept.emplace(this->Total().Points, ids, size, this->Parallel);
+    this->Kept->Rename(ids, size, this->Parallel);
+  }
+
+  /** Those that are left; null if all are. */
+  const KeptPoints* PointsKept() const { return this->Kept ? &*this->Kept : nullptr; }
+
+  /** The number of points that are left. */
+  std::int64_t PointCount() const
+  {
+    return this->Kept ? this->Kept->Count() : this->Total().Points;
+  }
+
   std::int64_t BrickCount() const { return static_cast<std::int64_t>(this->Bricks.size()); }
 
   bool HasPoints(std::int64_t brick) const
@@ -108,14 +141,16 @@ public:
     return { static_cast<std::uint32_t>(this->First[brick].Points) + slot.First, slot.Points };
   }
 
-  /** Calls body(brick) for every brick with points, in parallel. */
+  /** Calls body(brick) for every brick with points that are left, in parallel. */
   template <typename Body>
   void ForEachBrickWithPoints(Body&& body) const
   {
     this->ForEachBrick(
       [&](std::int64_t brick)
       {
-        if (this->HasPoints(brick))
+        if (this->HasPoints(brick) &&
+          (!this->Kept ||
+            this->Kept->AnyBetween(this->First[brick].Points, this->First[brick + 1].Points)))
         {
           body(brick);
         }
@@ -136,16 +171,17 @@ public:
       });
   }
 
-  /** Calls body(brick, its first cell) for every brick with cells, in parallel. */
+  /** Calls body(brick, its cells) for every brick with cells of a range, in parallel. */
   template <typename Body>
-  void ForEachBrickWithCells(Body&& body) const
+  void ForEachBrickWithCells(const CellRange& range, Body&& body) const
   {
     this->ForEachBrick(
       [&](std::int64_t brick)
       {
-        if (this->First[brick + 1].Cells > this->First[brick].Cells)
+        const CellRange own = { this->First[brick].Cells, this->First[brick + 1].Cells };
+        if (std::max(own.First, range.First) < std::min(own.Last, range.Last))
         {
-          body(brick, this->First[brick].Cells);
+          body(brick, own);
         }
       });
   }
@@ -202,6 +238,7 @@ private:
   std::vector<BrickPlace> Bricks;
   std::vector<Counts> First; ///< by brick, and the total
   std::vector<Slot> Slots;   ///< by rank among the refined diamonds
+  std::optional<KeptPoints> Kept;
 };
 
 }

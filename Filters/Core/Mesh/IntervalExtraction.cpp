@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/IntervalExtraction.h"
 
+#include "Mesh/CellWriting.h"
 #include "Mesh/PatchPoints.h"
 #include "Mesh/VertexWindow.h"
 #include "Patches/IntervalCases.h"
@@ -181,14 +182,14 @@ void IntervalExtraction::WriteValues(Value* values, std::int8_t* surfaces) const
 }
 
 template <typename Id>
-void IntervalExtraction::WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const
+void IntervalExtraction::WriteTetrahedra(
+  const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const
 {
-  this->Passes.ForEachBrickWithCells(
-    [&](std::int64_t brick, std::int64_t firstCell)
+  WriteCellsOf<4>(this->Passes, range, connectivity, levels,
+    [&](std::int64_t brick, Id* ids, std::int8_t* levelsOfIds)
     {
       const VertexWindow window(this->Passes, brick, Grid::MaximumDepth);
-      TetrahedronWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored,
-        connectivity + 4 * firstCell, levels + firstCell);
+      TetrahedronWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored, ids, levelsOfIds);
       this->Passes.ForEachLeafParent(
         brick, [&](const LeafParent& parent) { writer.Write(parent); });
     });
@@ -196,7 +197,9 @@ void IntervalExtraction::WriteTetrahedra(bool mirrored, Id* connectivity, std::i
 
 template void IntervalExtraction::WriteValues(float*, std::int8_t*) const;
 template void IntervalExtraction::WriteValues(double*, std::int8_t*) const;
-template void IntervalExtraction::WriteTetrahedra(bool, std::int32_t*, std::int8_t*) const;
-template void IntervalExtraction::WriteTetrahedra(bool, long long*, std::int8_t*) const;
+template void IntervalExtraction::WriteTetrahedra(
+  const CellRange&, bool, std::int32_t*, std::int8_t*) const;
+template void IntervalExtraction::WriteTetrahedra(
+  const CellRange&, bool, long long*, std::int8_t*) const;
 
 }

@@ -29,7 +29,7 @@ public:
    *  points. */
   IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
 
-  std::int64_t PointCount() const { return this->Passes.Total().Points; }
+  std::int64_t PointCount() const { return this->Passes.PointCount(); }
   std::int64_t TetrahedronCount() const { return this->Passes.Total().Cells; }
 
   /** Writes 3 coordinates a point; float or double. */
@@ -65,7 +65,27 @@ public:
    *        resolution
    */
   template <typename Id>
-  void WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const;
+  void WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const
+  {
+    this->WriteTetrahedra(this->Passes.AllCells(), mirrored, connectivity, levels);
+  }
+
+  /** Writes a range of the tetrahedra, and nothing of the others. */
+  template <typename Id>
+  void WriteTetrahedra(
+    const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const;
+
+  /**
+   * From here on the mesh has only the points that some tetrahedra use.
+   *
+   * @param connectivity of a range, as it was written: receives the ids that points have then
+   * @param count of tetrahedra
+   */
+  template <typename Id>
+  void KeepPointsOf(Id* connectivity, std::int64_t count)
+  {
+    this->Passes.KeepPointsOf(connectivity, 4 * count);
+  }
 
   /** The leaves before they are cut. @param hidden cells, or null */
   CutMesh Leaves(const HiddenCells* hidden) const { return MakeCutMesh(this->Passes, hidden); }

@@ -79,10 +79,10 @@ void ForEachPointOf(const IsodiamondHierarchy& hierarchy, const Place& place, st
   }
 }
 
-/** Calls body(point) for all points of a mesh, in parallel: by brick, and there in the order of
- *  their ids. */
+/** Calls body(point) for all points of a whole mesh in bricks where some are left, in parallel: by
+ *  brick, and there in the order of their ids. */
 template <typename Body>
-void ForEachPoint(const ExtractionPasses& passes, Body&& body)
+void ForEachPointOfBricks(const ExtractionPasses& passes, Body&& body)
 {
   const IsodiamondHierarchy& hierarchy = passes.Hierarchy();
   const bool isVolume = hierarchy.Region().IsVolume();
@@ -101,6 +101,27 @@ void ForEachPoint(const ExtractionPasses& passes, Body&& body)
           }
           ForEachPointOf(hierarchy, place, rank, own, inside, body);
         });
+    });
+}
+
+/** Calls body(point) for all points of a mesh that are left, in the same way. */
+template <typename Body>
+void ForEachPoint(const ExtractionPasses& passes, Body&& body)
+{
+  const KeptPoints* const kept = passes.PointsKept();
+  if (kept == nullptr)
+  {
+    ForEachPointOfBricks(passes, body);
+    return;
+  }
+  ForEachPointOfBricks(passes,
+    [&](MeshPoint point)
+    {
+      if (kept->Contains(point.Id))
+      {
+        point.Id = kept->NewId(point.Id);
+        body(point);
+      }
     });
 }
 

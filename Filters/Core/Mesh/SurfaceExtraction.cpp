@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/SurfaceExtraction.h"
 
+#include "Mesh/CellWriting.h"
 #include "Mesh/PatchPoints.h"
 #include "Mesh/VertexWindow.h"
 #include "Patches/SurfacePatch.h"
@@ -93,20 +94,22 @@ SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFo
 }
 
 template <typename Id>
-void SurfaceExtraction::WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const
+void SurfaceExtraction::WriteTriangles(
+  const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const
 {
-  this->Passes.ForEachBrickWithCells(
-    [&](std::int64_t brick, std::int64_t firstCell)
+  WriteCellsOf<3>(this->Passes, range, connectivity, levels,
+    [&](std::int64_t brick, Id* ids, std::int8_t* levelsOfIds)
     {
       const VertexWindow window(this->Passes, brick, MaximumOwnerStep);
-      TriangleWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored,
-        connectivity + 3 * firstCell, levels + firstCell);
+      TriangleWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored, ids, levelsOfIds);
       this->Passes.ForEachLeafParent(
         brick, [&](const LeafParent& parent) { writer.Write(parent); });
     });
 }
 
-template void SurfaceExtraction::WriteTriangles(bool, std::int32_t*, std::int8_t*) const;
-template void SurfaceExtraction::WriteTriangles(bool, long long*, std::int8_t*) const;
+template void SurfaceExtraction::WriteTriangles(
+  const CellRange&, bool, std::int32_t*, std::int8_t*) const;
+template void SurfaceExtraction::WriteTriangles(
+  const CellRange&, bool, long long*, std::int8_t*) const;
 
 }

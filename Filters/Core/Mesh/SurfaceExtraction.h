@@ -27,7 +27,7 @@ public:
    *  points. */
   SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
 
-  std::int64_t PointCount() const { return this->Passes.Total().Points; }
+  std::int64_t PointCount() const { return this->Passes.PointCount(); }
   std::int64_t TriangleCount() const { return this->Passes.Total().Cells; }
 
   /** Writes 3 coordinates a point; float or double. */
@@ -53,7 +53,27 @@ public:
    *        at full resolution
    */
   template <typename Id>
-  void WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const;
+  void WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const
+  {
+    this->WriteTriangles(this->Passes.AllCells(), mirrored, connectivity, levels);
+  }
+
+  /** Writes a range of the triangles, and nothing of the others. */
+  template <typename Id>
+  void WriteTriangles(
+    const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const;
+
+  /**
+   * From here on the mesh has only the points that some triangles use.
+   *
+   * @param connectivity of a range, as it was written: receives the ids that points have then
+   * @param count of triangles
+   */
+  template <typename Id>
+  void KeepPointsOf(Id* connectivity, std::int64_t count)
+  {
+    this->Passes.KeepPointsOf(connectivity, 3 * count);
+  }
 
 private:
   ExtractionPasses Passes;

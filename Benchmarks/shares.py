@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a process of several takes for its share of a mesh, beside the whole mesh by one.
+
+    PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/shares.py [SIZE]
+
+One process makes the shares of 1, 2, 4 and 8 one after the other, with one thread, and prints the time
+of the slowest, as the median of interleaved runs; and for each number a process of its own makes the
+first share, and tells how much memory that took beyond the hierarchy (Linux only). The field is the
+gyroid of extraction.py, by the field metric, at full resolution and at a tolerance that leaves a
+quarter of the triangles.
+"""
+import statistics
+import subprocess
+import sys
+import time
+
+import numpy
+from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
+from volumes import image_of
+
+RUNS = 5
+COUNTS = (1, 2, 4, 8)
+
+
+def gyroid(size):
+    axis = numpy.linspace(-8 * numpy.pi, 8 * numpy.pi, size, dtype=numpy.float32)
+    z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
+    sin, cos = numpy.sin, numpy.cos
+    return image_of(sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x))
+
+
+def memory(name):
+    """MiB: VmRSS is what there is, VmHWM the most since the peak was reset."""
+    with open("/proc/self/status") as status:
+        return next(int(line.split()[1]) / 1024 for line in status if line.startswith(name))
+
+
+def make_extractor(size):
+    builder = vtkIsodiamondBuilder()
+    builder.SetInputData(gyroid(size))
+    builder.Update()
+    extractor = vtkIsodiamondExtractor()
+    extractor.SetInputConnection(builder.GetOutputPort())
+    extractor.SetNumberOfThreads(1)
+    return extractor
+
+
+def print_peak(size, tolerance, count):
+    """In a process of its own, which has no memory that it could use again."""
+    extractor = make_extractor(size)
+    extractor.SetErrorTolerance(tolerance)
+    with open("/proc/self/clear_refs", "w") as peaks:
+        peaks.write("5")
+    before = memory("VmRSS")
+    extractor.UpdatePiece(0, count, 0)
+    print(memory("VmHWM") - before)
+
+
+def peak(size, tolerance, count):
+    command = [sys.executable, __file__, str(size), str(tolerance), str(count)]
+    return float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+def timed(extractor, share, count):
+    extractor.Modified()
+    start = time.perf_counter()
+    extractor.UpdatePiece(share, count, 0)
+    return 1000 * (time.perf_counter() - start)
+
+
+def main():
+    size = int(sys.argv[1]) if len(sys.argv) > 1 else 256
+    if len(sys.argv) > 2:
+        print_peak(size, float(sys.argv[2]), int(sys.argv[3]))
+        return
+    extractor = make_extractor(size)
+    for tolerance in (0.0, 0.05):
+        extractor.SetErrorTolerance(tolerance)
+        extractor.Update()
+        triangles = extractor.GetOutputDataObject(0).GetNumberOfCells()
+        print(f"{size}^3, tolerance {tolerance}: {triangles:,} triangles")
+        times = {(share, count): [] for count in COUNTS for share in range(count)}
+        for _ in range(RUNS):
+            for (share, count), runs in times.items():
+                runs.append(timed(extractor, share, count))
+        one = statistics.median(times[0, 1])
+        all_of_it = peak(size, tolerance, 1)
+        for count in COUNTS:
+            slowest = max(statistics.median(times[share, count]) for share in range(count))
+            mebibytes = peak(size, tolerance, count)
+            print(f"  1 of {count}: {slowest:.0f} ms, {slowest / one:.2f} of the whole;"
+                  f" {mebibytes:.0f} MiB, {mebibytes / all_of_it:.2f}")
+
+
+main()

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_KeptPoints_h
+#define isodiamond_KeptPoints_h
+
+#include "Field/Parallel.h"
+#include "Lattice/DiamondSet.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The points of a mesh that some of its cells use: one bit a point of the whole mesh, and their
+ * number before every 64 of them, so that each has an id among those that are kept, in the same
+ * order.
+ */
+class KeptPoints
+{
+public:
+  /** @param pointCount of the whole mesh @param ids that the cells use @param size of ids */
+  template <typename Id>
+  KeptPoints(
+    std::int64_t pointCount, const Id* ids, std::int64_t size, const ParallelFor& parallelFor)
+    : Words(pointCount / 64 + 1)
+    , Before(this->Words.size() + 1)
+  {
+    parallelFor(size, Grain,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        std::for_each(ids + begin, ids + end,
+          [this](Id id)
+          {
+            std::atomic<std::uint64_t>& word = this->Words[id / 64];
+            const std::uint64_t bit = std::uint64_t{ 1 } << (id % 64);
+            // Most points are used more than once.
+            if ((word.load(std::memory_order_relaxed) & bit) == 0)
+            {
+              word.fetch_or(bit, std::memory_order_relaxed);
+            }
+          });
+      });
+    for (std::size_t i = 0; i < this->Words.size(); ++i)
+    {
+      this->Before[i + 1] = this->Before[i] + PopCount(this->Words[i]);
+    }
+  }
+
+  /** Their number. */
+  std::int64_t Count() const { return this->Before.back(); }
+
+  bool Contains(std::int64_t id) const { return (this->Words[id / 64] >> (id % 64) & 1U) != 0; }
+
+  bool AnyBetween(std::int64_t first, std::int64_t last) const
+  {
+    return this->NewId(last) > this->NewId(first);
+  }
+
+  /** The number of kept points before one of the whole mesh: its own new id, if it is kept. */
+  std::int64_t NewId(std::int64_t id) const
+  {
+    const std::uint64_t before = (std::uint64_t{ 1 } << (id % 64)) - 1;
+    return this->Before[id / 64] + PopCount(this->Words[id / 64] & before);
+  }
+
+  /** Gives kept points their new ids. */
+  template <typename Id>
+  void Rename(Id* ids, std::int64_t size, const ParallelFor& parallelFor) const
+  {
+    parallelFor(size, Grain,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        std::transform(ids + begin, ids + end, ids + begin,
+          [this](Id id) { return static_cast<Id>(this->NewId(id)); });
+      });
+  }
+
+private:
+  static constexpr std::int64_t Grain = 65536;
+
+  std::vector<std::atomic<std::uint64_t>> Words;
+  std::vector<std::int64_t> Before;
+};
+
+}
+
+#endif
