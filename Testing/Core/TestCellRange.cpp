@@ -18,7 +18,7 @@ namespace
 /** What a range is compared by: cells with whole points, and the points. */
 struct Range
 {
-  std::vector<std::vector<float>> Points; ///< position, value, surface
+  std::vector<std::vector<float>> Points; ///< position, number among those stored, surface
   std::vector<std::vector<std::int32_t>> Cells;
   std::vector<std::int8_t> Levels;
 };
@@ -76,45 +76,42 @@ void ReadPoints(const Extraction& extraction, Range& range)
     });
 }
 
-/** @param cells null for all of them, as they are without a range */
+/** @param cells null for all of them, as they are without a range
+ *  @param write (cells, ids, levels) */
+template <int Size, typename Extraction, typename Write>
+Range Written(
+  Extraction& extraction, const CellRange& all, const CellRange* cells, const Write& write)
+{
+  const CellRange& written = cells != nullptr ? *cells : all;
+  Range range;
+  std::vector<std::int32_t> ids(Size * written.Count());
+  range.Levels.resize(written.Count());
+  write(written, ids.data(), range.Levels.data());
+  if (cells != nullptr)
+  {
+    extraction.KeepPointsOf(ids.data(), written.Count());
+  }
+  range.Cells = CellsOf(ids, Size);
+  ReadPoints(extraction, range);
+  return range;
+}
+
 Range WrittenSurface(
   const RefinedSet& refined, const CellRange* cells, const ParallelFor& parallelFor)
 {
   SurfaceExtraction extraction(refined, parallelFor);
-  const CellRange all = { 0, extraction.TriangleCount() };
-  const std::int64_t count = (cells != nullptr ? *cells : all).Count();
-  Range range;
-  std::vector<std::int32_t> ids(3 * count);
-  range.Levels.resize(count);
-  extraction.WriteTriangles(
-    cells != nullptr ? *cells : all, false, ids.data(), range.Levels.data());
-  if (cells != nullptr)
-  {
-    extraction.KeepPointsOf(ids.data(), count);
-  }
-  range.Cells = CellsOf(ids, 3);
-  ReadPoints(extraction, range);
-  return range;
+  return Written<3>(extraction, { 0, extraction.TriangleCount() }, cells,
+    [&](const CellRange& range, std::int32_t* ids, std::int8_t* levels)
+    { extraction.WriteTriangles(range, false, ids, levels); });
 }
 
 Range WrittenVolume(
   const RefinedSet& refined, const CellRange* cells, const ParallelFor& parallelFor)
 {
   IntervalExtraction extraction(refined, parallelFor);
-  const CellRange all = { 0, extraction.TetrahedronCount() };
-  const std::int64_t count = (cells != nullptr ? *cells : all).Count();
-  Range range;
-  std::vector<std::int32_t> ids(4 * count);
-  range.Levels.resize(count);
-  extraction.WriteTetrahedra(
-    cells != nullptr ? *cells : all, false, ids.data(), range.Levels.data());
-  if (cells != nullptr)
-  {
-    extraction.KeepPointsOf(ids.data(), count);
-  }
-  range.Cells = CellsOf(ids, 4);
-  ReadPoints(extraction, range);
-  return range;
+  return Written<4>(extraction, { 0, extraction.TetrahedronCount() }, cells,
+    [&](const CellRange& range, std::int32_t* ids, std::int8_t* levels)
+    { extraction.WriteTetrahedra(range, false, ids, levels); });
 }
 
 void Check(std::uint32_t seed)
