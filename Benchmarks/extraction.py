@@ -13,7 +13,7 @@ import time
 import numpy
 from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
-from volumes import image_of
+from volumes import gyroid, image_of
 
 RUNS = 7
 
@@ -25,9 +25,7 @@ def fields(size):
     yield "ball", ball
     noise = numpy.random.default_rng(1).standard_normal(ball.shape, dtype=numpy.float32)
     yield "noisy ball", ball + noise * numpy.float32(2 / size)
-    w = numpy.float32(8 * numpy.pi)
-    sin, cos = numpy.sin, numpy.cos
-    yield "gyroid", sin(w * x) * cos(w * y) + sin(w * y) * cos(w * z) + sin(w * z) * cos(w * x)
+    yield "gyroid", gyroid(axis * numpy.float32(8 * numpy.pi))
 
 
 def make_builder(image):

@@ -19,7 +19,7 @@ import numpy
 from isodiamonds import vtkIsodiamondContour
 from simplifiers import timed
 from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkDecimatePro
-from volumes import HEAD, HEAD_ISOVALUE, head, image_of, phantom, raw_volume
+from volumes import HEAD, HEAD_ISOVALUE, gyroid, head, image_of, phantom, raw_volume
 
 
 def configured(contour, image, isovalue):
@@ -56,15 +56,7 @@ def contour_and_decimate(contour, image, isovalue):
     return timed(decimate)
 
 
-def gyroid(size):
-    axis = numpy.linspace(-1, 1, size, dtype=numpy.float32) * numpy.float32(8 * numpy.pi)
-    z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
-    sin, cos = numpy.sin, numpy.cos
-    return sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)
-
-
-def ball(size):
-    axis = numpy.linspace(-1, 1, size, dtype=numpy.float32)
+def ball(axis):
     z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
     return numpy.float32(0.6) - numpy.sqrt(x * x + y * y + z * z)
 
@@ -76,9 +68,10 @@ def main():
     parser.add_argument("raw", nargs="*", type=raw_volume, help="NAME_XxYxZ_uint8.raw:ISOVALUE")
     arguments = parser.parse_args()
     size = arguments.size
+    axis = numpy.linspace(-1, 1, size, dtype=numpy.float32)
     volumes = [
-        ("ball", image_of(ball(size)), 0),
-        ("gyroid", image_of(gyroid(size)), 0),
+        ("ball", image_of(ball(axis)), 0),
+        ("gyroid", image_of(gyroid(axis * numpy.float32(8 * numpy.pi))), 0),
         ("CT phantom", phantom(size), 50),
     ]
     if os.path.exists(HEAD):

@@ -16,8 +16,10 @@ import time
 import numpy
 from isodiamonds import vtkIsodiamondIntervalVolume
 from paraview.modules.vtkPVVTKExtensionsFiltersGeneral import vtkIsoVolume
+from processmemory import forget_peak, memory
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
+from volumes import gyroid
 
 RUNS = 3
 
@@ -30,27 +32,12 @@ def shell(size):
     return numpy.sqrt(x * x + y * y + z * z) + numpy.float32(0.05) * bumps, (0.5, 0.7)
 
 
-def gyroid(size):
+def sheets(size):
     """Sheets all over the volume."""
-    w = numpy.linspace(0, 6 * numpy.pi, size, dtype=numpy.float32)
-    z, y, x = numpy.meshgrid(w, w, w, indexing="ij", sparse=True)
-    sin, cos = numpy.sin, numpy.cos
-    return sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x), (-0.3, 0.3)
+    return gyroid(numpy.linspace(0, 6 * numpy.pi, size, dtype=numpy.float32)), (-0.3, 0.3)
 
 
-FIELDS = {"shell": shell, "gyroid": gyroid}
-
-
-def memory(entry):
-    """VmRSS, what the process has in memory, or VmHWM, the most that it had, in MiB."""
-    with open("/proc/self/status", encoding="ascii") as status:
-        line = next(line for line in status if line.startswith(entry))
-    return int(line.split()[1]) / 1024
-
-
-def forget_peak():
-    with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
-        file.write("5")
+FIELDS = {"shell": shell, "gyroid": sheets}
 
 
 def measure(kind, name, size):

@@ -16,28 +16,17 @@ import time
 
 import numpy
 from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
-from volumes import image_of
+from processmemory import forget_peak, memory
+from volumes import gyroid, image_of
 
 RUNS = 5
 COUNTS = (1, 2, 4, 8)
 
 
-def gyroid(size):
-    axis = numpy.linspace(-8 * numpy.pi, 8 * numpy.pi, size, dtype=numpy.float32)
-    z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
-    sin, cos = numpy.sin, numpy.cos
-    return image_of(sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x))
-
-
-def memory(name):
-    """MiB: VmRSS is what there is, VmHWM the most since the peak was reset."""
-    with open("/proc/self/status") as status:
-        return next(int(line.split()[1]) / 1024 for line in status if line.startswith(name))
-
-
 def make_extractor(size):
+    axis = numpy.linspace(-1, 1, size, dtype=numpy.float32) * numpy.float32(8 * numpy.pi)
     builder = vtkIsodiamondBuilder()
-    builder.SetInputData(gyroid(size))
+    builder.SetInputData(image_of(gyroid(axis)))
     builder.Update()
     extractor = vtkIsodiamondExtractor()
     extractor.SetInputConnection(builder.GetOutputPort())
@@ -49,8 +38,7 @@ def print_peak(size, tolerance, count):
     """In a process of its own, which has no memory that it could use again."""
     extractor = make_extractor(size)
     extractor.SetErrorTolerance(tolerance)
-    with open("/proc/self/clear_refs", "w") as peaks:
-        peaks.write("5")
+    forget_peak()
     before = memory("VmRSS")
     extractor.UpdatePiece(0, count, 0)
     print(memory("VmHWM") - before)

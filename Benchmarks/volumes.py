@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The volumes of deviation.py, as vtkImageData."""
+"""The volumes of several benchmarks."""
 import re
 
 import numpy
@@ -17,6 +17,13 @@ def image_of(field):
     image.SetDimensions(field.shape[::-1])
     image.GetPointData().SetScalars(numpy_to_vtk(field.ravel(), deep=True))
     return image
+
+
+def gyroid(axis):
+    """Sheets all over a cube, of a period of 2 pi, at these coordinates on each axis."""
+    z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
+    sin, cos = numpy.sin, numpy.cos
+    return sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)
 
 
 def phantom(size):
