@@ -85,7 +85,7 @@ void AddCells(Extraction& extraction, const isodiamond::CellRange& cells, int si
       write(connectivity, levels->GetPointer(0));
       if (options.Piece[1] > 1 && !AreCellsChanged(options))
       {
-        extraction.KeepPointsOf(connectivity, cells.Count());
+        extraction.KeepPointsOf(connectivity, size * cells.Count());
       }
     });
   mesh.CellData->AddArray(levels);

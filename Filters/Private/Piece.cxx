@@ -46,15 +46,6 @@ std::vector<vtkIdType> KeepCells(
   const Id* end = connectivity->GetPointer(0) + offset[range.Last];
 
   const isodiamond::KeptPoints kept(pointCount, begin, end - begin, isodiamond::SerialFor);
-  std::vector<vtkIdType> points;
-  points.reserve(kept.Count());
-  for (vtkIdType id = 0; id < pointCount; ++id)
-  {
-    if (kept.Contains(id))
-    {
-      points.push_back(id);
-    }
-  }
   vtkNew<Array> newOffsets;
   AllocateTuples(newOffsets, range.Count() + 1);
   std::transform(offset + range.First, offset + range.Last + 1, newOffsets->GetPointer(0),
@@ -65,7 +56,7 @@ std::vector<vtkIdType> KeepCells(
   kept.Rename(newConnectivity->GetPointer(0), end - begin, isodiamond::SerialFor);
   cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(newOffsets, newConnectivity);
-  return points;
+  return kept.Ids<vtkIdType>();
 }
 
 }

@@ -56,10 +56,11 @@ void SimplifyMesh(const WorldQuery& query, const Measure& measure,
 {
   const isodiamond::TriangleMesh simple =
     isodiamond::Simplify(ToCore(mesh, PlacedTolerance(query, measure, world)), parallelFor);
-  const UsedPoints used(simple.Triangles, simple.Positions.size());
+  const UsedPoints used(simple.Triangles, simple.Positions.size(), parallelFor);
+  const std::vector<vtkIdType> ids = used.Ids();
   mesh.Cells = used.Write(simple.Triangles, parallelFor);
-  mesh.Points = PointsOf(mesh.Points, used.Kept);
-  KeepTuples(mesh.PointData, used.Kept);
+  mesh.Points = PointsOf(mesh.Points, ids);
+  KeepTuples(mesh.PointData, ids);
   mesh.CellData->Initialize();
 }
 

@@ -76,8 +76,8 @@ std::vector<vtkIdType> SourcesOf(
 }
 
 /** Overwrites the values of blended points with the sums of their shares. */
-void Blend(const isodiamond::TetrahedronMesh& mesh, const std::vector<vtkIdType>& newIds,
-  vtkPointData* before, vtkPointData* after)
+void Blend(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used, vtkPointData* before,
+  vtkPointData* after)
 {
   for (int i = 0; i < after->GetNumberOfArrays(); ++i)
   {
@@ -86,7 +86,7 @@ void Blend(const isodiamond::TetrahedronMesh& mesh, const std::vector<vtkIdType>
     const bool isWhole = to->GetDataType() != VTK_FLOAT && to->GetDataType() != VTK_DOUBLE;
     for (const isodiamond::BlendedPoint& blended : mesh.Blended)
     {
-      const vtkIdType point = newIds[blended.Point];
+      const vtkIdType point = used.NewId(blended.Point);
       for (int component = 0; point >= 0 && component < to->GetNumberOfComponents(); ++component)
       {
         double sum = 0.0;
@@ -101,13 +101,12 @@ void Blend(const isodiamond::TetrahedronMesh& mesh, const std::vector<vtkIdType>
 }
 
 /** Where points are, and which of them on surfaces: those that were moved or added are not. */
-void WritePlaces(
-  const isodiamond::TetrahedronMesh& mesh, const std::vector<vtkIdType>& newIds, Mesh& output)
+void WritePlaces(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used, Mesh& output)
 {
   vtkDataArray* surfaces = output.PointData->GetArray("Surface");
   for (const isodiamond::BlendedPoint& blended : mesh.Blended)
   {
-    const vtkIdType point = newIds[blended.Point];
+    const vtkIdType point = used.NewId(blended.Point);
     if (point >= 0)
     {
       output.Points->SetPoint(point, mesh.Positions[blended.Point].data());
@@ -138,14 +137,14 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
     mesh.FarDiamonds.push_back(*isodiamond::DiamondOf(leaves, leaf, grid));
   }
 
-  const UsedPoints used(stuffed.Tetrahedra, stuffed.Positions.size());
-  const std::vector<vtkIdType> sources = SourcesOf(stuffed, used.Kept, positions.size());
+  const UsedPoints used(stuffed.Tetrahedra, stuffed.Positions.size(), parallelFor);
+  const std::vector<vtkIdType> sources = SourcesOf(stuffed, used.Ids(), positions.size());
   vtkNew<vtkPointData> before;
   before->ShallowCopy(mesh.PointData);
   mesh.Points = PointsOf(mesh.Points, sources);
   KeepTuples(mesh.PointData, sources);
-  Blend(stuffed, used.NewIds, before, mesh.PointData);
-  WritePlaces(stuffed, used.NewIds, mesh);
+  Blend(stuffed, used, before, mesh.PointData);
+  WritePlaces(stuffed, used, mesh);
   mesh.Cells = used.Write(stuffed.Tetrahedra, parallelFor);
 
   const auto count = static_cast<std::int64_t>(stuffed.Tetrahedra.size());

@@ -3,6 +3,7 @@
 #define vtkIsodiamond_UsedPoints_h
 
 #include "Field/Vector.h"
+#include "Mesh/KeptPoints.h"
 #include "Private/Cells.h"
 
 #include "vtkPoints.h"
@@ -30,28 +31,24 @@ inline std::vector<isodiamond::Vector> PositionsOf(vtkPoints* points)
 }
 
 /** The points that cells have, in their order. */
-struct UsedPoints
+class UsedPoints
 {
-  std::vector<vtkIdType> NewIds; ///< by id before; -1 of those that no cell has
-  std::vector<vtkIdType> Kept;   ///< ids before
-
+public:
   template <std::size_t Size>
-  UsedPoints(const std::vector<std::array<std::uint32_t, Size>>& cells, std::size_t pointCount)
-    : NewIds(pointCount, -1)
+  UsedPoints(const std::vector<std::array<std::uint32_t, Size>>& cells, std::size_t pointCount,
+    const isodiamond::ParallelFor& parallelFor)
+    : Points(static_cast<std::int64_t>(pointCount), cells.empty() ? nullptr : cells.front().data(),
+        static_cast<std::int64_t>(Size * cells.size()), parallelFor)
   {
-    for (const std::array<std::uint32_t, Size>& points : cells)
-    {
-      std::for_each(
-        points.begin(), points.end(), [&](std::uint32_t point) { this->NewIds[point] = 0; });
-    }
-    for (std::size_t i = 0; i < pointCount; ++i)
-    {
-      if (this->NewIds[i] == 0)
-      {
-        this->NewIds[i] = static_cast<vtkIdType>(this->Kept.size());
-        this->Kept.push_back(static_cast<vtkIdType>(i));
-      }
-    }
+  }
+
+  /** Their ids before. */
+  std::vector<vtkIdType> Ids() const { return this->Points.Ids<vtkIdType>(); }
+
+  /** By id before; -1 of points that no cell has. */
+  vtkIdType NewId(std::uint32_t point) const
+  {
+    return this->Points.Contains(point) ? this->Points.NewId(point) : -1;
   }
 
   /** The cells with the new ids. */
@@ -66,10 +63,13 @@ struct UsedPoints
         for (const std::array<std::uint32_t, Size>& points : cells)
         {
           connectivity = std::transform(points.begin(), points.end(), connectivity,
-            [&](std::uint32_t point) { return static_cast<Id>(this->NewIds[point]); });
+            [&](std::uint32_t point) { return static_cast<Id>(this->Points.NewId(point)); });
         }
       });
   }
+
+private:
+  isodiamond::KeptPoints Points;
 };
 
 }

@@ -89,7 +89,7 @@ Range Written(
   write(written, ids.data(), range.Levels.data());
   if (cells != nullptr)
   {
-    extraction.KeepPointsOf(ids.data(), written.Count());
+    extraction.KeepPointsOf(ids.data(), Size * written.Count());
   }
   range.Cells = CellsOf(ids, Size);
   ReadPoints(extraction, range);

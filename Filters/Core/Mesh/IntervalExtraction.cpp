@@ -151,8 +151,8 @@ int CountTetrahedra(const IsodiamondHierarchy& hierarchy, const LeafParent& pare
 }
 
 IntervalExtraction::IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
-  : Passes(refined, parallelFor,
-      [&](const LeafParent& parent) { return CountTetrahedra(refined.Hierarchy(), parent); })
+  : MeshExtraction({ refined, parallelFor,
+      [&](const LeafParent& parent) { return CountTetrahedra(refined.Hierarchy(), parent); } })
 {
 }
 

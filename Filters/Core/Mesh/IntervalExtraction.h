@@ -2,10 +2,8 @@
 #ifndef isodiamond_IntervalExtraction_h
 #define isodiamond_IntervalExtraction_h
 
-#include "Field/AffineMap.h"
 #include "Mesh/CutMesh.h"
-#include "Mesh/ExtractionPasses.h"
-#include "Mesh/MeshPoints.h"
+#include "Mesh/MeshExtraction.h"
 
 namespace isodiamond
 {
@@ -22,29 +20,14 @@ int CountTetrahedra(const IsodiamondHierarchy& hierarchy, const LeafParent& pare
  * SurfaceExtraction.h). All tetrahedra have positive volume in index space and share whole faces.
  * Order and values of the output do not depend on threads. Paper, section 6.
  */
-class IntervalExtraction
+class IntervalExtraction : public MeshExtraction
 {
 public:
   /** The refined set must outlive the extraction. @throws std::length_error beyond 2^32 - 1
    *  points. */
   IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
 
-  std::int64_t PointCount() const { return this->Passes.PointCount(); }
   std::int64_t TetrahedronCount() const { return this->Passes.Total().Cells; }
-
-  /** Writes 3 coordinates a point; float or double. */
-  template <typename Coordinate>
-  void WritePoints(const AffineMap& world, Coordinate* points) const
-  {
-    isodiamond::WritePoints(this->Passes, world, points);
-  }
-
-  /** Calls body(point) for every MeshPoint, in parallel. */
-  template <typename Body>
-  void ForEachPoint(Body&& body) const
-  {
-    isodiamond::ForEachPoint(this->Passes, body);
-  }
 
   /**
    * Writes what is known of the points.
@@ -75,23 +58,8 @@ public:
   void WriteTetrahedra(
     const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const;
 
-  /**
-   * From here on the mesh has only the points that some tetrahedra use.
-   *
-   * @param connectivity of a range, as it was written: receives the ids that points have then
-   * @param count of tetrahedra
-   */
-  template <typename Id>
-  void KeepPointsOf(Id* connectivity, std::int64_t count)
-  {
-    this->Passes.KeepPointsOf(connectivity, 4 * count);
-  }
-
   /** The leaves before they are cut. @param hidden cells, or null */
   CutMesh Leaves(const HiddenCells* hidden) const { return MakeCutMesh(this->Passes, hidden); }
-
-private:
-  ExtractionPasses Passes;
 };
 
 }

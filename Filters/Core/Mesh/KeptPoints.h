@@ -52,6 +52,20 @@ public:
   /** Their number. */
   std::int64_t Count() const { return this->Before.back(); }
 
+  /** Their ids in the whole mesh. */
+  template <typename Id>
+  std::vector<Id> Ids() const
+  {
+    std::vector<Id> ids;
+    ids.reserve(this->Count());
+    for (std::size_t i = 0; i < this->Words.size(); ++i)
+    {
+      ForEachBit(
+        this->Words[i].load(), [&](int bit) { ids.push_back(static_cast<Id>(64 * i + bit)); });
+    }
+    return ids;
+  }
+
   bool Contains(std::int64_t id) const { return (this->Words[id / 64] >> (id % 64) & 1U) != 0; }
 
   bool AnyBetween(std::int64_t first, std::int64_t last) const

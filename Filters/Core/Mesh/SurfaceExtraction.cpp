@@ -88,8 +88,8 @@ int CountTriangles(const IsodiamondHierarchy& hierarchy, const LeafParent& paren
 }
 
 SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
-  : Passes(refined, parallelFor,
-      [&](const LeafParent& parent) { return CountTriangles(refined.Hierarchy(), parent); })
+  : MeshExtraction({ refined, parallelFor,
+      [&](const LeafParent& parent) { return CountTriangles(refined.Hierarchy(), parent); } })
 {
 }
 

@@ -2,9 +2,7 @@
 #ifndef isodiamond_SurfaceExtraction_h
 #define isodiamond_SurfaceExtraction_h
 
-#include "Field/AffineMap.h"
-#include "Mesh/ExtractionPasses.h"
-#include "Mesh/MeshPoints.h"
+#include "Mesh/MeshExtraction.h"
 
 namespace isodiamond
 {
@@ -20,29 +18,14 @@ int CountTriangles(const IsodiamondHierarchy& hierarchy, const LeafParent& paren
  * prefix sum over owners. The constructor counts; the caller allocates and has the arrays
  * written. Order and values of the output do not depend on threads. Paper, section 6.
  */
-class SurfaceExtraction
+class SurfaceExtraction : public MeshExtraction
 {
 public:
   /** The refined set must outlive the extraction. @throws std::length_error beyond 2^32 - 1
    *  points. */
   SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
 
-  std::int64_t PointCount() const { return this->Passes.PointCount(); }
   std::int64_t TriangleCount() const { return this->Passes.Total().Cells; }
-
-  /** Writes 3 coordinates a point; float or double. */
-  template <typename Coordinate>
-  void WritePoints(const AffineMap& world, Coordinate* points) const
-  {
-    isodiamond::WritePoints(this->Passes, world, points);
-  }
-
-  /** Calls body(point) for every MeshPoint, in parallel. */
-  template <typename Body>
-  void ForEachPoint(Body&& body) const
-  {
-    isodiamond::ForEachPoint(this->Passes, body);
-  }
 
   /**
    * Writes the triangles.
@@ -62,21 +45,6 @@ public:
   template <typename Id>
   void WriteTriangles(
     const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const;
-
-  /**
-   * From here on the mesh has only the points that some triangles use.
-   *
-   * @param connectivity of a range, as it was written: receives the ids that points have then
-   * @param count of triangles
-   */
-  template <typename Id>
-  void KeepPointsOf(Id* connectivity, std::int64_t count)
-  {
-    this->Passes.KeepPointsOf(connectivity, 3 * count);
-  }
-
-private:
-  ExtractionPasses Passes;
 };
 
 }

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_MeshExtraction_h
+#define isodiamond_MeshExtraction_h
+
+#include "Field/AffineMap.h"
+#include "Mesh/MeshPoints.h"
+
+#include <cstdint>
+#include <utility>
+
+namespace isodiamond
+{
+
+/** The points of an extracted mesh, whatever its cells are. */
+class MeshExtraction
+{
+public:
+  std::int64_t PointCount() const { return this->Passes.PointCount(); }
+
+  /** Writes 3 coordinates a point; float or double. */
+  template <typename Coordinate>
+  void WritePoints(const AffineMap& world, Coordinate* points) const
+  {
+    isodiamond::WritePoints(this->Passes, world, points);
+  }
+
+  /** Calls body(point) for every MeshPoint, in parallel. */
+  template <typename Body>
+  void ForEachPoint(Body&& body) const
+  {
+    isodiamond::ForEachPoint(this->Passes, body);
+  }
+
+  /**
+   * From here on the mesh has only the points that some cells use.
+   *
+   * @param ids of points, as a range of cells was written: they become those that points have then
+   * @param size of ids
+   */
+  template <typename Id>
+  void KeepPointsOf(Id* ids, std::int64_t size)
+  {
+    this->Passes.KeepPointsOf(ids, size);
+  }
+
+protected:
+  explicit MeshExtraction(ExtractionPasses passes)
+    : Passes(std::move(passes))
+  {
+  }
+
+  ExtractionPasses Passes;
+};
+
+}
+
+#endif
