@@ -4,56 +4,33 @@
 namespace isodiamond
 {
 
-Covering::Covering(const TriangleMesh& mesh, const Connectivity& connectivity)
-  : Mesh(mesh)
-  , Links(connectivity)
+Covering::Covering(const std::vector<Vector>& positions, const LinkedTriangles& mesh)
+  : Positions(positions)
+  , Mesh(mesh)
+  , Recent(MostRecent)
 {
-  this->Normals.reserve(mesh.Triangles.size());
-  this->Distances.reserve(mesh.Triangles.size());
-  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
-  {
-    const auto [a, b, c] = mesh.Corners(i);
-    this->Normals.push_back(Unit(Cross(b - a, c - a)));
-    this->Distances.emplace_back(a, b, c);
-  }
-}
-
-std::uint32_t Covering::NearestAt(std::uint32_t point, const Vector& place) const
-{
-  std::uint32_t nearest = *this->Links.begin(point);
-  double least = HUGE_VAL;
-  for (const std::uint32_t* i = this->Links.begin(point); i != this->Links.end(point); ++i)
-  {
-    const double squared = this->Distances[*i].Squared(place);
-    if (squared < least)
-    {
-      least = squared;
-      nearest = *i;
-    }
-  }
-  return nearest;
 }
 
 std::vector<std::uint32_t> Covering::Around(
-  const std::array<Vector, 3>& corners, std::uint32_t start, double reach) const
+  const std::array<Vector, 3>& corners, std::uint32_t start, double reach)
 {
   constexpr std::size_t most = 400;
   const auto [middle, radius] = BallAround(corners);
   const double far = reach + radius;
   std::vector<std::uint32_t> around = { start };
-  std::vector<bool> isKnown(this->Mesh.Triangles.size());
-  isKnown[start] = true;
+  this->Looks.resize(this->Mesh.Triangles.size());
+  const std::uint32_t look = ++this->LookCount;
+  this->Looks[start] = look;
   for (std::size_t i = 0; i < around.size() && around.size() < most; ++i)
   {
-    for (int edge = 0; edge < 3; ++edge)
+    for (const std::uint32_t next : this->Mesh.Neighbours[around[i]])
     {
-      const std::uint32_t next = this->Links.Neighbour(around[i], edge);
-      if (next == Connectivity::None || isKnown[next])
+      if (next == None || this->Looks[next] == look)
       {
         continue;
       }
-      isKnown[next] = true;
-      if (this->Distances[next].Squared(middle) <= far * far)
+      this->Looks[next] = look;
+      if (this->Of(next).Distance.Squared(middle) <= far * far)
       {
         around.push_back(next);
       }

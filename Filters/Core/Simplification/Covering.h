@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace isodiamond
 {
@@ -46,8 +47,8 @@ public:
     double Area() const { return AreaOf(this->Corners.data(), this->Count); }
   };
 
-  /** @param mesh,connectivity must outlive it, and be without fault */
-  Covering(const TriangleMesh& mesh, const Connectivity& connectivity);
+  /** @param positions,mesh must outlive it and stay as they are */
+  Covering(const std::vector<Vector>& positions, const LinkedTriangles& mesh);
 
   /** Of a polygon. */
   static double AreaOf(const Vector* corners, int count)
@@ -61,18 +62,33 @@ public:
   }
 
   /** Unit normal of a triangle of the mesh; 0 if it has no area. */
-  const Vector& Normal(std::uint32_t triangle) const { return this->Normals[triangle]; }
+  Vector Normal(std::uint32_t triangle) { return this->Of(triangle).Normal; }
 
   /** Whether all corners of a piece are so near to a triangle of the mesh. */
-  bool IsNear(std::uint32_t triangle, const Vector* corners, int count, double allowed) const
+  bool IsNear(std::uint32_t triangle, const Vector* corners, int count, double allowed)
   {
-    const TriangleDistance& distance = this->Distances[triangle];
+    const TriangleDistance& distance = this->Of(triangle).Distance;
     return std::all_of(corners, corners + count,
       [&](const Vector& corner) { return distance.Squared(corner) <= allowed * allowed; });
   }
 
-  /** The triangle at a point of the mesh that is nearest to a place. @pre the point is used */
-  std::uint32_t NearestAt(std::uint32_t point, const Vector& place) const;
+  /** Which of some triangles of the mesh is nearest to a place. @pre there are any */
+  template <typename Triangles>
+  std::uint32_t NearestOf(const Triangles& triangles, const Vector& place)
+  {
+    std::uint32_t nearest = *triangles.begin();
+    double least = HUGE_VAL;
+    for (const std::uint32_t triangle : triangles)
+    {
+      const double squared = this->Of(triangle).Distance.Squared(place);
+      if (squared < least)
+      {
+        least = squared;
+        nearest = triangle;
+      }
+    }
+    return nearest;
+  }
 
   /**
    * Cuts a triangle into pieces.
@@ -84,7 +100,7 @@ public:
    * @return whether all pieces were used; not if the way is too long
    */
   template <typename Use>
-  bool Cut(const std::array<Vector, 3>& corners, std::uint32_t start, double near, Use&& use) const
+  bool Cut(const std::array<Vector, 3>& corners, std::uint32_t start, double near, Use&& use)
   {
     Piece piece;
     piece.Count = 3;
@@ -104,7 +120,7 @@ public:
    */
   template <typename Use>
   bool LookAround(
-    const std::array<Vector, 3>& corners, std::uint32_t start, double reach, Use&& use) const
+    const std::array<Vector, 3>& corners, std::uint32_t start, double reach, Use&& use)
   {
     const std::vector<std::uint32_t> around = this->Around(corners, start, reach);
     return this->IsNearAround(corners, around, reach, 0, use);
@@ -117,8 +133,7 @@ public:
    * @param use (triangle of the mesh, corners of a piece, their count) -> whether it is near enough
    */
   template <typename Use>
-  bool Covers(
-    const std::array<Vector, 3>& corners, std::uint32_t start, double allowed, Use&& use) const
+  bool Covers(const std::array<Vector, 3>& corners, std::uint32_t start, double allowed, Use&& use)
   {
     const auto lookAround = [&](const std::array<Vector, 3>& piece, std::uint32_t from)
     {
@@ -167,18 +182,18 @@ private:
 
   /** Triangles that may be within reach, connected to the start. */
   std::vector<std::uint32_t> Around(
-    const std::array<Vector, 3>& corners, std::uint32_t start, double reach) const;
+    const std::array<Vector, 3>& corners, std::uint32_t start, double reach);
 
   template <typename Use>
   bool IsNearAround(const std::array<Vector, 3>& corners, const std::vector<std::uint32_t>& around,
-    double reach, int depth, Use&& use) const
+    double reach, int depth, Use&& use)
   {
     // Those nearest to the middle first.
     const auto [middle, radius] = BallAround(corners);
     std::vector<std::pair<double, std::uint32_t>> near;
     for (const std::uint32_t triangle : around)
     {
-      const double squared = this->Distances[triangle].Squared(middle);
+      const double squared = this->Of(triangle).Distance.Squared(middle);
       if (squared <= (reach + radius) * (reach + radius))
       {
         near.emplace_back(squared, triangle);
@@ -213,11 +228,10 @@ private:
   static constexpr int MostSteps = 1000;
 
   /** The inward normal of the plane through an edge. */
-  Vector PlaneOf(std::uint32_t triangle, int edge, std::uint32_t neighbour) const
+  Vector PlaneOf(std::uint32_t triangle, int edge, std::uint32_t neighbour)
   {
-    const Vector along =
-      this->Mesh.Corner(triangle, (edge + 1) % 3) - this->Mesh.Corner(triangle, edge);
-    return Cross(this->Normals[triangle] + this->Normals[neighbour], along);
+    const Vector along = this->Corner(triangle, (edge + 1) % 3) - this->Corner(triangle, edge);
+    return Cross(this->Normal(triangle) + this->Normal(neighbour), along);
   }
 
   /** Cuts a piece in two by a plane. @return whether anything lies beyond */
@@ -241,18 +255,19 @@ private:
     }
   };
 
-  double SquaredDistance(const Piece& piece, std::uint32_t triangle) const
+  double SquaredDistance(const Piece& piece, std::uint32_t triangle)
   {
+    const TriangleDistance& distance = this->Of(triangle).Distance;
     double squared = 0.0;
     for (int i = 0; i < piece.Count; ++i)
     {
-      squared = std::max(squared, this->Distances[triangle].Squared(piece.Corners[i]));
+      squared = std::max(squared, distance.Squared(piece.Corners[i]));
     }
     return squared;
   }
 
   template <typename Use>
-  bool Walk(Piece& piece, std::uint32_t triangle, Way& way, Use&& use) const
+  bool Walk(Piece& piece, std::uint32_t triangle, Way& way, Use&& use)
   {
     if (++way.Steps > MostSteps || way.Length == Way::Longest)
     {
@@ -264,11 +279,11 @@ private:
       way.Triangles[way.Length++] = triangle;
       for (int edge = 0; edge < 3; ++edge)
       {
-        const std::uint32_t neighbour = this->Links.Neighbour(triangle, edge);
+        const std::uint32_t neighbour = this->Mesh.Neighbours[triangle][edge];
         Piece inside;
         Piece beyond;
-        if (neighbour == Connectivity::None || way.Has(neighbour) ||
-          !Split(piece, this->Mesh.Corner(triangle, edge), this->PlaneOf(triangle, edge, neighbour),
+        if (neighbour == None || way.Has(neighbour) ||
+          !Split(piece, this->Corner(triangle, edge), this->PlaneOf(triangle, edge, neighbour),
             inside, beyond))
         {
           continue;
@@ -291,54 +306,38 @@ private:
     return use(triangle, std::sqrt(squared), piece);
   }
 
-  const TriangleMesh& Mesh;
-  const Connectivity& Links;
-  std::vector<Vector> Normals;
-  std::vector<TriangleDistance> Distances;
-};
+  const Vector& Corner(std::uint32_t triangle, int i) const
+  {
+    return this->Positions[this->Mesh.Triangles[triangle][i]];
+  }
 
-/**
- * Visits the triangles of a mesh, each with a triangle of another one nearby: those with a place
- * first, then those at points that the other mesh has, too, then their neighbours, from where each
- * of them ended.
- *
- * @param links,otherLinks of the mesh, and of the other one, which cover is over
- * @param places by triangle: of the other mesh; None where nothing is known
- * @param waiting triangles with a place
- * @param visit (triangle, place): may change the place to where it ended
- */
-template <typename Visit>
-void ForEachFromPlace(const TriangleMesh& mesh, const Connectivity& links,
-  const Connectivity& otherLinks, const Covering& cover, std::vector<std::uint32_t>& places,
-  std::vector<std::uint32_t>& waiting, Visit&& visit)
-{
-  const auto count = static_cast<std::uint32_t>(mesh.Triangles.size());
-  for (std::uint32_t i = 0; i < count; ++i)
+  /** What is measured from, of a triangle. */
+  struct Base
   {
-    for (const std::uint32_t point : mesh.Triangles[i])
-    {
-      if (places[i] == Connectivity::None && otherLinks.IsUsed(point))
-      {
-        places[i] = cover.NearestAt(point, mesh.Middle(i));
-        waiting.push_back(i);
-      }
-    }
-  }
-  for (std::size_t at = 0; at < waiting.size(); ++at)
+    std::uint32_t Triangle = None;
+    Vector Normal{};
+    TriangleDistance Distance;
+  };
+  static constexpr std::size_t MostRecent = 256;
+
+  /** Of those that were used last, one in each place: neighbours are asked for again and again. */
+  const Base& Of(std::uint32_t triangle)
   {
-    const std::uint32_t i = waiting[at];
-    visit(i, places[i]);
-    for (int edge = 0; edge < 3; ++edge)
+    Base& base = this->Recent[triangle % MostRecent];
+    if (base.Triangle != triangle)
     {
-      const std::uint32_t neighbour = links.Neighbour(i, edge);
-      if (neighbour != Connectivity::None && places[neighbour] == Connectivity::None)
-      {
-        places[neighbour] = places[i];
-        waiting.push_back(neighbour);
-      }
+      const auto [a, b, c] = this->Mesh.Corners(this->Positions, triangle);
+      base = { triangle, Unit(Cross(b - a, c - a)), { a, b, c } };
     }
+    return base;
   }
-}
+
+  const std::vector<Vector>& Positions;
+  const LinkedTriangles& Mesh;
+  std::vector<Base> Recent;
+  std::vector<std::uint32_t> Looks; ///< by triangle: the last look around that it was seen in
+  std::uint32_t LookCount = 0;
+};
 
 }
 

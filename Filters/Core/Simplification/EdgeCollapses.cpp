@@ -7,17 +7,14 @@
 namespace isodiamond
 {
 
-EdgeCollapses::EdgeCollapses(const MeshPart& part, const Connectivity& links, double usedPart)
-  : UsedPart(usedPart)
-  , Positions(part.Original.Mesh.Positions)
-  , Samples(part.Samples)
-  , Triangles(part.Triangles)
-  , Neighbours(part.Triangles.size())
-  , Normals(part.Triangles.size())
-  , FirstSample(part.Triangles.size(), None)
-  , NextSample(part.Samples.size(), None)
+EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart)
+  : Positions(part.Positions)
+  , Links(part.Simple)
+  , Triangles(this->Links.Triangles)
+  , Neighbours(this->Links.Neighbours)
+  , Normals(this->Triangles.size())
+  , FirstSample(this->Triangles.size(), None)
   , Homes(part.Samples.size(), None)
-  , NextOver(part.Samples.size(), None)
   , AnyTriangle(this->Positions.size(), None)
   , Stays(part.IsFixed)
   , IsLeftAlone(this->Positions.size())
@@ -25,22 +22,27 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, const Connectivity& links, do
   , Best(this->Positions.size())
   , Versions(this->Positions.size())
   , Marks(this->Positions.size())
-  , LastStep(part.Triangles.size(), None)
+  , LastStep(this->Triangles.size(), None)
   , RemovedIn(this->Positions.size(), None)
 {
+  const Vector origin = part.Positions.empty() ? Vector{} : part.Positions.front();
+  for (Vector& position : this->Positions)
+  {
+    position = position - origin;
+  }
+  std::vector<int> counts(this->Positions.size());
   for (std::uint32_t i = 0; i < this->Triangles.size(); ++i)
   {
     const Triangle& triangle = this->Triangles[i];
     const Vector across = Across(this->Positions, triangle);
     this->Normals[i] = Unit(across);
     const double area = 0.5 * std::sqrt(Dot(across, across));
-    const Quadric plane(
-      this->Positions[triangle[0]] - this->Positions.front(), this->Normals[i], area);
+    const Quadric plane(this->Positions[triangle[0]], this->Normals[i], area);
     for (int k = 0; k < 3; ++k)
     {
-      this->Neighbours[i][k] = links.Neighbour(i, k);
       this->AnyTriangle[triangle[k]] = i;
       this->Quadrics[triangle[k]].Add(plane);
+      ++counts[triangle[k]];
       if (this->Neighbours[i][k] == None)
       {
         this->Stays[triangle[k]] = true;
@@ -48,22 +50,26 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, const Connectivity& links, do
       }
     }
   }
-  for (std::uint32_t i = 0; i < this->Samples.size(); ++i)
+  this->Samples.reserve(part.Samples.size());
+  for (std::uint32_t i = 0; i < part.Samples.size(); ++i)
   {
-    const std::uint32_t home = this->Samples[i].Home;
-    if (home != None)
+    const Vector place = part.Samples[i].Position - origin;
+    this->Samples.push_back({ { static_cast<float>(place[0]), static_cast<float>(place[1]),
+                                static_cast<float>(place[2]) },
+      static_cast<float>(usedPart * part.Samples[i].Allowance), None, None });
+    if (part.Samples[i].Home != None)
     {
-      this->PutOver(home, i);
+      this->PutOver(part.Samples[i].Home, i);
     }
   }
   for (std::uint32_t point = 0; point < this->Positions.size(); ++point)
   {
-    if (links.IsUsed(point))
+    if (this->AnyTriangle[point] != None)
     {
-      std::ptrdiff_t seen = 0;
+      int seen = 0;
       this->ForEachNeighbour(
         point, [&](std::uint32_t, std::uint32_t triangle) { seen += triangle != None ? 1 : 0; });
-      this->IsLeftAlone[point] = seen != links.end(point) - links.begin(point);
+      this->IsLeftAlone[point] = seen != counts[point];
     }
   }
 }
@@ -132,7 +138,7 @@ bool EdgeCollapses::KeepsTopology(const Hole& hole)
 }
 
 /** Whether a sample is near enough to what fills the hole; then it goes with that. */
-bool EdgeCollapses::IsNear(std::uint32_t sample, const Hole::Place& place)
+bool EdgeCollapses::IsNear(Watched& sample, std::uint32_t number, const Hole::Place& place)
 {
   int at = 1;
   while (at + 1 < this->FillingCount && this->Fillings[at].IsBeyond(place))
@@ -140,13 +146,12 @@ bool EdgeCollapses::IsNear(std::uint32_t sample, const Hole::Place& place)
     ++at;
   }
   Filling& filling = this->Fillings[at];
-  const double allowed = this->UsedPart * this->Samples[sample].Allowance;
-  if (!(filling.Distance.Squared(this->Samples[sample].Position) <= allowed * allowed))
+  if (!(std::abs(Dot(sample.At() - this->Corner, filling.Normal)) <= sample.Allowance))
   {
     return false;
   }
-  this->NextOver[sample] = filling.FirstSample;
-  filling.FirstSample = sample;
+  sample.NextOver = filling.FirstSample;
+  filling.FirstSample = number;
   return true;
 }
 
@@ -156,12 +161,12 @@ bool EdgeCollapses::Fill(std::uint32_t vertex, const Hole& hole)
 {
   const int last = hole.Count - 1;
   this->FillingCount = last;
-  const Vector& corner = this->Positions[hole.Points[0]];
+  this->Corner = this->Positions[hole.Points[0]];
   for (int i = 1; i < last; ++i)
   {
     const Vector& second = this->Positions[hole.Points[i]];
     const Vector& third = this->Positions[hole.Points[i + 1]];
-    const Vector across = Cross(second - corner, third - corner);
+    const Vector across = Cross(second - this->Corner, third - this->Corner);
     const double length = std::sqrt(Dot(across, across));
     if (!(Dot(across, hole.Normal) > hole.LeastCosine * length))
     {
@@ -169,26 +174,26 @@ bool EdgeCollapses::Fill(std::uint32_t vertex, const Hole& hole)
     }
     Filling& filling = this->Fillings[i];
     filling.Normal = (1.0 / length) * across;
-    filling.Distance = TriangleDistance(corner, second, third);
     filling.Start = hole.Places[0];
     filling.Spoke = { hole.Places[i + 1][0] - hole.Places[0][0],
       hole.Places[i + 1][1] - hole.Places[0][1] };
     filling.FirstSample = None;
   }
-  if (!this->IsNear(vertex, { 0.0, 0.0 }))
+  if (!this->IsNear(this->Samples[vertex], vertex, { 0.0, 0.0 }))
   {
     return false;
   }
   const Vector& origin = this->Positions[vertex];
   for (int i = 0; i < hole.Count; ++i)
   {
-    for (std::uint32_t at = this->FirstSample[hole.Triangles[i]]; at != None;
-         at = this->NextSample[at])
+    for (std::uint32_t at = this->FirstSample[hole.Triangles[i]]; at != None;)
     {
-      if (!this->IsNear(at, hole.See(this->Samples[at].Position - origin)))
+      Watched& sample = this->Samples[at];
+      if (!this->IsNear(sample, at, hole.See(sample.At() - origin)))
       {
         return false;
       }
+      at = sample.Next;
     }
   }
   return true;
@@ -206,7 +211,7 @@ void EdgeCollapses::Offer(std::uint32_t vertex, double cost, std::uint32_t targe
       {
         return;
       }
-      const double price = quadric.At(this->Positions[neighbour] - this->Positions.front());
+      const double price = quadric.At(this->Positions[neighbour]);
       const bool isLater = price > cost || (price == cost && neighbour > target);
       if (isLater && (price < best.Cost || (price == best.Cost && neighbour < best.Target)))
       {
@@ -221,13 +226,20 @@ void EdgeCollapses::Offer(std::uint32_t vertex, double cost, std::uint32_t targe
   }
 }
 
-/** Whether what was offered of a vertex is so when a neighbour goes into another one. */
-bool EdgeCollapses::IsStillBest(
-  std::uint32_t vertex, std::uint32_t gone, std::uint32_t target) const
+/** What is offered of a vertex may be another one after a neighbour went into a target. */
+void EdgeCollapses::OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::uint32_t target)
 {
-  const Price& best = this->Best[vertex];
-  return vertex != target && !best.WasRefused && best.Target != gone &&
-    best.Cost <= this->Quadrics[vertex].At(this->Positions[target] - this->Positions.front());
+  Price& best = this->Best[vertex];
+  if (best.Target == None || best.WasRefused ||
+    (vertex != target && this->Quadrics[vertex].At(this->Positions[target]) < best.Cost))
+  {
+    ++this->Versions[vertex];
+    this->Offer(vertex, -HUGE_VAL, 0);
+  }
+  else if (vertex == target || best.Target == gone)
+  {
+    best.IsOld = true; // not less, most likely: seen to in its turn
+  }
 }
 
 void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
@@ -270,9 +282,9 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
     this->Triangles[triangle][PlaceOf(this->Triangles[triangle], vertex)] = target;
     this->Normals[triangle] = this->Fillings[i].Normal;
     this->FirstSample[triangle] = this->Fillings[i].FirstSample;
-    for (std::uint32_t at = this->FirstSample[triangle]; at != None; at = this->NextSample[at])
+    for (std::uint32_t at = this->FirstSample[triangle]; at != None; at = this->Samples[at].Next)
     {
-      this->NextSample[at] = this->NextOver[at];
+      this->Samples[at].Next = this->Samples[at].NextOver;
       this->Homes[at] = triangle;
     }
     this->AnyTriangle[hole.Points[i]] = triangle;
@@ -285,11 +297,9 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
   for (int i = 0; i < hole.Count; ++i)
   {
     const std::uint32_t point = hole.Points[i];
-    if (!this->Stays[point] && !this->IsLeftAlone[point] &&
-      !this->IsStillBest(point, vertex, target))
+    if (!this->Stays[point] && !this->IsLeftAlone[point])
     {
-      ++this->Versions[point];
-      this->Offer(point, -HUGE_VAL, 0);
+      this->OfferAgain(point, vertex, target);
     }
   }
 }
@@ -312,7 +322,11 @@ std::vector<bool> EdgeCollapses::Run()
     {
       continue;
     }
-    if (this->FindHole(at.Vertex, at.Target, hole) && this->KeepsTopology(hole) &&
+    if (this->Best[at.Vertex].IsOld)
+    {
+      this->Offer(at.Vertex, -HUGE_VAL, 0);
+    }
+    else if (this->FindHole(at.Vertex, at.Target, hole) && this->KeepsTopology(hole) &&
       hole.SeeFromAbove(this->Positions, this->Normals, at.Vertex) && this->Fill(at.Vertex, hole))
     {
       this->Collapse(at.Vertex, hole);
@@ -328,21 +342,6 @@ std::vector<bool> EdgeCollapses::Run()
     isChanged[triangle] = true;
   }
   return isChanged;
-}
-
-std::vector<Triangle> EdgeCollapses::Result(std::vector<std::uint32_t>& numbers) const
-{
-  std::vector<Triangle> result;
-  numbers.clear();
-  for (std::uint32_t i = 0; i < this->Triangles.size(); ++i)
-  {
-    if (this->Triangles[i][0] != None)
-    {
-      result.push_back(this->Triangles[i]);
-      numbers.push_back(i);
-    }
-  }
-  return result;
 }
 
 }

@@ -2,7 +2,6 @@
 #ifndef isodiamond_EdgeCollapses_h
 #define isodiamond_EdgeCollapses_h
 
-#include "Patches/PatchDistance.h"
 #include "Simplification/Hole.h"
 #include "Simplification/MeshPart.h"
 #include "Simplification/Quadric.h"
@@ -32,22 +31,16 @@ class EdgeCollapses
 {
 public:
   /** @param part stays as it is, and must outlive it
-   *  @param links of its triangles, without faulty points
    *  @param usedPart of allowances, by samples: between them the surface may be a bit farther off
    */
-  EdgeCollapses(const MeshPart& part, const Connectivity& links, double usedPart);
+  EdgeCollapses(const MeshPart& part, double usedPart);
 
   /** Collapses all that it can. @return by number: whether a triangle is another one now, or gone
    */
   std::vector<bool> Run();
 
-  /** All triangles by number; the first point is None where one is gone. */
-  const std::vector<Triangle>& All() const { return this->Triangles; }
-
-  /** The triangles that are left.
-   *  @param numbers is given those that they go by here: each has that of a triangle at the
-   *         beginning */
-  std::vector<Triangle> Result(std::vector<std::uint32_t>& numbers) const;
+  /** The mesh as it is now: a triangle that is left has the number that it had. */
+  const LinkedTriangles& Mesh() const { return this->Links; }
 
   /** By sample: the number of the triangle that it lies over now; None for points in use. */
   const std::vector<std::uint32_t>& SampleHomes() const { return this->Homes; }
@@ -58,7 +51,6 @@ public:
     const std::vector<std::uint32_t>& triangles, const std::vector<std::uint32_t>& points);
 
 private:
-  static constexpr std::uint32_t None = Connectivity::None;
   static constexpr int MostNeighbours = Hole::MostPoints;
 
   /** The cheapest collapse of a vertex that has not been refused. */
@@ -81,7 +73,6 @@ private:
   struct Filling
   {
     Vector Normal{};
-    TriangleDistance Distance;
     Hole::Place Start{}; ///< of the edge to the next one
     Hole::Place Spoke{};
     std::uint32_t FirstSample = None;
@@ -91,6 +82,18 @@ private:
       return this->Spoke[0] * (place[1] - this->Start[1]) >
         this->Spoke[1] * (place[0] - this->Start[0]);
     }
+  };
+
+  /** A sample, as little of it as will do: there are many, and they are looked at again and again.
+   */
+  struct Watched
+  {
+    std::array<float, 3> Position; ///< from the first point
+    float Allowance;               ///< the used part of it
+    std::uint32_t Next;            ///< of those over the same triangle
+    std::uint32_t NextOver;        ///< the same, of what fills a hole
+
+    Vector At() const { return { this->Position[0], this->Position[1], this->Position[2] }; }
   };
 
   /** What was done, to be undone. */
@@ -104,7 +107,7 @@ private:
   bool FindHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
   bool KeepsTopology(const Hole& hole);
   bool Fill(std::uint32_t vertex, const Hole& hole);
-  bool IsNear(std::uint32_t sample, const Hole::Place& place);
+  bool IsNear(Watched& sample, std::uint32_t number, const Hole::Place& place);
   void Undo(const Step& step);
   void Forget(const std::vector<bool>& isUndone);
   void GiveBackSamples(const Step& step);
@@ -112,22 +115,20 @@ private:
   void TakeAway(std::uint32_t sample);
   void Collapse(std::uint32_t vertex, const Hole& hole);
   void Offer(std::uint32_t vertex, double cost, std::uint32_t target);
-  bool IsStillBest(std::uint32_t vertex, std::uint32_t gone, std::uint32_t target) const;
+  void OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::uint32_t target);
 
   /** Calls visit(neighbour, triangle from it on to the next one; None if it is the last). */
   template <typename Visit>
   void ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const;
 
-  double UsedPart;
-  const std::vector<Vector>& Positions;
-  const std::vector<SurfaceSample>& Samples;
-  std::vector<Triangle> Triangles; ///< the first point is None where one is gone
-  std::vector<Triangle> Neighbours;
+  std::vector<Vector> Positions; ///< from the first one
+  LinkedTriangles Links;
+  std::vector<Triangle>& Triangles;       ///< of these
+  std::vector<Triangle>& Neighbours;      ///< of these
   std::vector<Vector> Normals;            ///< of unit length
   std::vector<std::uint32_t> FirstSample; ///< by triangle: of those over it
-  std::vector<std::uint32_t> NextSample;  ///< by sample: of those over the same triangle
   std::vector<std::uint32_t> Homes;       ///< by sample
-  std::vector<std::uint32_t> NextOver;    ///< the same, of what fills a hole
+  std::vector<Watched> Samples;
 
   std::vector<std::uint32_t> AnyTriangle; ///< by vertex
   std::vector<bool> Stays;                ///< at the border, or fixed
@@ -138,6 +139,7 @@ private:
     double Cost = 0.0;
     std::uint32_t Target = None;
     bool WasRefused = false; ///< a better one
+    bool IsOld = false;      ///< it is to be found again
   };
   std::vector<Price> Best; ///< by vertex: what is offered; None if all was refused
   std::vector<std::uint32_t> Versions;
@@ -146,6 +148,7 @@ private:
 
   std::priority_queue<Candidate> Queue;
   std::array<Filling, MostNeighbours> Fillings; ///< of the last hole, by its points
+  Vector Corner{};                              ///< that all of them have
   int FillingCount = 0;
 
   std::vector<Step> Steps;

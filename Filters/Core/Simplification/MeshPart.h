@@ -2,8 +2,8 @@
 #ifndef isodiamond_MeshPart_h
 #define isodiamond_MeshPart_h
 
-#include "Simplification/AllowedMesh.h"
 #include "Simplification/NearLists.h"
+#include "Simplification/TriangleMesh.h"
 
 #include <cstdint>
 #include <vector>
@@ -17,18 +17,19 @@ struct SurfaceSample
 {
   Vector Position;
   double Allowance = 0.0;
-  std::uint32_t Home =
-    Connectivity::None; ///< the triangle that it lies over; none yet for a point in use
+  std::uint32_t Home = None; ///< the triangle that it lies over; none for a point in use
 };
 
 /** A part of a mesh that is made simpler on its own, and what it stands for. */
 struct MeshPart
 {
-  AllowedMesh Original;
-  std::vector<Triangle> Triangles;    ///< of the simpler mesh, on the points of the original
+  std::vector<Vector> Positions;
+  LinkedTriangles Original;
+  std::vector<double> Allowances;     ///< by triangle of the original
+  LinkedTriangles Simple;             ///< on some of the points
   std::vector<bool> IsFixed;          ///< by point: stays
-  std::vector<SurfaceSample> Samples; ///< the points first
-  NearLists Near{ 0 };                ///< by original triangle
+  std::vector<SurfaceSample> Samples; ///< first the points, then the original's middles
+  NearLists Near{ 0 };                ///< by triangle of the original
 };
 
 }

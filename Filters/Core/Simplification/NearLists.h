@@ -21,6 +21,8 @@ public:
   {
   }
 
+  std::size_t Count() const { return this->Ranges.size(); }
+
   IdRange operator[](std::size_t triangle) const
   {
     const std::uint32_t* const first = this->Items.data() + this->Ranges[triangle].First;

@@ -7,11 +7,30 @@
 
 namespace isodiamond
 {
+namespace
+{
+
+/** By point: one of the triangles there, or None. */
+std::vector<std::uint32_t> AnyTriangleAt(std::size_t points, const LinkedTriangles& mesh)
+{
+  std::vector<std::uint32_t> any(points, None);
+  for (std::uint32_t i = 0; i < mesh.Triangles.size(); ++i)
+  {
+    for (int k = 0; mesh.IsThere(i) && k < 3; ++k)
+    {
+      any[mesh.Triangles[i][k]] = i;
+    }
+  }
+  return any;
+}
+
+}
 
 PartDistance::PartDistance(MeshPart& part)
   : Part(part)
-  , Links(part.Original.Mesh)
-  , Cover(part.Original.Mesh, this->Links)
+  , Cover(part.Positions, part.Original)
+  , Shadow(part.Positions, part.Original, part.Allowances)
+  , OriginalAt(AnyTriangleAt(part.Positions.size(), part.Original))
 {
 }
 
@@ -19,142 +38,95 @@ PartDistance::PartDistance(MeshPart& part)
 class PartDistance::Comparison
 {
 public:
-  Comparison(PartDistance& all, const TriangleMesh& simple,
-    const std::vector<std::uint32_t>& numbers, const std::vector<bool>& isTouched)
+  Comparison(PartDistance& all, const LinkedTriangles& simple,
+    const std::vector<std::uint32_t>& homes, const std::vector<bool>& isTouched)
     : Part(all.Part)
-    , Links(all.Links)
     , Cover(all.Cover)
+    , Shadow(all.Shadow)
     , Simple(simple)
-    , Numbers(numbers)
+    , Homes(homes)
     , IsTouched(isTouched)
-    , SimpleLinks(simple)
-    , SimpleCover(simple, this->SimpleLinks)
+    , OriginalAt(all.OriginalAt)
+    , SimpleCover(all.Part.Positions, simple)
+    , AnyAt(AnyTriangleAt(all.Part.Positions.size(), simple))
   {
   }
 
   Faults Run()
   {
-    for (std::uint32_t i = 0; i < this->Simple.Triangles.size(); ++i)
-    {
-      if (this->IsTouched[this->Numbers[i]] && !this->IsNearBack(i))
-      {
-        this->Found.Triangles.push_back(this->Numbers[i]);
-      }
-    }
     this->GoForth();
+    this->GoBack();
     return std::move(this->Found);
   }
 
 private:
-  static constexpr std::uint32_t None = Connectivity::None;
-
-  /** Whether a triangle of the simpler mesh is near to the original, and faces as that does. */
-  bool IsNearBack(std::uint32_t simple)
-  {
-    const Triangle& points = this->Simple.Triangles[simple];
-    const Vector middle = this->Simple.Middle(simple);
-    const auto used = std::find_if(
-      points.begin(), points.end(), [&](std::uint32_t point) { return this->Links.IsUsed(point); });
-    if (used == points.end())
-    {
-      return false;
-    }
-    const std::uint32_t start = this->Cover.NearestAt(*used, middle);
-    Vector mean{}; // of the normals
-    const bool isNear =
-      this->Cover.Covers(this->Simple.Corners(simple), start, this->Part.Original.Allowances[start],
-        [&](std::uint32_t original, const Vector* corners, int count)
-        {
-          const double allowance = this->Part.Original.Allowances[original];
-          const bool isSo = this->Cover.IsNear(original, corners, count, allowance);
-          if (isSo)
-          {
-            mean = mean + Covering::AreaOf(corners, count) * this->Cover.Normal(original);
-          }
-          return isSo;
-        });
-    return isNear && Dot(mean, this->SimpleCover.Normal(simple)) >= 0.0;
-  }
-
+  /** Each triangle of the original that was near to what is another one now. */
   void GoForth()
   {
-    std::vector<std::uint32_t> indices(this->IsTouched.size(), None); // by number
-    for (std::uint32_t i = 0; i < this->Numbers.size(); ++i)
-    {
-      indices[this->Numbers[i]] = i;
-    }
-    const TriangleMesh& original = this->Part.Original.Mesh;
-    std::vector<std::uint32_t> places(original.Triangles.size(), None);
-    std::vector<std::uint32_t> waiting;
-    std::vector<bool> isKnown(original.Triangles.size());
-    for (std::uint32_t i = 0; i < original.Triangles.size(); ++i)
+    for (std::uint32_t i = 0; i < this->Part.Original.Triangles.size(); ++i)
     {
       const IdRange near = this->Part.Near[i];
-      isKnown[i] = !near.empty() &&
+      const bool isKnown = !near.empty() &&
         std::none_of(
           near.begin(), near.end(), [&](std::uint32_t number) { return this->IsTouched[number]; });
-      // Else near one of them that is left, at least.
-      for (const std::uint32_t number : near)
-      {
-        places[i] = indices[number] != None ? indices[number] : places[i];
-      }
-      if (places[i] != None)
-      {
-        waiting.push_back(i);
-      }
-    }
-    ForEachFromPlace(original, this->Links, this->SimpleLinks, this->SimpleCover, places, waiting,
-      [&](std::uint32_t i, std::uint32_t& place)
-      {
-        if (!isKnown[i] && !this->IsNearForth(i, place))
-        {
-          this->Found.Triangles.push_back(this->Numbers[place]);
-          this->MarkOriginal(i);
-        }
-      });
-    // Where nothing of a piece is left, nothing leads.
-    for (std::uint32_t i = 0; i < places.size(); ++i)
-    {
-      if (places[i] == None)
+      if (!isKnown && !this->IsNearForth(i))
       {
         this->MarkOriginal(i);
       }
     }
   }
 
-  /** Nothing is near to a triangle of the original. */
-  void MarkOriginal(std::uint32_t original)
+  bool IsNearForth(std::uint32_t original)
   {
-    const IdRange near = this->Part.Near[original];
-    this->Found.Triangles.insert(this->Found.Triangles.end(), near.begin(), near.end());
-    const Triangle& points = this->Part.Original.Mesh.Triangles[original];
-    std::copy_if(points.begin(), points.end(), std::back_inserter(this->Found.Points),
-      [&](std::uint32_t point) { return !this->SimpleLinks.IsUsed(point); });
-    this->Part.Near.Begin(original);
+    const std::array<Vector, 3> corners =
+      this->Part.Original.Corners(this->Part.Positions, original);
+    const double allowance = this->Part.Allowances[original];
+    // What is near to a triangle is convex: one that all corners are near to will do.
+    std::uint32_t start = None;
+    const auto isNear = [&](std::uint32_t number)
+    {
+      if (number == None || number == start || !this->Simple.IsThere(number))
+      {
+        return false;
+      }
+      start = number;
+      return this->SimpleCover.IsNear(number, corners.data(), 3, allowance);
+    };
+    const Triangle& points = this->Part.Original.Triangles[original];
+    const IdRange before = this->Part.Near[original];
+    if (isNear(this->Homes[this->Part.Positions.size() + original]) ||
+      std::any_of(points.begin(), points.end(),
+        [&](std::uint32_t point) { return isNear(this->Homes[point]); }) ||
+      std::any_of(points.begin(), points.end(),
+        [&](std::uint32_t point) { return isNear(this->AnyAt[point]); }) ||
+      std::any_of(before.begin(), before.end(), isNear))
+    {
+      this->Part.Near.Begin(original);
+      this->Part.Near.Add(original, start);
+      return true;
+    }
+    return start != None && this->IsNearInPieces(original, corners, allowance, start);
   }
 
-  /** Whether a triangle of the original is near to the simpler mesh.
-   *  @param place where to begin, and where it ended */
-  bool IsNearForth(std::uint32_t original, std::uint32_t& place)
+  bool IsNearInPieces(std::uint32_t original, const std::array<Vector, 3>& corners,
+    double allowance, std::uint32_t start)
   {
-    const double allowance = this->Part.Original.Allowances[original];
     this->NewNear.clear();
-    const bool isNear =
-      this->SimpleCover.Covers(this->Part.Original.Mesh.Corners(original), place, allowance,
-        [&](std::uint32_t simple, const Vector* corners, int count)
+    this->Last = start;
+    const bool isNear = this->SimpleCover.Covers(corners, start, allowance,
+      [&](std::uint32_t simple, const Vector* piece, int count)
+      {
+        if (!this->SimpleCover.IsNear(simple, piece, count, allowance))
         {
-          if (!this->SimpleCover.IsNear(simple, corners, count, allowance))
-          {
-            return false;
-          }
-          place = simple;
-          const std::uint32_t number = this->Numbers[simple];
-          if (std::find(this->NewNear.begin(), this->NewNear.end(), number) == this->NewNear.end())
-          {
-            this->NewNear.push_back(number);
-          }
-          return true;
-        });
+          return false;
+        }
+        this->Last = simple;
+        if (std::find(this->NewNear.begin(), this->NewNear.end(), simple) == this->NewNear.end())
+        {
+          this->NewNear.push_back(simple);
+        }
+        return true;
+      });
     if (isNear)
     {
       this->Part.Near.Begin(original);
@@ -163,26 +135,109 @@ private:
         this->Part.Near.Add(original, number);
       }
     }
+    else
+    {
+      this->Found.Triangles.push_back(this->Last);
+    }
     return isNear;
   }
 
+  /** Nothing is near to a triangle of the original. */
+  void MarkOriginal(std::uint32_t original)
+  {
+    const IdRange near = this->Part.Near[original];
+    this->Found.Triangles.insert(this->Found.Triangles.end(), near.begin(), near.end());
+    const Triangle& points = this->Part.Original.Triangles[original];
+    std::copy_if(points.begin(), points.end(), std::back_inserter(this->Found.Points),
+      [&](std::uint32_t point) { return this->AnyAt[point] == None; });
+    this->Part.Near.Begin(original);
+  }
+
+  /** Each triangle that is another one now. */
+  void GoBack()
+  {
+    // Those of the original that are near to each.
+    const CellsAtPoints nearTo(this->Simple.Triangles.size(), this->Part.Original.Triangles.size(),
+      [&](std::size_t original) { return this->Part.Near[original]; });
+    for (std::uint32_t i = 0; i < this->Simple.Triangles.size(); ++i)
+    {
+      if (this->Simple.IsThere(i) && this->IsTouched[i] && !this->IsNearBack(i, nearTo))
+      {
+        this->Found.Triangles.push_back(i);
+      }
+    }
+  }
+
+  /** Whether a triangle of the simpler mesh is near to the original, and faces as that does. */
+  bool IsNearBack(std::uint32_t simple, const CellsAtPoints& nearTo)
+  {
+    const std::array<Vector, 3> corners = this->Simple.Corners(this->Part.Positions, simple);
+    const auto add = [&](std::uint32_t number)
+    {
+      const IdRange near = nearTo[number];
+      this->Around.insert(this->Around.end(), near.begin(), near.end());
+    };
+    this->Around.clear();
+    add(simple);
+    for (const std::uint32_t neighbour : this->Simple.Neighbours[simple])
+    {
+      if (this->Around.empty() && neighbour != None)
+      {
+        add(neighbour); // all could be near to it, too
+      }
+    }
+    for (const std::uint32_t point : this->Simple.Triangles[simple])
+    {
+      if (this->Around.empty() && this->OriginalAt[point] != None)
+      {
+        this->Around.push_back(this->OriginalAt[point]);
+      }
+    }
+    if (this->Around.empty())
+    {
+      return false;
+    }
+    return this->Shadow.Covers(corners, this->Around) || this->IsNearBackInPieces(corners);
+  }
+
+  bool IsNearBackInPieces(const std::array<Vector, 3>& corners)
+  {
+    const Vector middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
+    const std::uint32_t start = this->Cover.NearestOf(this->Around, middle);
+    Vector mean{}; // of the normals
+    const bool isNear = this->Cover.Covers(corners, start, this->Part.Allowances[start],
+      [&](std::uint32_t original, const Vector* piece, int count)
+      {
+        const bool isSo =
+          this->Cover.IsNear(original, piece, count, this->Part.Allowances[original]);
+        if (isSo)
+        {
+          mean = mean + Covering::AreaOf(piece, count) * this->Cover.Normal(original);
+        }
+        return isSo;
+      });
+    return isNear && Dot(mean, Cross(corners[1] - corners[0], corners[2] - corners[0])) >= 0.0;
+  }
+
   MeshPart& Part;
-  const Connectivity& Links;
-  const Covering& Cover;
-  const TriangleMesh& Simple;
-  const std::vector<std::uint32_t>& Numbers;
+  Covering& Cover;
+  ShadowTest& Shadow;
+  const LinkedTriangles& Simple;
+  const std::vector<std::uint32_t>& Homes;
   const std::vector<bool>& IsTouched;
-  Connectivity SimpleLinks;
+  const std::vector<std::uint32_t>& OriginalAt;
   Covering SimpleCover;
+  std::vector<std::uint32_t> AnyAt;   ///< by point: a triangle of the simpler mesh
   std::vector<std::uint32_t> NewNear; ///< of one triangle of the original
+  std::vector<std::uint32_t> Around;  ///< one triangle of the simpler mesh
+  std::uint32_t Last = None;          ///< where a way ended
   Faults Found;
 };
 
-PartDistance::Faults PartDistance::Find(const std::vector<Triangle>& simple,
-  const std::vector<std::uint32_t>& numbers, const std::vector<bool>& isTouched)
+PartDistance::Faults PartDistance::Find(const LinkedTriangles& simple,
+  const std::vector<std::uint32_t>& homes, const std::vector<bool>& isTouched)
 {
-  const TriangleMesh mesh{ this->Part.Original.Mesh.Positions, simple };
-  return Comparison(*this, mesh, numbers, isTouched).Run();
+  return Comparison(*this, simple, homes, isTouched).Run();
 }
 
 }

@@ -4,6 +4,7 @@
 
 #include "Simplification/Covering.h"
 #include "Simplification/MeshPart.h"
+#include "Simplification/ShadowTest.h"
 
 #include <cstdint>
 #include <vector>
@@ -14,17 +15,18 @@ namespace isodiamond
 /**
  * Finds where a simpler mesh is too far from the original, both ways, or turned over.
  *
- * Whole triangles are compared (Covering.h). Of each original triangle is known which triangles
- * it is near to, so where these have not been touched it need not be looked at again.
+ * Whole triangles are compared. Most of the original have their three points near to one triangle
+ * of the simpler mesh, the one that one of them lies over, and then are as near to it; of most of
+ * the simpler ones their shadow tells (ShadowTest.h). The others are cut in pieces (Covering.h).
+ *
+ * Of each original triangle is known which triangles it is near to, so where these have not been
+ * touched it need not be looked at again.
  */
 class PartDistance
 {
 public:
   /** @param part must outlive it; its near lists are kept as they should be */
   explicit PartDistance(MeshPart& part);
-
-  /** Whether the original can be walked over. */
-  bool IsSound() const { return this->Links.FaultyPoints().empty(); }
 
   /** What is too far away. */
   struct Faults
@@ -37,19 +39,20 @@ public:
   /**
    * Compares.
    *
-   * @param simple triangles on the points of the original
-   * @param numbers that these go by: in the near lists, and in what was touched
+   * @param simple the mesh in place of the part's simpler one, by the same numbers
+   * @param homes by sample: which of its triangles it lies over; None where nothing is known
    * @param isTouched by number: whether it is another triangle, or gone, since the last time
    */
-  Faults Find(const std::vector<Triangle>& simple, const std::vector<std::uint32_t>& numbers,
+  Faults Find(const LinkedTriangles& simple, const std::vector<std::uint32_t>& homes,
     const std::vector<bool>& isTouched);
 
 private:
   class Comparison;
 
   MeshPart& Part;
-  Connectivity Links;
-  Covering Cover;
+  Covering Cover;                        ///< over the original
+  ShadowTest Shadow;                     ///< of the original
+  std::vector<std::uint32_t> OriginalAt; ///< by point: one of the original's triangles, or None
 };
 
 }

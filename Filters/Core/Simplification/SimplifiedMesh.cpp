@@ -5,9 +5,11 @@
 #include "Simplification/EdgeCollapses.h"
 #include "Simplification/MeshBlocks.h"
 #include "Simplification/PartDistance.h"
+#include "Simplification/PointNumbers.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace isodiamond
@@ -15,26 +17,18 @@ namespace isodiamond
 namespace
 {
 
-constexpr std::uint32_t None = Connectivity::None;
-
 /** Makes a part simpler: collapses edges, measures, and undoes what leads too far, until nothing
- *  does. @return by number of its triangles: what they are now; the first point is None if gone */
-std::vector<Triangle> SimplifyPart(MeshPart& part, double usedPart)
+ *  does. The part's triangles, near lists and samples are those of the result. */
+void CollapseEdges(MeshPart& part, double usedPart)
 {
-  const Connectivity links({ part.Original.Mesh.Positions, part.Triangles });
   PartDistance distance(part);
-  if (!links.FaultyPoints().empty() || !distance.IsSound())
-  {
-    return part.Triangles;
-  }
   const NearLists nearBefore = part.Near;
-  EdgeCollapses collapses(part, links, usedPart);
+  EdgeCollapses collapses(part, usedPart);
   std::vector<bool> isTouched = collapses.Run();
   for (;;)
   {
-    std::vector<std::uint32_t> numbers;
-    const std::vector<Triangle> simple = collapses.Result(numbers);
-    const PartDistance::Faults faults = distance.Find(simple, numbers, isTouched);
+    const PartDistance::Faults faults =
+      distance.Find(collapses.Mesh(), collapses.SampleHomes(), isTouched);
     if (!faults.Any())
     {
       break;
@@ -43,14 +37,14 @@ std::vector<Triangle> SimplifyPart(MeshPart& part, double usedPart)
     if (std::find(isTouched.begin(), isTouched.end(), true) == isTouched.end())
     {
       part.Near = nearBefore; // nothing is left that could be wrong
-      return part.Triangles;
+      return;
     }
   }
   for (std::size_t i = 0; i < part.Samples.size(); ++i)
   {
     part.Samples[i].Home = collapses.SampleHomes()[i];
   }
-  return collapses.All();
+  part.Simple = collapses.Mesh();
 }
 
 /** What belongs to each part. @param partOf (number) -> part, or None */
@@ -66,24 +60,50 @@ CellsAtPoints ByPart(std::size_t parts, std::size_t count, PartOf&& partOf)
     } };
 }
 
+/** Triangles with the numbers that each has in its part. @param numbers by triangle
+ *  @param isHere (triangle) -> whether it is in the part, too */
+template <typename IsHere>
+LinkedTriangles Linked(const LinkedTriangles& all, IdRange triangles,
+  const std::vector<std::uint32_t>& numbers, const PointNumbers& points, IsHere&& isHere)
+{
+  LinkedTriangles linked;
+  linked.Triangles.reserve(triangles.size());
+  linked.Neighbours.reserve(triangles.size());
+  for (const std::uint32_t triangle : triangles)
+  {
+    linked.Triangles.push_back(points.Of(all.Triangles[triangle]));
+    Triangle neighbours = all.Neighbours[triangle];
+    for (std::uint32_t& neighbour : neighbours)
+    {
+      neighbour = neighbour != None && isHere(neighbour) ? numbers[neighbour] : None;
+    }
+    linked.Neighbours.push_back(neighbours);
+  }
+  return linked;
+}
+
 }
 
 /** The parts of a pass. */
 struct SimplifiedMesh::Division
 {
-  MeshBlocks Triangles;              ///< of the simpler mesh, by part
-  std::vector<std::uint32_t> PartOf; ///< by triangle of the simpler mesh
-  std::vector<std::uint32_t> Number; ///< in its part
-  std::vector<bool> IsHeld;          ///< by triangle of the simpler mesh
-  CellsAtPoints Originals;           ///< by part
-  CellsAtPoints Samples;             ///< that lie over triangles, by part
+  MeshBlocks Triangles;                      ///< of the simpler mesh, by part
+  std::vector<std::uint32_t> PartOf;         ///< by triangle of the simpler mesh
+  std::vector<std::uint32_t> Number;         ///< in its part
+  std::vector<bool> IsHeld;                  ///< by triangle of the simpler mesh
+  CellsAtPoints Originals;                   ///< by part
+  std::vector<std::uint32_t> OwnerOf;        ///< by original triangle: the part; None of several
+  std::vector<std::uint32_t> OriginalNumber; ///< in its part
+  CellsAtPoints Samples;                     ///< that lie over triangles, by part
 };
 
 SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
   : Original(original)
-  , Simple(original.Mesh.Triangles)
+  , OriginalLinks(original.Mesh.Positions.size(), original.Mesh.Triangles)
+  , Simple(this->OriginalLinks)
   , Samples(original.Mesh.Positions.size() + original.Mesh.Triangles.size())
   , Near(original.Mesh.Triangles.size())
+  , IsFaulty(original.Mesh.Positions.size())
 {
   const std::size_t points = original.Mesh.Positions.size();
   for (std::size_t i = 0; i < points; ++i)
@@ -102,21 +122,25 @@ SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
     this->Near.Begin(i);
     this->Near.Add(i, i);
   }
+  for (const std::uint32_t point : this->OriginalLinks.FaultyPoints())
+  {
+    this->IsFaulty[point] = true;
+  }
 }
 
 SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) const
 {
+  const std::vector<Triangle>& simple = this->Triangles();
   std::vector<Vector> middles;
-  middles.reserve(this->Simple.size());
-  for (const Triangle& triangle : this->Simple)
+  middles.reserve(simple.size());
+  for (const auto& [a, b, c] : simple)
   {
     const std::vector<Vector>& positions = this->Original.Mesh.Positions;
-    middles.push_back(
-      (1.0 / 3.0) * (positions[triangle[0]] + positions[triangle[1]] + positions[triangle[2]]));
+    middles.push_back((1.0 / 3.0) * (positions[a] + positions[b] + positions[c]));
   }
   MeshBlocks blocks = CutIntoBlocks(middles, most, cut);
-  std::vector<std::uint32_t> partOf(this->Simple.size());
-  std::vector<std::uint32_t> numbers(this->Simple.size());
+  std::vector<std::uint32_t> partOf(simple.size());
+  std::vector<std::uint32_t> numbers(simple.size());
   for (std::uint32_t part = 0; part < blocks.Count(); ++part)
   {
     const IdRange triangles = blocks[part];
@@ -127,7 +151,7 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
     }
   }
   // Original triangles that belong to more than one part hold all that they are near to.
-  std::vector<bool> isHeld(this->Simple.size());
+  std::vector<bool> isHeld(simple.size());
   std::vector<std::uint32_t> ownerOf(this->Original.Mesh.Triangles.size());
   for (std::size_t i = 0; i < ownerOf.size(); ++i)
   {
@@ -149,66 +173,89 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
       const std::uint32_t home = this->Samples[i].Home;
       return home == None ? None : partOf[home];
     });
+  std::vector<std::uint32_t> originalNumbers(ownerOf.size());
+  for (std::uint32_t part = 0; part < blocks.Count(); ++part)
+  {
+    std::uint32_t number = 0;
+    for (const std::uint32_t original : originals[part])
+    {
+      originalNumbers[original] = number++;
+    }
+  }
   return { std::move(blocks), std::move(partOf), std::move(numbers), std::move(isHeld),
-    std::move(originals), std::move(samples) };
+    std::move(originals), std::move(ownerOf), std::move(originalNumbers), std::move(samples) };
 }
 
 MeshPart SimplifiedMesh::Take(
-  const Division& division, std::uint32_t number, std::vector<std::uint32_t>& points) const
+  const Division& division, std::uint32_t number, std::vector<std::uint32_t>& ids) const
 {
   const IdRange triangles = division.Triangles[number];
   const IdRange originals = division.Originals[number];
-  const auto add = [&](const Triangle& triangle)
-  { points.insert(points.end(), triangle.begin(), triangle.end()); };
-  for (const std::uint32_t triangle : triangles)
-  {
-    add(this->Simple[triangle]);
-  }
-  for (const std::uint32_t original : originals)
-  {
-    add(this->Original.Mesh.Triangles[original]);
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  const auto rename = [&](Triangle triangle)
-  {
-    for (std::uint32_t& point : triangle)
+  const PointNumbers numbers(
+    [&](auto&& visit)
     {
-      point = static_cast<std::uint32_t>(
-        std::lower_bound(points.begin(), points.end(), point) - points.begin());
-    }
-    return triangle;
-  };
+      for (const std::uint32_t triangle : triangles)
+      {
+        visit(this->Triangles()[triangle]);
+      }
+      for (const std::uint32_t original : originals)
+      {
+        visit(this->Original.Mesh.Triangles[original]);
+      }
+    });
+  ids = numbers.Points();
+  const std::size_t points = ids.size();
   MeshPart part;
-  part.IsFixed.resize(points.size());
-  for (const std::uint32_t point : points)
-  {
-    part.Original.Mesh.Positions.push_back(this->Original.Mesh.Positions[point]);
-    part.Samples.push_back({ this->Samples[point].Position, this->Samples[point].Allowance, None });
-  }
-  for (const std::uint32_t sample : division.Samples[number])
-  {
-    part.Samples.push_back(this->Samples[sample]);
-    part.Samples.back().Home = division.Number[this->Samples[sample].Home];
-  }
-  for (const std::uint32_t triangle : triangles)
-  {
-    part.Triangles.push_back(rename(this->Simple[triangle]));
-    for (const std::uint32_t point : part.Triangles.back())
-    {
-      part.IsFixed[point] = part.IsFixed[point] || division.IsHeld[triangle];
-    }
-  }
+  part.Simple = Linked(this->Simple.Linked(), triangles, division.Number, numbers,
+    [&](std::uint32_t triangle) { return division.PartOf[triangle] == number; });
+  part.Original = Linked(this->OriginalLinks.Linked(), originals, division.OriginalNumber, numbers,
+    [&](std::uint32_t original) { return division.OwnerOf[original] == number; });
   part.Near = NearLists(originals.size());
+  part.Allowances.reserve(originals.size());
   for (std::size_t i = 0; i < originals.size(); ++i)
   {
-    part.Original.Mesh.Triangles.push_back(rename(this->Original.Mesh.Triangles[originals[i]]));
-    part.Original.Allowances.push_back(this->Original.Allowances[originals[i]]);
+    part.Allowances.push_back(this->Original.Allowances[originals[i]]);
     part.Near.Begin(i);
     for (const std::uint32_t near : this->Near[originals[i]])
     {
       part.Near.Add(i, division.Number[near]);
     }
+  }
+  part.IsFixed.resize(points);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    if (division.IsHeld[triangles[i]])
+    {
+      for (const std::uint32_t point : part.Simple.Triangles[i])
+      {
+        part.IsFixed[point] = true;
+      }
+    }
+  }
+  // The middles of its original triangles; what else lies over its own ones.
+  const std::size_t middles = this->Original.Mesh.Positions.size();
+  const auto isThere = [&](std::size_t sample)
+  {
+    return sample < middles ? numbers.Has(static_cast<std::uint32_t>(sample))
+                            : division.OwnerOf[sample - middles] == number;
+  };
+  std::transform(originals.begin(), originals.end(), std::back_inserter(ids),
+    [&](std::uint32_t original) { return static_cast<std::uint32_t>(middles + original); });
+  const IdRange over = division.Samples[number];
+  std::copy_if(over.begin(), over.end(), std::back_inserter(ids),
+    [&](std::uint32_t sample) { return !isThere(sample); });
+  part.Samples.reserve(ids.size());
+  for (const std::uint32_t id : ids)
+  {
+    SurfaceSample sample = this->Samples[id];
+    const bool isOver = sample.Home != None && division.PartOf[sample.Home] == number;
+    sample.Home = isOver ? division.Number[sample.Home] : None;
+    part.Samples.push_back(sample);
+  }
+  part.Positions.reserve(points);
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    part.Positions.push_back(part.Samples[i].Position);
   }
   return part;
 }
@@ -221,6 +268,36 @@ struct SimplifiedMesh::Made
   std::vector<std::pair<std::uint32_t, std::uint32_t>> Homes; ///< samples, and numbers
 };
 
+SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(
+  const Division& division, std::uint32_t number, double usedPart) const
+{
+  std::vector<std::uint32_t> ids;
+  MeshPart part = this->Take(division, number, ids);
+  const bool isSound =
+    std::none_of(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(part.Positions.size()),
+      [&](std::uint32_t point) { return this->IsFaulty[point]; });
+  if (isSound)
+  {
+    CollapseEdges(part, usedPart);
+  }
+  Made made{ std::move(part.Simple.Triangles), std::move(part.Near), {} };
+  for (Triangle& triangle : made.Triangles)
+  {
+    for (std::uint32_t& point : triangle)
+    {
+      point = point == None ? None : ids[point];
+    }
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    if (part.Samples[i].Home != None)
+    {
+      made.Homes.emplace_back(ids[i], part.Samples[i].Home);
+    }
+  }
+  return made;
+}
+
 void SimplifiedMesh::Simplify(
   std::size_t most, double cut, double usedPart, const ParallelFor& parallelFor)
 {
@@ -228,35 +305,14 @@ void SimplifiedMesh::Simplify(
   std::vector<Made> made(division.Triangles.Count());
   ForEachIndex(parallelFor, made.size(), 1,
     [&](std::int64_t number)
-    {
-      std::vector<std::uint32_t> points;
-      MeshPart part = this->Take(division, static_cast<std::uint32_t>(number), points);
-      made[number].Triangles = SimplifyPart(part, usedPart);
-      for (Triangle& triangle : made[number].Triangles)
-      {
-        for (std::uint32_t& point : triangle)
-        {
-          point = point == None ? None : points[point];
-        }
-      }
-      made[number].Near = std::move(part.Near);
-      for (std::size_t i = 0; i < part.Samples.size(); ++i)
-      {
-        if (part.Samples[i].Home != None)
-        {
-          made[number].Homes.emplace_back(
-            i < points.size() ? points[i] : division.Samples[number][i - points.size()],
-            part.Samples[i].Home);
-        }
-      }
-    });
+    { made[number] = this->SimplifyPart(division, static_cast<std::uint32_t>(number), usedPart); });
   this->PutTogether(division, made);
 }
 
 /** Triangles that are left get new numbers, by which all else goes. */
 void SimplifiedMesh::PutTogether(const Division& division, const std::vector<Made>& made)
 {
-  std::vector<std::uint32_t> renamed(this->Simple.size(), None);
+  std::vector<std::uint32_t> renamed(this->Triangles().size(), None);
   std::vector<Triangle> simple;
   for (std::size_t number = 0; number < made.size(); ++number)
   {
@@ -269,40 +325,36 @@ void SimplifiedMesh::PutTogether(const Division& division, const std::vector<Mad
       }
     }
   }
-  this->Simple = std::move(simple);
-  const std::size_t originals = this->Original.Mesh.Triangles.size();
-  NearLists near(originals);
-  std::vector<bool> isOwned(originals);
+  this->Simple = Connectivity(this->Original.Mesh.Positions.size(), std::move(simple));
+  NearLists near(this->Near.Count());
   for (std::size_t number = 0; number < made.size(); ++number)
   {
     const IdRange triangles = division.Triangles[number];
-    const IdRange ids = division.Originals[number];
     for (const auto& [sample, home] : made[number].Homes)
     {
       this->Samples[sample].Home = renamed[triangles[home]];
     }
-    for (std::size_t i = 0; i < ids.size(); ++i)
+    std::size_t i = 0;
+    for (const std::uint32_t original : division.Originals[number])
     {
-      isOwned[ids[i]] = true;
-      near.Begin(ids[i]);
-      for (const std::uint32_t triangle : made[number].Near[i])
+      near.Begin(original);
+      for (const std::uint32_t triangle : made[number].Near[i++])
       {
-        near.Add(ids[i], renamed[triangles[triangle]]);
+        near.Add(original, renamed[triangles[triangle]]);
       }
     }
   }
-  for (std::size_t i = 0; i < originals; ++i)
+  for (std::size_t original = 0; original < near.Count(); ++original)
   {
-    if (!isOwned[i])
+    if (division.OwnerOf[original] == None)
     {
-      near.Begin(i);
-      for (const std::uint32_t triangle : this->Near[i])
+      near.Begin(original);
+      for (const std::uint32_t triangle : this->Near[original])
       {
-        near.Add(i, renamed[triangle]);
+        near.Add(original, renamed[triangle]);
       }
     }
   }
   this->Near = std::move(near);
 }
-
 }

@@ -3,6 +3,7 @@
 #define isodiamond_SimplifiedMesh_h
 
 #include "Field/Parallel.h"
+#include "Simplification/AllowedMesh.h"
 #include "Simplification/MeshPart.h"
 
 #include <vector>
@@ -23,7 +24,7 @@ public:
   /** @param original must outlive it */
   explicit SimplifiedMesh(const AllowedMesh& original);
 
-  const std::vector<Triangle>& Triangles() const { return this->Simple; }
+  const std::vector<Triangle>& Triangles() const { return this->Simple.Linked().Triangles; }
 
   /** Makes all parts simpler.
    *  @param most triangles of a part @param cut see CutIntoBlocks
@@ -35,15 +36,19 @@ private:
   struct Made;
 
   Division Divide(std::size_t most, double cut) const;
-  /** @param points is given the part's points as they are in the mesh */
+  /** @param ids is given the part's samples, of which the points are the first, as they are in the
+   *         mesh */
   MeshPart Take(
-    const Division& division, std::uint32_t number, std::vector<std::uint32_t>& points) const;
+    const Division& division, std::uint32_t number, std::vector<std::uint32_t>& ids) const;
+  Made SimplifyPart(const Division& division, std::uint32_t number, double usedPart) const;
   void PutTogether(const Division& division, const std::vector<Made>& made);
 
   const AllowedMesh& Original;
-  std::vector<Triangle> Simple;
+  Connectivity OriginalLinks;
+  Connectivity Simple;
   std::vector<SurfaceSample> Samples; ///< the points, then the middles of triangles
   NearLists Near;                     ///< by original triangle
+  std::vector<bool> IsFaulty;         ///< by point: edges there cannot be told
 };
 
 }

@@ -56,37 +56,55 @@ struct TriangleMesh
   }
 };
 
+/** No triangle, or no point. */
+constexpr std::uint32_t None = 0xffffffff;
+
+/** Triangles, and what is across each of their edges. Edge k of a triangle leads from its point k
+ *  to the next one. */
+struct LinkedTriangles
+{
+  std::vector<Triangle> Triangles;  ///< the first point is None where one is gone
+  std::vector<Triangle> Neighbours; ///< by triangle and edge; None at the border
+
+  bool IsThere(std::uint32_t triangle) const { return this->Triangles[triangle][0] != None; }
+  std::array<Vector, 3> Corners(const std::vector<Vector>& positions, std::uint32_t triangle) const
+  {
+    const auto [a, b, c] = this->Triangles[triangle];
+    return { positions[a], positions[b], positions[c] };
+  }
+};
+
 /**
  * Which triangles meet at the points and edges of a mesh.
  *
- * Edge k of a triangle leads from its point k to the next one. Orientation must be one: an edge has
- * one triangle, or two that go along it in opposite directions.
+ * Orientation must be one: an edge has one triangle, or two that go along it in opposite
+ * directions.
  */
 class Connectivity
 {
 public:
-  static constexpr std::uint32_t None = 0xffffffff;
-
-  explicit Connectivity(const TriangleMesh& mesh);
+  Connectivity() = default;
+  Connectivity(std::size_t pointCount, std::vector<Triangle> triangles);
 
   /** The points at which edges begin that more than two triangles have, or two in one direction.
    *  Only if there are none the neighbours have a meaning. */
   const std::vector<std::uint32_t>& FaultyPoints() const { return this->Faulty; }
 
   /** The triangles at a point. */
-  const std::uint32_t* begin(std::uint32_t point) const { return this->Cells[point].begin(); }
-  const std::uint32_t* end(std::uint32_t point) const { return this->Cells[point].end(); }
-  bool IsUsed(std::uint32_t point) const { return this->begin(point) != this->end(point); }
+  IdRange At(std::uint32_t point) const { return this->Cells[point]; }
+  bool IsUsed(std::uint32_t point) const { return !this->At(point).empty(); }
 
+  /** The mesh's triangles, linked. */
+  const LinkedTriangles& Linked() const { return this->Links; }
   /** The triangle across an edge, None at the border. */
   std::uint32_t Neighbour(std::uint32_t triangle, int edge) const
   {
-    return this->Neighbours[triangle][edge];
+    return this->Links.Neighbours[triangle][edge];
   }
 
 private:
   CellsAtPoints Cells;
-  std::vector<Triangle> Neighbours;
+  LinkedTriangles Links;
   std::vector<std::uint32_t> Faulty;
 };
 

@@ -45,7 +45,7 @@ void EdgeCollapses::Undo(const Step& step)
 
 void EdgeCollapses::PutOver(std::uint32_t triangle, std::uint32_t sample)
 {
-  this->NextSample[sample] = this->FirstSample[triangle];
+  this->Samples[sample].Next = this->FirstSample[triangle];
   this->FirstSample[triangle] = sample;
   this->Homes[sample] = triangle;
 }
@@ -55,9 +55,9 @@ void EdgeCollapses::TakeAway(std::uint32_t sample)
   std::uint32_t* at = &this->FirstSample[this->Homes[sample]];
   while (*at != sample)
   {
-    at = &this->NextSample[*at];
+    at = &this->Samples[*at].Next;
   }
-  *at = this->NextSample[sample];
+  *at = this->Samples[sample].Next;
   this->Homes[sample] = None;
 }
 
@@ -75,7 +75,7 @@ void EdgeCollapses::GiveBackSamples(const Step& step)
     this->Normals[triangle] = Unit(Across(this->Positions, this->Triangles[triangle]));
     const bool wasThere = i > 0 && i < step.Count - 1;
     for (std::uint32_t at = wasThere ? this->FirstSample[triangle] : None; at != None;
-         at = this->NextSample[at])
+         at = this->Samples[at].Next)
     {
       samples.push_back(at);
     }
@@ -85,7 +85,7 @@ void EdgeCollapses::GiveBackSamples(const Step& step)
   for (const std::uint32_t sample : samples)
   {
     const int at = isSeen
-      ? hole.TriangleAt(hole.See(this->Samples[sample].Position - this->Positions[step.Vertex]))
+      ? hole.TriangleAt(hole.See(this->Samples[sample].At() - this->Positions[step.Vertex]))
       : 0;
     this->PutOver(hole.Triangles[at], sample);
   }

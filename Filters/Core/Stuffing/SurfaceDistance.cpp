@@ -94,7 +94,7 @@ public:
       for (int edge = 0; edge < 3; ++edge)
       {
         const std::uint32_t next = links.Neighbour(all[i], edge);
-        if (next != Connectivity::None && std::find(all.begin(), all.end(), next) == all.end())
+        if (next != None && std::find(all.begin(), all.end(), next) == all.end())
         {
           all.push_back(next);
         }
@@ -163,7 +163,7 @@ private:
  * that says no, which may be too much, by looking at all around. */
 template <typename AllowanceOf>
 bool IsNear(const std::array<Vector, 3>& corners, const SurfaceMesh& surface,
-  const Connectivity& links, const Covering& cover, std::uint32_t start, AllowanceOf&& allowanceOf,
+  const Connectivity& links, Covering& cover, std::uint32_t start, AllowanceOf&& allowanceOf,
   std::uint32_t& far)
 {
   const double allowance = allowanceOf(start);
@@ -184,6 +184,46 @@ bool IsNear(const std::array<Vector, 3>& corners, const SurfaceMesh& surface,
       .Covers(corners, allowanceOf, far);
 }
 
+/**
+ * Visits the triangles of a mesh, each with a triangle of another one nearby: those at points that
+ * the other mesh has, too, then their neighbours, from where each of them ended.
+ *
+ * @param links,otherLinks of the mesh, and of the other one, which cover is over
+ * @param visit (triangle, triangle of the other mesh)
+ */
+template <typename Visit>
+void ForEachFromPlace(const TriangleMesh& mesh, const Connectivity& links,
+  const Connectivity& otherLinks, Covering& cover, Visit&& visit)
+{
+  std::vector<std::uint32_t> places(mesh.Triangles.size(), None);
+  std::vector<std::uint32_t> waiting;
+  for (std::uint32_t i = 0; i < mesh.Triangles.size(); ++i)
+  {
+    for (const std::uint32_t point : mesh.Triangles[i])
+    {
+      if (places[i] == None && otherLinks.IsUsed(point))
+      {
+        places[i] = cover.NearestOf(otherLinks.At(point), mesh.Middle(i));
+        waiting.push_back(i);
+      }
+    }
+  }
+  for (std::size_t at = 0; at < waiting.size(); ++at)
+  {
+    const std::uint32_t i = waiting[at];
+    visit(i, places[i]);
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const std::uint32_t neighbour = links.Neighbour(i, edge);
+      if (neighbour != None && places[neighbour] == None)
+      {
+        places[neighbour] = places[i];
+        waiting.push_back(neighbour);
+      }
+    }
+  }
+}
+
 /** Compares one surface of two meshes. */
 class Comparison
 {
@@ -194,8 +234,8 @@ public:
     , Stuffed(stuffed)
     , Allowances(allowances)
     , Far(far)
-    , PlainLinks(plain.Mesh)
-    , StuffedLinks(stuffed.Mesh)
+    , PlainLinks(plain.Mesh.Positions.size(), plain.Mesh.Triangles)
+    , StuffedLinks(stuffed.Mesh.Positions.size(), stuffed.Mesh.Triangles)
   {
   }
 
@@ -220,7 +260,7 @@ private:
   /** From new triangles to those of the volume's mesh, of whose points theirs are some. */
   void MeasureBack()
   {
-    const Covering cover(this->Plain.Mesh, this->PlainLinks);
+    Covering cover(this->Plain.Mesh.Positions, this->PlainLinks.Linked());
     const auto count = static_cast<std::uint32_t>(this->Stuffed.Mesh.Triangles.size());
     for (std::uint32_t i = 0; i < count; ++i)
     {
@@ -230,18 +270,18 @@ private:
         continue;
       }
       // From where least is allowed: what begins in a cell that is not asked would all be near.
-      std::uint32_t start = Connectivity::None;
+      std::uint32_t start = None;
       for (const std::uint32_t point : points)
       {
         if (this->PlainLinks.IsUsed(point))
         {
-          const std::uint32_t at = cover.NearestAt(point, this->Stuffed.Mesh.Middle(i));
-          const bool isLess =
-            start == Connectivity::None || this->AllowanceAt(at) < this->AllowanceAt(start);
+          const std::uint32_t at =
+            cover.NearestOf(this->PlainLinks.At(point), this->Stuffed.Mesh.Middle(i));
+          const bool isLess = start == None || this->AllowanceAt(at) < this->AllowanceAt(start);
           start = isLess ? at : start;
         }
       }
-      if (start == Connectivity::None)
+      if (start == None)
       {
         continue;
       }
@@ -258,10 +298,8 @@ private:
   /** From the volume's triangles to the new ones. */
   void MeasureForth()
   {
-    const Covering cover(this->Stuffed.Mesh, this->StuffedLinks);
-    std::vector<std::uint32_t> places(this->Plain.Mesh.Triangles.size(), Connectivity::None);
-    std::vector<std::uint32_t> waiting;
-    ForEachFromPlace(this->Plain.Mesh, this->PlainLinks, this->StuffedLinks, cover, places, waiting,
+    Covering cover(this->Stuffed.Mesh.Positions, this->StuffedLinks.Linked());
+    ForEachFromPlace(this->Plain.Mesh, this->PlainLinks, this->StuffedLinks, cover,
       [&](std::uint32_t triangle, std::uint32_t place)
       {
         const double allowed = this->AllowanceAt(triangle);

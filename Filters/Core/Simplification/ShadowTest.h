@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_ShadowTest_h
+#define isodiamond_ShadowTest_h
+
+#include "Simplification/TriangleMesh.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * Shows that all of a triangle is near to a mesh, by the shadow that some triangles of the mesh
+ * cast on it.
+ *
+ * Seen along the triangle's normal, let these cover each place a number of times, where those that
+ * face the other way count as -1. That number changes only across the shadow of their border, the
+ * edges that one of them has. So if this does not enter the triangle, and leads around its middle
+ * once, all of the triangle is covered; and where all that may cover it is near, so is all of the
+ * triangle. It takes a few operations for each of the mesh's triangles, but does not always
+ * succeed.
+ */
+class ShadowTest
+{
+public:
+  /** @param positions,mesh,allowances how far from each triangle of the mesh something may be; must
+   *         outlive it */
+  ShadowTest(const std::vector<Vector>& positions, const LinkedTriangles& mesh,
+    const std::vector<double>& allowances);
+
+  /** Whether each point of a triangle is shown to be near to the mesh, and to face as that does.
+   *  @param triangles different ones of the mesh, near to it; others join them */
+  bool Covers(const std::array<Vector, 3>& corners, std::vector<std::uint32_t>& triangles);
+
+private:
+  using Place = std::array<double, 2>;
+  using Clipped = Vector; ///< a place and a height
+  /** Each of three cuts adds one at most, or by rounding, of what is nearly a line, doubles them. */
+  using ClippedCorners = std::array<Clipped, 24>;
+
+  /** How a point of the mesh is seen. */
+  struct Shadow
+  {
+    Place At{};
+    double Height = 0.0;
+    unsigned Beyond = 0; ///< a bit for each side of the triangle that it is not inside of
+    std::uint32_t Test = 0;
+  };
+
+  bool Reset(const std::array<Vector, 3>& corners);
+  const Shadow& Of(std::uint32_t point);
+  bool IsLow(std::uint32_t triangle);
+  int Clip(int side, ClippedCorners& corners, int count) const;
+  bool Enters(const Shadow& a, const Shadow& b) const;
+  int CrossesRay(const Shadow& a, const Shadow& b) const;
+
+  const std::vector<Vector>& Positions;
+  const LinkedTriangles& Mesh;
+  const std::vector<double>& Allowances;
+  std::vector<Shadow> Shadows;       ///< by point
+  std::vector<std::uint32_t> Chosen; ///< by triangle: the last test that it was chosen for
+  std::uint32_t Test = 0;
+
+  // The triangle, seen from above: its first corner is at 0, its first side along x.
+  Vector Origin{};
+  std::array<Vector, 3> Axes{}; ///< the last one is the normal
+  std::array<Place, 3> Corners{};
+  std::array<Place, 3> Inward{}; ///< normals to the sides, of unit length
+  Place Middle{};
+  double Slack = 0.0; ///< what is not distinguished from nothing
+};
+
+}
+
+#endif
