@@ -10,10 +10,12 @@
 
 #include "vtkCellArray.h"
 #include "vtkPoints.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace vtkIsodiamond
 {
@@ -23,6 +25,23 @@ namespace
 /** Of a tolerance for the hierarchy. The more is left, the fewer triangles come out, and the longer
  *  it takes. */
 constexpr double HierarchyPart = 0.3;
+
+constexpr const char* WallsArray = "IsodiamondWalls";
+
+/** Lets points tell for a while which walls of the grid they are on. */
+PointDataMaker WithWalls(PointDataMaker others, const isodiamond::Grid& grid)
+{
+  return [others = std::move(others), grid](vtkIdType count, vtkPointData* pointData)
+  {
+    std::vector<PointWriter> writers =
+      others ? others(count, pointData) : std::vector<PointWriter>{};
+    const auto walls = NewArray<vtkUnsignedCharArray>(WallsArray, count);
+    pointData->AddArray(walls);
+    writers.emplace_back([grid, values = walls->GetPointer(0)](const isodiamond::MeshPoint& point)
+      { values[point.Id] = isodiamond::Walls::At(point.Index, grid); });
+    return writers;
+  };
+}
 
 isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& tolerance)
 {
@@ -42,6 +61,9 @@ isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& toleranc
     const double tolerated = tolerance.In(corners.data(), 3);
     result.Allowances.push_back((1.0 - HierarchyPart) * tolerated);
   }
+  const auto* walls =
+    vtkUnsignedCharArray::FastDownCast(mesh.PointData->GetArray(WallsArray))->GetPointer(0);
+  result.OnWalls.assign(walls, walls + result.Mesh.Positions.size());
   return result;
 }
 
@@ -56,6 +78,7 @@ void SimplifyMesh(const WorldQuery& query, const Measure& measure,
 {
   const isodiamond::TriangleMesh simple =
     isodiamond::Simplify(ToCore(mesh, PlacedTolerance(query, measure, world)), parallelFor);
+  mesh.PointData->RemoveArray(WallsArray);
   const UsedPoints used(simple.Triangles, simple.Positions.size(), parallelFor);
   const std::vector<vtkIdType> ids = used.Ids();
   mesh.Cells = used.Write(simple.Triangles, parallelFor);
@@ -105,6 +128,7 @@ Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& que
   }
   MeshOptions whole = options;
   whole.Piece = { 0, 1 };
+  whole.MorePointData = WithWalls(whole.MorePointData, refined.Hierarchy().SampleGrid());
   Mesh mesh = ExtractMesh(refined, whole, extracting);
   task.Begin("Simplifying", 0.3, 1.0);
   SimplifyMesh(query, Measure(refined.Hierarchy()), options.World, task.For(), mesh);

@@ -2,6 +2,7 @@
 #ifndef isodiamond_AllowedMesh_h
 #define isodiamond_AllowedMesh_h
 
+#include "Field/Walls.h"
 #include "Simplification/TriangleMesh.h"
 
 #include <vector>
@@ -13,7 +14,8 @@ namespace isodiamond
 struct AllowedMesh
 {
   TriangleMesh Mesh;
-  std::vector<double> Allowances; ///< by triangle; at least 0
+  std::vector<double> Allowances;     ///< by triangle; at least 0
+  std::vector<Walls::Type> OnWalls{}; ///< by point; none where nothing is known of walls
 };
 
 }

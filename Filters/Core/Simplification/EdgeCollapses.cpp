@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace isodiamond
 {
@@ -16,7 +17,9 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart)
   , FirstSample(this->Triangles.size(), None)
   , Homes(part.Samples.size(), None)
   , AnyTriangle(this->Positions.size(), None)
-  , Stays(part.IsFixed)
+  , IsFixed(part.IsFixed)
+  , IsAtBorder(this->Positions.size())
+  , OnWalls(part.OnWalls)
   , IsLeftAlone(this->Positions.size())
   , Quadrics(this->Positions.size())
   , Best(this->Positions.size())
@@ -45,8 +48,7 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart)
       ++counts[triangle[k]];
       if (this->Neighbours[i][k] == None)
       {
-        this->Stays[triangle[k]] = true;
-        this->Stays[triangle[(k + 1) % 3]] = true;
+        this->AddBorder(triangle[k], triangle[(k + 1) % 3], this->Normals[i]);
       }
     }
   }
@@ -74,8 +76,58 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart)
   }
 }
 
+/** What goes along the border is to stay near to its line: to the plane through that, upright. */
+void EdgeCollapses::AddBorder(std::uint32_t from, std::uint32_t to, const Vector& normal)
+{
+  const Vector along = this->Positions[to] - this->Positions[from];
+  const Quadric plane(this->Positions[from], Unit(Cross(along, normal)), Dot(along, along));
+  for (const std::uint32_t point : { from, to })
+  {
+    this->IsAtBorder[point] = true;
+    this->Quadrics[point].Add(plane);
+  }
+}
+
+/** @param first one of the two neighbours at the border
+ *  @return whether there is one, and both edges at the border are on one wall */
+bool EdgeCollapses::FindOpenHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const
+{
+  hole.Count = 0;
+  bool isWhole = true;
+  this->ForEachNeighbour(vertex,
+    [&](std::uint32_t neighbour, std::uint32_t triangle)
+    {
+      isWhole = isWhole && hole.Count < MostNeighbours;
+      if (isWhole)
+      {
+        hole.Points[hole.Count] = neighbour;
+        hole.Triangles[hole.Count] = triangle;
+        ++hole.Count;
+      }
+    });
+  const int walls = this->OnWalls[vertex] & this->OnWalls[hole.Points[0]] &
+    this->OnWalls[hole.Points[hole.Count - 1]];
+  if (walls == 0 || !isWhole)
+  {
+    return false;
+  }
+  if (hole.Points[0] != first)
+  {
+    const auto turn = [&](auto& items)
+    { std::rotate(items.begin(), items.begin() + hole.Count - 1, items.begin() + hole.Count); };
+    turn(hole.Points);
+    turn(hole.Triangles);
+  }
+  return hole.Points[0] == first && hole.Count > 2;
+}
+
+/** @param first the neighbour to begin with */
 bool EdgeCollapses::FindHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const
 {
+  if (this->IsAtBorder[vertex])
+  {
+    return this->FindOpenHole(vertex, first, hole);
+  }
   std::uint32_t start = this->AnyTriangle[vertex];
   for (int i = 0;
        this->Triangles[start][(PlaceOf(this->Triangles[start], vertex) + 1) % 3] != first; ++i)
@@ -103,12 +155,12 @@ bool EdgeCollapses::FindHole(std::uint32_t vertex, std::uint32_t first, Hole& ho
   return hole.Count > 2;
 }
 
-/** The link condition, and nothing new between vertices at the border. The hole is filled from its
- *  first point. */
+/** The link condition, and nothing new between fixed vertices. The hole is filled from its first
+ *  point. */
 bool EdgeCollapses::KeepsTopology(const Hole& hole)
 {
   const std::uint32_t target = hole.Points[0];
-  if (hole.Count == 3)
+  if (hole.Count == 3 && !hole.IsOpen())
   {
     // The one new triangle must not be there on the other side.
     const std::uint32_t opposite = hole.Triangles[1];
@@ -122,9 +174,11 @@ bool EdgeCollapses::KeepsTopology(const Hole& hole)
     }
   }
   ++this->Mark;
-  for (int i = 2; i < hole.Count - 1; ++i)
+  const int firstNew = hole.Triangles[0] == None ? 1 : 2;
+  const int lastNew = hole.Count - (hole.Triangles[hole.Count - 1] == None ? 1 : 2);
+  for (int i = firstNew; i <= lastNew; ++i)
   {
-    if (this->Stays[target] && this->Stays[hole.Points[i]])
+    if (this->IsFixed[target] && this->IsFixed[hole.Points[i]])
     {
       return false;
     }
@@ -138,7 +192,8 @@ bool EdgeCollapses::KeepsTopology(const Hole& hole)
 }
 
 /** Whether a sample is near enough to what fills the hole; then it goes with that. */
-bool EdgeCollapses::IsNear(Watched& sample, std::uint32_t number, const Hole::Place& place)
+bool EdgeCollapses::IsNear(
+  const Hole& hole, Watched& sample, std::uint32_t number, const Hole::Place& place)
 {
   int at = 1;
   while (at + 1 < this->FillingCount && this->Fillings[at].IsBeyond(place))
@@ -146,7 +201,10 @@ bool EdgeCollapses::IsNear(Watched& sample, std::uint32_t number, const Hole::Pl
     ++at;
   }
   Filling& filling = this->Fillings[at];
-  if (!(std::abs(Dot(sample.At() - this->Corner, filling.Normal)) <= sample.Allowance))
+  // Over a hole that is closed the plane's distance will do; beyond the new border it would not.
+  const double distance = hole.IsOpen() ? std::sqrt(filling.Distance.Squared(sample.At()))
+                                        : Dot(sample.At() - this->Corner, filling.Normal);
+  if (!(std::abs(distance) <= sample.Allowance))
   {
     return false;
   }
@@ -174,22 +232,27 @@ bool EdgeCollapses::Fill(std::uint32_t vertex, const Hole& hole)
     }
     Filling& filling = this->Fillings[i];
     filling.Normal = (1.0 / length) * across;
+    if (hole.IsOpen())
+    {
+      filling.Distance = TriangleDistance(this->Corner, second, third);
+    }
     filling.Start = hole.Places[0];
     filling.Spoke = { hole.Places[i + 1][0] - hole.Places[0][0],
       hole.Places[i + 1][1] - hole.Places[0][1] };
     filling.FirstSample = None;
   }
-  if (!this->IsNear(this->Samples[vertex], vertex, { 0.0, 0.0 }))
+  if (!this->IsNear(hole, this->Samples[vertex], vertex, { 0.0, 0.0 }))
   {
     return false;
   }
   const Vector& origin = this->Positions[vertex];
   for (int i = 0; i < hole.Count; ++i)
   {
-    for (std::uint32_t at = this->FirstSample[hole.Triangles[i]]; at != None;)
+    const bool isThere = hole.Triangles[i] != None;
+    for (std::uint32_t at = isThere ? this->FirstSample[hole.Triangles[i]] : None; at != None;)
     {
       Watched& sample = this->Samples[at];
-      if (!this->IsNear(sample, at, hole.See(sample.At() - origin)))
+      if (!this->IsNear(hole, sample, at, hole.See(sample.At() - origin)))
       {
         return false;
       }
@@ -204,10 +267,13 @@ void EdgeCollapses::Offer(std::uint32_t vertex, double cost, std::uint32_t targe
   // The next one after the one that was refused.
   Candidate best{ HUGE_VAL, vertex, None, this->Versions[vertex] };
   const Quadric& quadric = this->Quadrics[vertex];
+  const bool isAtBorder = this->IsAtBorder[vertex];
+  bool isFirst = true;
   this->ForEachNeighbour(vertex,
-    [&](std::uint32_t neighbour, std::uint32_t /*triangle*/)
+    [&](std::uint32_t neighbour, std::uint32_t triangle)
     {
-      if (this->IsLeftAlone[neighbour])
+      const bool isInside = isAtBorder && !std::exchange(isFirst, false) && triangle != None;
+      if (isInside || this->IsLeftAlone[neighbour])
       {
         return;
       }
@@ -251,31 +317,34 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
   {
     this->TrianglesOfSteps.push_back(hole.Triangles[i]);
     this->PointsOfSteps.push_back(hole.Points[i]);
-    this->LastStep[hole.Triangles[i]] = number;
+    if (hole.Triangles[i] != None)
+    {
+      this->LastStep[hole.Triangles[i]] = number;
+    }
   }
   this->RemovedIn[vertex] = number;
   // The first and the last triangle go: what was beyond them becomes neighbours.
-  const auto edgeOf = [&](std::uint32_t triangle, std::uint32_t neighbour)
+  const auto close = [&](std::uint32_t gone, std::uint32_t stays, int edge)
   {
-    const Triangle& all = this->Neighbours[triangle];
-    return all[0] == neighbour ? 0 : all[1] == neighbour ? 1 : 2;
-  };
-  const auto close = [&](std::uint32_t gone, std::uint32_t stays)
-  {
-    const std::uint32_t beyond =
-      this->Neighbours[gone][(PlaceOf(this->Triangles[gone], vertex) + 1) % 3];
-    this->Neighbours[stays][edgeOf(stays, gone)] = beyond;
+    const std::uint32_t beyond = gone == None
+      ? None
+      : this->Neighbours[gone][(PlaceOf(this->Triangles[gone], vertex) + 1) % 3];
+    this->Neighbours[stays][edge] = beyond;
     if (beyond != None)
     {
-      this->Neighbours[beyond][edgeOf(beyond, gone)] = stays;
+      this->Neighbours[beyond][PlaceOf(this->Neighbours[beyond], gone)] = stays;
     }
-    this->Triangles[gone][0] = None;
+    if (gone != None)
+    {
+      this->Triangles[gone][0] = None;
+    }
   };
   const std::uint32_t target = hole.Points[0];
-  const std::uint32_t firstGone = hole.Triangles[0];
-  const std::uint32_t lastGone = hole.Triangles[last];
-  close(firstGone, hole.Triangles[1]);
-  close(lastGone, hole.Triangles[last - 1]);
+  const auto placeIn = [&](std::uint32_t triangle)
+  { return PlaceOf(this->Triangles[triangle], vertex); };
+  close(hole.Triangles[0], hole.Triangles[1], placeIn(hole.Triangles[1]));
+  close(
+    hole.Triangles[last], hole.Triangles[last - 1], (placeIn(hole.Triangles[last - 1]) + 2) % 3);
   for (int i = 1; i < last; ++i)
   {
     const std::uint32_t triangle = hole.Triangles[i];
@@ -297,7 +366,7 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
   for (int i = 0; i < hole.Count; ++i)
   {
     const std::uint32_t point = hole.Points[i];
-    if (!this->Stays[point] && !this->IsLeftAlone[point])
+    if (this->MayGo(point))
     {
       this->OfferAgain(point, vertex, target);
     }
@@ -308,7 +377,7 @@ std::vector<bool> EdgeCollapses::Run()
 {
   for (std::uint32_t point = 0; point < this->Positions.size(); ++point)
   {
-    if (this->AnyTriangle[point] != None && !this->Stays[point] && !this->IsLeftAlone[point])
+    if (this->MayGo(point))
     {
       this->Offer(point, -HUGE_VAL, 0);
     }
@@ -339,7 +408,10 @@ std::vector<bool> EdgeCollapses::Run()
   std::vector<bool> isChanged(this->Triangles.size());
   for (const std::uint32_t triangle : this->TrianglesOfSteps)
   {
-    isChanged[triangle] = true;
+    if (triangle != None)
+    {
+      isChanged[triangle] = true;
+    }
   }
   return isChanged;
 }

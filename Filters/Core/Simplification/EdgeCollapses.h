@@ -2,6 +2,7 @@
 #ifndef isodiamond_EdgeCollapses_h
 #define isodiamond_EdgeCollapses_h
 
+#include "Patches/PatchDistance.h"
 #include "Simplification/Hole.h"
 #include "Simplification/MeshPart.h"
 #include "Simplification/Quadric.h"
@@ -24,8 +25,10 @@ namespace isodiamond
  * triangle that they lie over: how far they are from it tells nearly how far the original is. So
  * the result is to be measured, and what is wrong with it can be undone.
  *
- * Vertices at the border stay, and border edges; no new edge joins two such vertices: a neighbour
- * that shares the border might make the same.
+ * A vertex at the border goes along this, and only if its edge there and the next one are on one
+ * wall: what is put in their place is so, too. Where no walls are known the border stays. No new
+ * edge joins two vertices that are fixed: a neighbouring part that has these, too, might make the
+ * same.
  */
 class EdgeCollapses
 {
@@ -73,7 +76,8 @@ private:
   struct Filling
   {
     Vector Normal{};
-    Hole::Place Start{}; ///< of the edge to the next one
+    TriangleDistance Distance; ///< if the hole is open
+    Hole::Place Start{};       ///< of the edge to the next one
     Hole::Place Spoke{};
     std::uint32_t FirstSample = None;
 
@@ -107,7 +111,14 @@ private:
   bool FindHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
   bool KeepsTopology(const Hole& hole);
   bool Fill(std::uint32_t vertex, const Hole& hole);
-  bool IsNear(Watched& sample, std::uint32_t number, const Hole::Place& place);
+  bool MayGo(std::uint32_t vertex) const
+  {
+    return this->AnyTriangle[vertex] != None && !this->IsFixed[vertex] &&
+      !this->IsLeftAlone[vertex] && (!this->IsAtBorder[vertex] || this->OnWalls[vertex] != 0);
+  }
+  void AddBorder(std::uint32_t from, std::uint32_t to, const Vector& normal);
+  bool FindOpenHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
+  bool IsNear(const Hole& hole, Watched& sample, std::uint32_t number, const Hole::Place& place);
   void Undo(const Step& step);
   void Forget(const std::vector<bool>& isUndone);
   void GiveBackSamples(const Step& step);
@@ -130,9 +141,11 @@ private:
   std::vector<std::uint32_t> Homes;       ///< by sample
   std::vector<Watched> Samples;
 
-  std::vector<std::uint32_t> AnyTriangle; ///< by vertex
-  std::vector<bool> Stays;                ///< at the border, or fixed
-  std::vector<bool> IsLeftAlone;          ///< more than one fan of triangles
+  std::vector<std::uint32_t> AnyTriangle;  ///< by vertex
+  std::vector<bool> IsFixed;               ///< stays
+  std::vector<bool> IsAtBorder;            ///< by vertex
+  const std::vector<Walls::Type>& OnWalls; ///< by vertex
+  std::vector<bool> IsLeftAlone;           ///< more than one fan of triangles
   std::vector<Quadric> Quadrics;
   struct Price
   {
@@ -163,7 +176,7 @@ void EdgeCollapses::ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const
 {
   // At the border: from where there is nothing before.
   std::uint32_t first = this->AnyTriangle[vertex];
-  if (this->Stays[vertex])
+  if (this->IsAtBorder[vertex])
   {
     std::uint32_t before = first;
     do

@@ -26,6 +26,10 @@ bool Hole::SeeFromAbove(
   Vector across{};
   for (int i = 0; i < this->Count; ++i)
   {
+    if (this->Triangles[i] == None)
+    {
+      continue;
+    }
     across = across + Cross(relative[i], relative[i + 1 < this->Count ? i + 1 : 0]);
   }
   const double length = std::sqrt(Dot(across, across));
@@ -46,7 +50,10 @@ bool Hole::SeeFromAbove(
   for (int i = 0; i < this->Count; ++i)
   {
     this->Places[i] = { Dot(relative[i], x), Dot(relative[i], y) };
-    this->LeastCosine = std::min(this->LeastCosine, Dot(n, normals[this->Triangles[i]]));
+    if (this->Triangles[i] != None)
+    {
+      this->LeastCosine = std::min(this->LeastCosine, Dot(n, normals[this->Triangles[i]]));
+    }
   }
   if (!(this->LeastCosine > 0.0))
   {
@@ -55,7 +62,7 @@ bool Hole::SeeFromAbove(
   for (int i = 0; i < this->Count; ++i)
   {
     const int next = i + 1 < this->Count ? i + 1 : 0;
-    if (!(Cross2(this->Places[i], this->Places[next]) > 0.0))
+    if (this->Triangles[i] != None && !(Cross2(this->Places[i], this->Places[next]) > 0.0))
     {
       return false;
     }
@@ -68,12 +75,13 @@ int Hole::TriangleAt(const Place& place) const
   for (int i = 0; i < this->Count; ++i)
   {
     const Place& next = this->Places[i + 1 < this->Count ? i + 1 : 0];
-    if (Cross2(this->Places[i], place) >= 0.0 && Cross2(place, next) >= 0.0)
+    if (this->Triangles[i] != None && Cross2(this->Places[i], place) >= 0.0 &&
+      Cross2(place, next) >= 0.0)
     {
       return i;
     }
   }
-  return 0;
+  return 1; // is never missing
 }
 
 }

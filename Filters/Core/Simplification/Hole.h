@@ -13,7 +13,9 @@ namespace isodiamond
 
 /**
  * The hole that a vertex leaves when its triangles go, seen from above: along the mean normal of
- * the triangles, which is the same for all that fills the hole.
+ * the triangles, which is the same for all that fills the hole. That of a vertex at the border is
+ * open: between two of the points there was no triangle, and what fills it ends at a line from one
+ * to the other.
  */
 struct Hole
 {
@@ -25,7 +27,8 @@ struct Hole
 
   int Count = 0;
   std::array<std::uint32_t, MostPoints> Points;    ///< around the vertex
-  std::array<std::uint32_t, MostPoints> Triangles; ///< from each point to the next one
+  std::array<std::uint32_t, MostPoints> Triangles; ///< from each point to the next one; None beside
+                                                   ///< a vertex at the border
   Vector Normal{};
   Vector AxisX{};
   Vector AxisY{};
@@ -41,6 +44,11 @@ struct Hole
   Place See(const Vector& fromVertex) const
   {
     return { Dot(fromVertex, this->AxisX), Dot(fromVertex, this->AxisY) };
+  }
+
+  bool IsOpen() const
+  {
+    return this->Triangles[0] == None || this->Triangles[this->Count - 1] == None;
   }
 
   /** The triangle that is seen at a place; any if none is. */

@@ -37,7 +37,8 @@ public:
 private:
   using Place = std::array<double, 2>;
   using Clipped = Vector; ///< a place and a height
-  /** Each of three cuts adds one at most, or by rounding, of what is nearly a line, doubles them. */
+  /** Each of three cuts adds one at most, or by rounding, of what is nearly a line, doubles them.
+   */
   using ClippedCorners = std::array<Clipped, 24>;
 
   /** How a point of the mesh is seen. */

@@ -221,14 +221,17 @@ MeshPart SimplifiedMesh::Take(
       part.Near.Add(i, division.Number[near]);
     }
   }
+  // What is held stays, and what other parts have, too.
   part.IsFixed.resize(points);
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
-    if (division.IsHeld[triangles[i]])
+    const Triangle& neighbours = this->Simple.Linked().Neighbours[triangles[i]];
+    for (int k = 0; k < 3; ++k)
     {
-      for (const std::uint32_t point : part.Simple.Triangles[i])
+      const bool isCut = neighbours[k] != None && part.Simple.Neighbours[i][k] == None;
+      for (int end = k; end < k + 2 && (isCut || division.IsHeld[triangles[i]]); ++end)
       {
-        part.IsFixed[point] = true;
+        part.IsFixed[part.Simple.Triangles[i][end % 3]] = true;
       }
     }
   }
@@ -253,9 +256,11 @@ MeshPart SimplifiedMesh::Take(
     part.Samples.push_back(sample);
   }
   part.Positions.reserve(points);
+  part.OnWalls.resize(points);
   for (std::size_t i = 0; i < points; ++i)
   {
     part.Positions.push_back(part.Samples[i].Position);
+    part.OnWalls[i] = this->Original.OnWalls.empty() ? 0 : this->Original.OnWalls[ids[i]];
   }
   return part;
 }

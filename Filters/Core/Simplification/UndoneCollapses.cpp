@@ -33,11 +33,16 @@ void EdgeCollapses::Undo(const Step& step)
   for (int i = 0; i <= last; ++i)
   {
     const int next = i < last ? i + 1 : 0;
+    if (triangles[i] == None)
+    {
+      continue;
+    }
     this->Triangles[triangles[i]] = { step.Vertex, points[i], points[next] };
     this->Neighbours[triangles[i]] = { triangles[i > 0 ? i - 1 : last], outer[i], triangles[next] };
     this->AnyTriangle[points[i]] = triangles[i];
+    this->AnyTriangle[points[next]] = triangles[i];
   }
-  this->AnyTriangle[step.Vertex] = triangles[0];
+  this->AnyTriangle[step.Vertex] = triangles[1]; // is never missing
   this->RemovedIn[step.Vertex] = None;
   this->TakeAway(step.Vertex);
   this->GiveBackSamples(step);
@@ -72,6 +77,10 @@ void EdgeCollapses::GiveBackSamples(const Step& step)
     const std::uint32_t triangle = this->TrianglesOfSteps[step.First + i];
     hole.Points[i] = this->PointsOfSteps[step.First + i];
     hole.Triangles[i] = triangle;
+    if (triangle == None)
+    {
+      continue;
+    }
     this->Normals[triangle] = Unit(Across(this->Positions, this->Triangles[triangle]));
     const bool wasThere = i > 0 && i < step.Count - 1;
     for (std::uint32_t at = wasThere ? this->FirstSample[triangle] : None; at != None;
@@ -86,7 +95,7 @@ void EdgeCollapses::GiveBackSamples(const Step& step)
   {
     const int at = isSeen
       ? hole.TriangleAt(hole.See(this->Samples[sample].At() - this->Positions[step.Vertex]))
-      : 0;
+      : 1;
     this->PutOver(hole.Triangles[at], sample);
   }
 }
@@ -132,10 +141,18 @@ std::vector<bool> EdgeCollapses::Undo(
       this->TrianglesOfSteps.begin() + static_cast<std::ptrdiff_t>(this->Steps[i].First);
     const auto end = begin + this->Steps[i].Count;
     isUndone[i] = isUndone[i] ||
-      std::any_of(begin, end, [&](std::uint32_t triangle) { return isTouched[triangle]; });
+      std::any_of(begin, end,
+        [&](std::uint32_t triangle) { return triangle != None && isTouched[triangle]; });
     if (isUndone[i])
     {
-      std::for_each(begin, end, [&](std::uint32_t triangle) { isTouched[triangle] = true; });
+      std::for_each(begin, end,
+        [&](std::uint32_t triangle)
+        {
+          if (triangle != None)
+          {
+            isTouched[triangle] = true;
+          }
+        });
     }
   }
   for (std::size_t i = this->Steps.size(); i-- > 0;)
@@ -163,7 +180,11 @@ void EdgeCollapses::Forget(const std::vector<bool>& isUndone)
       this->RemovedIn[step.Vertex] = static_cast<std::uint32_t>(kept);
       for (int k = 0; k < step.Count; ++k)
       {
-        this->LastStep[this->TrianglesOfSteps[step.First + k]] = static_cast<std::uint32_t>(kept);
+        const std::uint32_t triangle = this->TrianglesOfSteps[step.First + k];
+        if (triangle != None)
+        {
+          this->LastStep[triangle] = static_cast<std::uint32_t>(kept);
+        }
       }
       ++kept;
     }

@@ -19,13 +19,9 @@ constexpr double WantedAngle = 15.5;
 
 Walls::Type WallsOf(const CutMesh::Vertex& vertex, const Grid& grid)
 {
-  int walls = vertex.IsHidden ? Walls::Fixed : 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    walls |= vertex.Position[axis] == 0 ? 1 << (2 * axis) : 0;
-    walls |= vertex.Position[axis] == grid.Last(axis) ? 2 << (2 * axis) : 0;
-  }
-  return static_cast<Walls::Type>(walls);
+  const auto [x, y, z] = vertex.Position;
+  const int walls = Walls::At({ 1.0 * x, 1.0 * y, 1.0 * z }, grid);
+  return static_cast<Walls::Type>(walls | (vertex.IsHidden ? Walls::Fixed : 0));
 }
 
 /** The directions of the grid's axes, where they are the same everywhere. */

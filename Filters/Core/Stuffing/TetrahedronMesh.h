@@ -3,6 +3,7 @@
 #define isodiamond_TetrahedronMesh_h
 
 #include "Field/Vector.h"
+#include "Field/Walls.h"
 
 #include <algorithm>
 #include <array>
@@ -44,16 +45,6 @@ inline Edge SortedEdge(std::uint32_t a, std::uint32_t b)
 {
   return { std::min(a, b), std::max(a, b) };
 }
-
-/** What a point may not leave: bit 2 a is set on the grid's first layer on axis a, bit 2 a + 1 on
- *  its last; Fixed points stay where they are. */
-struct Walls
-{
-  using Type = std::uint8_t;
-  static constexpr Type Fixed = 64;
-
-  static constexpr bool OnAxis(Type walls, int axis) { return ((walls >> (2 * axis)) & 3) != 0; }
-};
 
 /** A part of what one point has. */
 struct Share
