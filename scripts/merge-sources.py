@@ -7,6 +7,7 @@ Usage: merge-sources.py COMPILE_COMMANDS OUTPUT_DIRECTORY SOURCE_DIRECTORY...
 """
 import json
 import os
+import re
 import sys
 
 commands_file, output, *directories = sys.argv[1:]
@@ -25,8 +26,9 @@ for directory in directories:
         name = f"{output}/{len(merged)}.cpp"
         with open(name, "w") as file:
             file.writelines(f'#include "{source}"\n' for source in sources)
-        # They share the flags: each directory is one target.
+        # They share the flags: each directory is one target. Its precompiled header is gcc's.
         command = own[first]["command"].replace(sources[0], name)
+        command = re.sub(r"-Winvalid-pch|-include \S+/cmake_pch\.hxx", "", command)
         merged.append({**own[first], "file": name, "command": command})
 with open(f"{output}/compile_commands.json", "w") as file:
     json.dump(merged, file)

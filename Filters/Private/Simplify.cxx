@@ -22,9 +22,15 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** Of a tolerance for the hierarchy. The more is left, the fewer triangles come out, and the longer
- *  it takes. */
+/** The largest part of a tolerance for the hierarchy. The more is left, the fewer triangles come
+ *  out, and the longer it takes. */
 constexpr double HierarchyPart = 0.3;
+
+/** The part of a tolerance for the hierarchy: less of small ones, which its triangles use up. */
+double PartForHierarchy(double tolerance, double voxel)
+{
+  return std::min(HierarchyPart, 0.4 * tolerance / voxel);
+}
 
 constexpr const char* WallsArray = "IsodiamondWalls";
 
@@ -43,7 +49,10 @@ PointDataMaker WithWalls(PointDataMaker others, const isodiamond::Grid& grid)
   };
 }
 
-isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& tolerance)
+/** @param allowed (tolerance of a place) -> what is left of it */
+template <typename Allowed>
+isodiamond::AllowedMesh ToCore(
+  const Mesh& mesh, const PlacedTolerance& tolerance, Allowed&& allowed)
 {
   isodiamond::AllowedMesh result;
   result.Mesh.Positions = PositionsOf(mesh.Points);
@@ -58,8 +67,7 @@ isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& toleranc
     result.Mesh.Triangles.push_back({ static_cast<std::uint32_t>(ids[0]),
       static_cast<std::uint32_t>(ids[1]), static_cast<std::uint32_t>(ids[2]) });
     const std::array<isodiamond::Vector, 3> corners = result.Mesh.Corners(cell);
-    const double tolerated = tolerance.In(corners.data(), 3);
-    result.Allowances.push_back((1.0 - HierarchyPart) * tolerated);
+    result.Allowances.push_back(allowed(tolerance.In(corners.data(), 3)));
   }
   const auto* walls =
     vtkUnsignedCharArray::FastDownCast(mesh.PointData->GetArray(WallsArray))->GetPointer(0);
@@ -76,8 +84,13 @@ isodiamond::AllowedMesh ToCore(const Mesh& mesh, const PlacedTolerance& toleranc
 void SimplifyMesh(const WorldQuery& query, const Measure& measure,
   const isodiamond::GridGeometry& world, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
-  const isodiamond::TriangleMesh simple =
-    isodiamond::Simplify(ToCore(mesh, PlacedTolerance(query, measure, world)), parallelFor);
+  const auto allowed = [&, voxel = world.SmallestStep()](double tolerance)
+  {
+    const double part = query.View ? HierarchyPart : PartForHierarchy(tolerance, voxel);
+    return (1.0 - part) * tolerance;
+  };
+  const isodiamond::TriangleMesh simple = isodiamond::Simplify(
+    ToCore(mesh, PlacedTolerance(query, measure, world), allowed), parallelFor);
   mesh.PointData->RemoveArray(WallsArray);
   const UsedPoints used(simple.Triangles, simple.Positions.size(), parallelFor);
   const std::vector<vtkIdType> ids = used.Ids();
@@ -105,8 +118,10 @@ WorldQuery BeforeSimplifying(
   const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
 {
   WorldQuery part = query;
-  part.ErrorTolerance *= HierarchyPart;
-  part.OutsideErrorTolerance = HierarchyPart * OutsideOf(query, measure, world);
+  const double voxel = world.SmallestStep();
+  const double outside = OutsideOf(query, measure, world);
+  part.ErrorTolerance *= PartForHierarchy(query.ErrorTolerance, voxel);
+  part.OutsideErrorTolerance = PartForHierarchy(outside, voxel) * outside;
   if (part.View)
   {
     part.View->TolerancePerDistance *= HierarchyPart;

@@ -583,7 +583,14 @@ TEST(ShadowTest, IsRightByBruteForce)
         corner = positions[points[test::Pick(random, static_cast<int>(points.size()))]];
         corner[test::Pick(random, 3)] += 0.02 * test::Pick(random, 10);
       }
-      if (!shadow.Covers(corners, around))
+      // Along its normal, or askew.
+      Vector direction = Unit(Cross(corners[1] - corners[0], corners[2] - corners[0]));
+      if (test::Pick(random, 2) == 0)
+      {
+        direction[test::Pick(random, 3)] += 0.1 * test::Pick(random, 8);
+        direction = Unit(direction);
+      }
+      if (!shadow.Covers(corners, direction, around))
       {
         ++notCovered;
         continue;
@@ -620,7 +627,10 @@ TEST(ShadowTest, CountsWhatFacesTheOtherWay)
   const std::array<Vector, 3> up = { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } };
   const std::array<Vector, 3> down = { up[1], up[0], up[2] };
   const auto covers = [&](const std::array<Vector, 3>& corners, std::vector<std::uint32_t> some)
-  { return shadow.Covers(corners, some); };
+  {
+    const Vector normal = Unit(Cross(corners[1] - corners[0], corners[2] - corners[0]));
+    return shadow.Covers(corners, normal, some);
+  };
   EXPECT_TRUE(covers(up, { 0 }));
   EXPECT_FALSE(covers(up, { 1 }));
   EXPECT_FALSE(covers(up, { 0, 1 }));

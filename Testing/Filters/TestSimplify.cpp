@@ -161,12 +161,12 @@ TEST(Simplify, KeepsToleranceAndTopology)
     EXPECT_LE(Excess(full, simple, everywhere), 0.0);
     EXPECT_LE(Excess(simple, full, everywhere), 0.0);
     ExpectSameShape(simple, full);
-    // Points with their data, of the mesh at three tenths of the tolerance; no levels.
+    // Points with their data, of the mesh at a part of the tolerance; no levels.
     EXPECT_EQ(
       simple->GetPointData()->GetNormals()->GetNumberOfTuples(), simple->GetNumberOfPoints());
     EXPECT_EQ(simple->GetCellData()->GetNumberOfArrays(), 0);
     contour->SimplifyOff();
-    contour->SetErrorTolerance(0.3 * tolerance);
+    contour->SetErrorTolerance(std::min(0.3, 0.4 * tolerance / 0.5) * tolerance);
     const auto finer = Update(contour);
     EXPECT_LE(simple->GetNumberOfPoints(), finer->GetNumberOfPoints());
     EXPECT_LE(test::LargestDistance(simple, finer), 1e-6);
@@ -231,6 +231,50 @@ TEST(Simplify, SeveralIsovaluesHiddenCellsAndCaps)
   simple->GetPointData()->GetArray("density")->GetRange(range);
   EXPECT_EQ(range[0], 30.0);
   EXPECT_EQ(range[1], 50.0);
+}
+
+TEST(Simplify, GoesAlongTheBoundary)
+{
+  // A field that goes on beyond the image, in a world of its own.
+  const auto image = test::MakeImage({ 24, 22, 20 },
+    [](double x, double y, double z) { return std::sin(0.3 * x) + std::cos(0.25 * y) + 0.2 * z; });
+  image->SetSpacing(0.4, 0.5, 0.6);
+  image->SetOrigin(3, -2, 1);
+  const auto contour = MakeContour(image);
+  contour->SetValue(0, 1.5);
+  const auto full = Update(contour);
+  contour->SetErrorTolerance(0.4);
+  const auto plain = Update(contour);
+  contour->SimplifyOn();
+  const auto simple = Update(contour);
+  EXPECT_LT(2 * Shape(simple).BorderEdges, Shape(plain).BorderEdges);
+  ExpectSameShape(simple, full);
+  EXPECT_EQ(
+    simple->GetPointData()->GetNumberOfArrays(), plain->GetPointData()->GetNumberOfArrays());
+  const auto everywhere = [](const double[3]) { return 0.4 * (1.0 + 1e-6); };
+  EXPECT_LE(Excess(full, simple, everywhere), 0.0);
+  EXPECT_LE(Excess(simple, full, everywhere), 0.0);
+  vtkNew<vtkFeatureEdges> border;
+  border->SetInputData(simple);
+  border->FeatureEdgesOff();
+  border->Update();
+  double bounds[6];
+  image->GetBounds(bounds);
+  const vtkIdType edges = border->GetOutput()->GetNumberOfCells();
+  ASSERT_GT(edges, 0);
+  for (vtkIdType i = 0; i < edges; ++i)
+  {
+    double ends[6];
+    border->GetOutput()->GetCell(i)->GetBounds(ends);
+    bool isOnFace = false;
+    for (int k = 0; k < 6; ++k)
+    {
+      const double face = bounds[k];
+      isOnFace = isOnFace ||
+        (std::abs(ends[k - k % 2] - face) < 1e-5 && std::abs(ends[k - k % 2 + 1] - face) < 1e-5);
+    }
+    EXPECT_TRUE(isOnFace) << "edge " << i;
+  }
 }
 
 TEST(Simplify, HasATargetToo)

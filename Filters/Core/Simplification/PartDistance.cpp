@@ -197,7 +197,32 @@ private:
     {
       return false;
     }
-    return this->Shadow.Covers(corners, this->Around) || this->IsNearBackInPieces(corners);
+    return this->IsInShadow(simple, corners) || this->IsNearBackInPieces(corners);
+  }
+
+  /** Whether the shadow of what is around a triangle of the simpler mesh tells that it is near.
+   * Seen along its normal, or where the surface bends along that of the original, or of what is
+   * beside it: one of these ways may be short where another one is not. */
+  bool IsInShadow(std::uint32_t simple, const std::array<Vector, 3>& corners)
+  {
+    const Vector normal = this->SimpleCover.Normal(simple);
+    Vector below{};
+    for (const std::uint32_t original : this->Around)
+    {
+      below = below + this->Cover.Normal(original);
+    }
+    Vector beside = normal;
+    for (const std::uint32_t neighbour : this->Simple.Neighbours[simple])
+    {
+      beside = beside + (neighbour != None ? this->SimpleCover.Normal(neighbour) : Vector{});
+    }
+    const std::array<Vector, 3> ways = { normal, Unit(below), Unit(beside) };
+    return std::any_of(ways.begin(), ways.end(),
+      [&](const Vector& way)
+      {
+        std::vector<std::uint32_t> triangles = this->Around;
+        return this->Shadow.Covers(corners, way, triangles);
+      });
   }
 
   bool IsNearBackInPieces(const std::array<Vector, 3>& corners)

@@ -17,7 +17,7 @@ class PointNumbers
 public:
   /** @param forEach calls its argument for each of the triangles */
   template <typename ForEach>
-  explicit PointNumbers(ForEach&& forEach)
+  explicit PointNumbers(const ForEach& forEach)
   {
     std::uint32_t last = 0;
     this->First = None;

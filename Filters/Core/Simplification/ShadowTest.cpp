@@ -13,6 +13,9 @@ namespace
 /** A part of a triangle's longest side that is not distinguished from nothing. */
 constexpr double SlackPart = 1e-9;
 
+/** The least cosine of a direction with a triangle's normal. */
+constexpr double LeastUp = 0.3;
+
 }
 
 ShadowTest::ShadowTest(const std::vector<Vector>& positions, const LinkedTriangles& mesh,
@@ -26,7 +29,7 @@ ShadowTest::ShadowTest(const std::vector<Vector>& positions, const LinkedTriangl
 }
 
 /** @return whether the triangle can be seen */
-bool ShadowTest::Reset(const std::array<Vector, 3>& corners)
+bool ShadowTest::Reset(const std::array<Vector, 3>& corners, const Vector& direction)
 {
   ++this->Test;
   this->Origin = corners[0];
@@ -35,6 +38,9 @@ bool ShadowTest::Reset(const std::array<Vector, 3>& corners)
   this->Axes[0] = Unit(first);
   this->Axes[2] = Unit(Cross(first, second));
   this->Axes[1] = Cross(this->Axes[2], this->Axes[0]);
+  const double up = Dot(direction, this->Axes[2]);
+  this->Way = (1.0 / up) * direction;
+  this->WayLength = std::sqrt(Dot(this->Way, this->Way));
   this->Corners = { { { 0.0, 0.0 }, { Dot(first, this->Axes[0]), 0.0 },
     { Dot(second, this->Axes[0]), Dot(second, this->Axes[1]) } } };
   double longest = 0.0;
@@ -48,7 +54,7 @@ bool ShadowTest::Reset(const std::array<Vector, 3>& corners)
   }
   this->Middle = { (this->Corners[1][0] + this->Corners[2][0]) / 3.0, this->Corners[2][1] / 3.0 };
   this->Slack = SlackPart * longest;
-  return this->Middle[1] > this->Slack;
+  return this->Middle[1] > this->Slack && up > LeastUp;
 }
 
 const ShadowTest::Shadow& ShadowTest::Of(std::uint32_t point)
@@ -57,9 +63,11 @@ const ShadowTest::Shadow& ShadowTest::Of(std::uint32_t point)
   if (shadow.Test != this->Test)
   {
     shadow.Test = this->Test;
-    const Vector way = this->Positions[point] - this->Origin;
-    shadow.At = { Dot(way, this->Axes[0]), Dot(way, this->Axes[1]) };
-    shadow.Height = Dot(way, this->Axes[2]);
+    const Vector place = this->Positions[point] - this->Origin;
+    const double above = Dot(place, this->Axes[2]);
+    const Vector below = place - above * this->Way;
+    shadow.At = { Dot(below, this->Axes[0]), Dot(below, this->Axes[1]) };
+    shadow.Height = above * this->WayLength;
     shadow.Beyond = 0;
     for (int k = 0; k < 3; ++k)
     {
@@ -162,9 +170,10 @@ int ShadowTest::Clip(int side, ClippedCorners& corners, int count) const
   return left;
 }
 
-bool ShadowTest::Covers(const std::array<Vector, 3>& corners, std::vector<std::uint32_t>& triangles)
+bool ShadowTest::Covers(const std::array<Vector, 3>& corners, const Vector& direction,
+  std::vector<std::uint32_t>& triangles)
 {
-  if (!this->Reset(corners))
+  if (!this->Reset(corners, direction))
   {
     return false;
   }

@@ -15,12 +15,12 @@ namespace isodiamond
  * Shows that all of a triangle is near to a mesh, by the shadow that some triangles of the mesh
  * cast on it.
  *
- * Seen along the triangle's normal, let these cover each place a number of times, where those that
- * face the other way count as -1. That number changes only across the shadow of their border, the
- * edges that one of them has. So if this does not enter the triangle, and leads around its middle
- * once, all of the triangle is covered; and where all that may cover it is near, so is all of the
- * triangle. It takes a few operations for each of the mesh's triangles, but does not always
- * succeed.
+ * Seen along a direction, these cover each place a number of times, where those that face the other
+ * way count as -1. That number changes only across the shadow of their border, the edges that one
+ * of them has. So if this does not enter the triangle, and leads around its middle once, all of the
+ * triangle is covered; and if they are near to it along the direction wherever they are over it,
+ * all of it is near to them. It takes a few operations for each of the mesh's triangles, but does
+ * not always succeed: a way along the direction may be longer than another one.
  */
 class ShadowTest
 {
@@ -31,8 +31,10 @@ public:
     const std::vector<double>& allowances);
 
   /** Whether each point of a triangle is shown to be near to the mesh, and to face as that does.
-   *  @param triangles different ones of the mesh, near to it; others join them */
-  bool Covers(const std::array<Vector, 3>& corners, std::vector<std::uint32_t>& triangles);
+   *  @param direction of unit length @param triangles different ones of the mesh, near to it;
+   * others join them */
+  bool Covers(const std::array<Vector, 3>& corners, const Vector& direction,
+    std::vector<std::uint32_t>& triangles);
 
 private:
   using Place = std::array<double, 2>;
@@ -50,7 +52,7 @@ private:
     std::uint32_t Test = 0;
   };
 
-  bool Reset(const std::array<Vector, 3>& corners);
+  bool Reset(const std::array<Vector, 3>& corners, const Vector& direction);
   const Shadow& Of(std::uint32_t point);
   bool IsLow(std::uint32_t triangle);
   int Clip(int side, ClippedCorners& corners, int count) const;
@@ -67,6 +69,8 @@ private:
   // The triangle, seen from above: its first corner is at 0, its first side along x.
   Vector Origin{};
   std::array<Vector, 3> Axes{}; ///< the last one is the normal
+  Vector Way{};                 ///< along the direction, by one along the normal
+  double WayLength = 1.0;
   std::array<Place, 3> Corners{};
   std::array<Place, 3> Inward{}; ///< normals to the sides, of unit length
   Place Middle{};

@@ -16,8 +16,8 @@ constexpr std::size_t MostOfPart = 32000;
 /**
  * Makes fewer triangles of a mesh, of some of its points, with a promise: every point of the result
  * is within the allowance of a triangle of the mesh of a point of that triangle, and every point of
- * a triangle within its allowance of the result; both are homeomorphic; border edges stay, and
- * nothing is turned over.
+ * a triangle within its allowance of the result; both are homeomorphic; border edges on a wall stay
+ * on it, others stay as they are, and nothing is turned over.
  *
  * Edges collapse in parts of the mesh (SimplifiedMesh.h), as long as samples of what was there are
  * near enough (EdgeCollapses.h). Then whole triangles are compared, both ways (PartDistance.h), and

@@ -5,7 +5,6 @@
 #include "Simplification/EdgeCollapses.h"
 #include "Simplification/MeshBlocks.h"
 #include "Simplification/PartDistance.h"
-#include "Simplification/PointNumbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -203,8 +202,6 @@ MeshPart SimplifiedMesh::Take(
         visit(this->Original.Mesh.Triangles[original]);
       }
     });
-  ids = numbers.Points();
-  const std::size_t points = ids.size();
   MeshPart part;
   part.Simple = Linked(this->Simple.Linked(), triangles, division.Number, numbers,
     [&](std::uint32_t triangle) { return division.PartOf[triangle] == number; });
@@ -221,27 +218,24 @@ MeshPart SimplifiedMesh::Take(
       part.Near.Add(i, division.Number[near]);
     }
   }
-  // What is held stays, and what other parts have, too.
-  part.IsFixed.resize(points);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-  {
-    const Triangle& neighbours = this->Simple.Linked().Neighbours[triangles[i]];
-    for (int k = 0; k < 3; ++k)
-    {
-      const bool isCut = neighbours[k] != None && part.Simple.Neighbours[i][k] == None;
-      for (int end = k; end < k + 2 && (isCut || division.IsHeld[triangles[i]]); ++end)
-      {
-        part.IsFixed[part.Simple.Triangles[i][end % 3]] = true;
-      }
-    }
-  }
-  // The middles of its original triangles; what else lies over its own ones.
-  const std::size_t middles = this->Original.Mesh.Positions.size();
+  this->AddPoints(division, number, numbers, ids, part);
+  return part;
+}
+
+/** The points of a part, and its samples: these, the middles of its original triangles, and what
+ * else lies over its own ones. */
+void SimplifiedMesh::AddPoints(const Division& division, std::uint32_t number,
+  const PointNumbers& numbers, std::vector<std::uint32_t>& ids, MeshPart& part) const
+{
+  ids = numbers.Points();
+  const std::size_t points = ids.size();
+  const std::size_t middles = this->Original.Mesh.Positions.size(); // the first one's id
   const auto isThere = [&](std::size_t sample)
   {
     return sample < middles ? numbers.Has(static_cast<std::uint32_t>(sample))
                             : division.OwnerOf[sample - middles] == number;
   };
+  const IdRange originals = division.Originals[number];
   std::transform(originals.begin(), originals.end(), std::back_inserter(ids),
     [&](std::uint32_t original) { return static_cast<std::uint32_t>(middles + original); });
   const IdRange over = division.Samples[number];
@@ -262,7 +256,31 @@ MeshPart SimplifiedMesh::Take(
     part.Positions.push_back(part.Samples[i].Position);
     part.OnWalls[i] = this->Original.OnWalls.empty() ? 0 : this->Original.OnWalls[ids[i]];
   }
-  return part;
+  part.IsFixed = this->FixedPoints(division, number, part);
+}
+
+/** What is held stays, and what other parts have, too. */
+std::vector<bool> SimplifiedMesh::FixedPoints(
+  const Division& division, std::uint32_t number, const MeshPart& part) const
+{
+  std::vector<bool> isFixed(part.Positions.size());
+  std::size_t i = 0;
+  for (const std::uint32_t triangle : division.Triangles[number])
+  {
+    const Triangle& points = part.Simple.Triangles[i];
+    for (int k = 0; k < 3; ++k)
+    {
+      const bool isCut = part.Simple.Neighbours[i][k] == None &&
+        this->Simple.Linked().Neighbours[triangle][k] != None;
+      if (isCut || division.IsHeld[triangle])
+      {
+        isFixed[points[k]] = true;
+        isFixed[points[(k + 1) % 3]] = true;
+      }
+    }
+    ++i;
+  }
+  return isFixed;
 }
 
 /** What a part has become. */

@@ -5,6 +5,7 @@
 #include "Field/Parallel.h"
 #include "Simplification/AllowedMesh.h"
 #include "Simplification/MeshPart.h"
+#include "Simplification/PointNumbers.h"
 
 #include <vector>
 
@@ -40,6 +41,10 @@ private:
    *         mesh */
   MeshPart Take(
     const Division& division, std::uint32_t number, std::vector<std::uint32_t>& ids) const;
+  void AddPoints(const Division& division, std::uint32_t number, const PointNumbers& numbers,
+    std::vector<std::uint32_t>& ids, MeshPart& part) const;
+  std::vector<bool> FixedPoints(
+    const Division& division, std::uint32_t number, const MeshPart& part) const;
   Made SimplifyPart(const Division& division, std::uint32_t number, double usedPart) const;
   void PutTogether(const Division& division, const std::vector<Made>& made);
 
