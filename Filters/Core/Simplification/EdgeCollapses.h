@@ -88,8 +88,7 @@ private:
     }
   };
 
-  /** A sample, as little of it as will do: there are many, and they are looked at again and again.
-   */
+  /** A sample, as little of it as will do: there are many, and each is looked at often. */
   struct Watched
   {
     std::array<float, 3> Position; ///< from the first point

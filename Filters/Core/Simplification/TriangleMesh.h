@@ -83,7 +83,6 @@ struct LinkedTriangles
 class Connectivity
 {
 public:
-  Connectivity() = default;
   Connectivity(std::size_t pointCount, std::vector<Triangle> triangles);
 
   /** The points at which edges begin that more than two triangles have, or two in one direction.
