@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondExtractor.h"
 
+#include "Private/HierarchyQuery.h"
 #include "Private/Input.h"
 #include "Private/Mesh.h"
 #include "Private/Simplify.h"
@@ -300,6 +301,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
   const isodiamond::ParallelFor parallelFor = task.For();
   vtkIsodiamond::CountedTolerance found;
   const bool isUniform = !query.Region && !query.View;
+  const bool getsCoarser = vtkIsodiamond::GetsCoarser(query, state.Metric);
   if (state.Isodiamonds && isUniform)
   {
     vtkIsodiamond::RunThreaded(this->NumberOfThreads,
@@ -310,7 +312,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
         found = vtkIsodiamond::LeastTolerance({ &counts }, this->TargetNumberOfTriangles);
       });
   }
-  if (state.Isodiamonds && isUniform && !query.Simplify)
+  if (state.Isodiamonds && isUniform && !getsCoarser)
   {
     return found;
   }
@@ -326,13 +328,13 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
       parallelFor,
       [&](const isodiamond::RefinedSet& refined)
       {
-        cells = query.Simplify
+        cells = getsCoarser
           ? this->MakeMesh(state, tried, refined, { 0, 1 }, counting).Cells->GetNumberOfCells()
           : isodiamond::CountCells(refined, parallelFor);
       });
     return cells;
   };
-  if (!query.Simplify)
+  if (!getsCoarser)
   {
     return vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles, cellsAt);
   }
@@ -344,14 +346,14 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
 vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetExtracted(
   const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query) const
 {
-  if (!query.Simplify)
+  if (query.Simplify)
   {
-    return query;
+    const bool isVolume = query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
+    vtkIsodiamond::CheckSimplify(state.Metric, isVolume);
   }
-  const bool isVolume = query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
-  vtkIsodiamond::CheckSimplify(state.Metric, isVolume);
-  return vtkIsodiamond::BeforeSimplifying(
-    query, vtkIsodiamond::Measure(*state.Isodiamonds), state.World);
+  return state.Isodiamonds
+    ? vtkIsodiamond::HierarchyQuery(query, vtkIsodiamond::Measure(*state.Isodiamonds), state.World)
+    : query;
 }
 
 //------------------------------------------------------------------------------

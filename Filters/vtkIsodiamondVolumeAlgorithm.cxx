@@ -6,6 +6,7 @@
 #include "Private/Arrays.h"
 #include "Private/Cache.h"
 #include "Private/Format.h"
+#include "Private/HierarchyQuery.h"
 #include "Private/Input.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
@@ -268,7 +269,9 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
       &this->Hierarchies->Count(volume, regions[i], need, query.InteriorTolerance, part));
   }
   const bool isUniform = !(query.Region || query.View);
-  if (hierarchies.empty() || (isUniform && !query.Simplify))
+  const bool getsCoarser =
+    !hierarchies.empty() && vtkIsodiamond::GetsCoarser(query, hierarchies.front()->Header().Metric);
+  if (hierarchies.empty() || (isUniform && !getsCoarser))
   {
     return vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles);
   }
@@ -289,7 +292,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
     }
     return cells;
   };
-  return query.Simplify
+  return getsCoarser
     ? vtkIsodiamond::LeastToleranceBelow(
         vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles).Tolerance,
         this->TargetNumberOfTriangles, cellsAt)

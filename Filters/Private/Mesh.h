@@ -35,7 +35,8 @@ struct Mesh
   vtkSmartPointer<vtkCellData> CellData = vtkSmartPointer<vtkCellData>::New();
   /** The smallest and the largest, in degrees, of tetrahedra for simulations. */
   std::optional<std::array<double, 2>> DihedralAngles;
-  /** Of such tetrahedra: diamonds whose leaves have surfaces that are too far away. */
+  /** Of such tetrahedra: diamonds that have to be refined, for surfaces are too far away. The mesh
+   *  is not made coarser then. */
   std::vector<isodiamond::Place> FarDiamonds;
 
   /** Hands it to a data set. */
@@ -61,6 +62,8 @@ struct MeshOptions
   double DistanceTolerance = 0.0; ///< the least that it may be away from full resolution
   /** The same in a triangle or tetrahedron, by its corners in the world; none to not measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
+  bool MayRefine = true;    ///< whether FarDiamonds are looked at
+  bool KeepsInside = false; ///< whether points on no surface stay
 };
 
 /** Extracts a mesh, or a share of it: of that no more is written than there is in it, unless cells

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Simplify.h"
 
+#include "Private/HierarchyQuery.h"
 #include "Private/Piece.h"
 #include "Private/PlacedTolerance.h"
 #include "Private/Simulation.h"
@@ -21,16 +22,6 @@ namespace vtkIsodiamond
 {
 namespace
 {
-
-/** The largest part of a tolerance for the hierarchy. The more is left, the fewer triangles come
- *  out, and the longer it takes. */
-constexpr double HierarchyPart = 0.3;
-
-/** The part of a tolerance for the hierarchy: less of small ones, which its triangles use up. */
-double PartForHierarchy(double tolerance, double voxel)
-{
-  return std::min(HierarchyPart, 0.4 * tolerance / voxel);
-}
 
 constexpr const char* WallsArray = "IsodiamondWalls";
 
@@ -76,7 +67,7 @@ isodiamond::AllowedMesh ToCore(
 }
 
 /**
- * Simplifies the mesh of BeforeSimplifying() within what is left of the tolerances. Points stay
+ * Simplifies the mesh of HierarchyQuery() within what is left of the tolerances. Points stay
  * what they are, with their data; cell data have no meaning any more and go.
  *
  * @param query the one that was asked for
@@ -84,11 +75,8 @@ isodiamond::AllowedMesh ToCore(
 void SimplifyMesh(const WorldQuery& query, const Measure& measure,
   const isodiamond::GridGeometry& world, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
-  const auto allowed = [&, voxel = world.SmallestStep()](double tolerance)
-  {
-    const double part = query.View ? HierarchyPart : PartForHierarchy(tolerance, voxel);
-    return (1.0 - part) * tolerance;
-  };
+  const auto allowed = [&](double tolerance)
+  { return (1.0 - PartForHierarchy(query, tolerance, world)) * tolerance; };
   const isodiamond::TriangleMesh simple = isodiamond::Simplify(
     ToCore(mesh, PlacedTolerance(query, measure, world), allowed), parallelFor);
   mesh.PointData->RemoveArray(WallsArray);
@@ -112,21 +100,6 @@ void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume)
   {
     throw std::invalid_argument("Simplify needs the distance metric.");
   }
-}
-
-WorldQuery BeforeSimplifying(
-  const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
-{
-  WorldQuery part = query;
-  const double voxel = world.SmallestStep();
-  const double outside = OutsideOf(query, measure, world);
-  part.ErrorTolerance *= PartForHierarchy(query.ErrorTolerance, voxel);
-  part.OutsideErrorTolerance = PartForHierarchy(outside, voxel) * outside;
-  if (part.View)
-  {
-    part.View->TolerancePerDistance *= HierarchyPart;
-  }
-  return part;
 }
 
 Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& query,
@@ -154,13 +127,12 @@ Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& que
 Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const WorldQuery& query,
   const MeshOptions& options, Task& task)
 {
-  WorldQuery extracted = query;
+  const Measure measure(hierarchy);
   if (query.Simplify)
   {
-    const Measure measure(hierarchy);
     CheckSimplify(measure.Metric, hierarchy.Region().IsVolume());
-    extracted = BeforeSimplifying(query, measure, options.World);
   }
+  const WorldQuery extracted = HierarchyQuery(query, measure, options.World);
   task.Begin("Refining", 0.0, 0.3);
   const isodiamond::RefinedSet refined(
     hierarchy, CoreQuery(extracted, hierarchy, options.World), task.For());

@@ -15,16 +15,11 @@ namespace vtkIsodiamond
 /** Makes sure that a query can be simplified. @throws std::invalid_argument saying why not */
 void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume);
 
-/** The query whose mesh is to be simplified: its tolerances are parts of those that are asked for.
- */
-WorldQuery BeforeSimplifying(
-  const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world);
-
 /**
  * The mesh that a query asks for, or the share of it that the options want: for simulations,
  * simplified, or as it is.
  *
- * @param refined set of BeforeSimplifying() where the query simplifies, else of the query
+ * @param refined set of HierarchyQuery()
  */
 Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& query,
   const MeshOptions& options, Task& task);

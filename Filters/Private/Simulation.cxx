@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Simulation.h"
 
+#include "Private/HierarchyQuery.h"
 #include "Private/PlacedTolerance.h"
+
+#include <cmath>
 
 namespace vtkIsodiamond
 {
@@ -9,7 +12,7 @@ namespace
 {
 
 /** Each time leaves that are too far away become finer by a level; few need more than three. */
-constexpr int MostRounds = 12;
+constexpr int MostRounds = 6;
 
 }
 
@@ -24,7 +27,7 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   const Measure measure(hierarchy);
   MeshOptions asked = options;
   asked.ForSimulation = true;
-  if (measure.Metric != isodiamond::ErrorMetric::Distance || query.IsFull())
+  if (!GetsCoarser(query, measure.Metric))
   {
     return ExtractMesh(refined, asked, task);
   }
@@ -32,11 +35,14 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   asked.DistanceTolerance = query.ErrorTolerance;
   asked.ToleranceIn = [&](const isodiamond::Vector* corners, int count)
   { return tolerance.In(corners, count); };
-  isodiamond::Query core = CoreQuery(query, hierarchy, options.World);
+  asked.KeepsInside = std::isfinite(query.InteriorTolerance);
+  isodiamond::Query core =
+    CoreQuery(HierarchyQuery(query, measure, options.World), hierarchy, options.World);
   Mesh mesh = ExtractMesh(refined, asked, task);
-  for (int round = 0; round < MostRounds && !mesh.FarDiamonds.empty(); ++round)
+  for (int round = 1; round <= MostRounds && !mesh.FarDiamonds.empty(); ++round)
   {
     core.Also.insert(core.Also.end(), mesh.FarDiamonds.begin(), mesh.FarDiamonds.end());
+    asked.MayRefine = round < MostRounds;
     mesh = ExtractMesh(isodiamond::RefinedSet(hierarchy, core, task.For()), asked, task);
   }
   return mesh;

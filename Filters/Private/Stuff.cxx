@@ -23,33 +23,23 @@ namespace
 constexpr double MovePartOfStep = 0.25;
 constexpr double MovePartOfTolerance = 0.5;
 
-/** What is left of the tolerance in each leaf: its diamond's error may be so far away already.
- *  Leaves of full resolution, which cannot be finer, are not asked. */
-std::vector<double> AllowancesOf(const isodiamond::CutMesh& leaves,
-  const std::vector<isodiamond::Vector>& vertices, const isodiamond::IsodiamondHierarchy& hierarchy,
-  const MeshOptions& options)
+/** Finds what is left of the tolerance in each leaf: its diamond's error may be so far away
+ * already. Leaves of full resolution cannot be finer. */
+void FindAllowances(const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,
+  isodiamond::StuffingInput& input)
 {
-  std::vector<double> allowances;
-  if (!options.ToleranceIn)
+  for (std::size_t i = 0; options.ToleranceIn && i < input.Leaves.Tetrahedra.size(); ++i)
   {
-    return allowances;
-  }
-  for (std::size_t i = 0; i < leaves.Tetrahedra.size(); ++i)
-  {
-    const auto place = isodiamond::DiamondOf(leaves, i, hierarchy.SampleGrid());
+    const auto place = isodiamond::DiamondOf(input.Leaves, i, hierarchy.SampleGrid());
     const std::int64_t rank = place ? hierarchy.Diamonds().Rank(*place) : -1;
-    if (rank < 0)
-    {
-      allowances.push_back(HUGE_VAL); // nothing finer is there
-      continue;
-    }
     std::array<isodiamond::Vector, 4> corners{};
-    std::transform(leaves.Tetrahedra[i].Vertices.begin(), leaves.Tetrahedra[i].Vertices.end(),
-      corners.begin(), [&](std::uint32_t vertex) { return vertices[vertex]; });
-    const double error = hierarchy.Codes().Decode(hierarchy.Threshold(rank));
-    allowances.push_back(std::max(0.0, options.ToleranceIn(corners.data(), 4) - error));
+    const auto& vertices = input.Leaves.Tetrahedra[i].Vertices;
+    std::transform(vertices.begin(), vertices.end(), corners.begin(),
+      [&](std::uint32_t vertex) { return input.Vertices[vertex]; });
+    const double error = rank < 0 ? 0.0 : hierarchy.Codes().Decode(hierarchy.Threshold(rank));
+    input.Allowances.push_back(std::max(0.0, options.ToleranceIn(corners.data(), 4) - error));
+    input.CanBeFiner.push_back(rank >= 0 && options.MayRefine);
   }
-  return allowances;
 }
 
 /** What to copy the attributes of a mesh's points from: points of before, for those that are
@@ -127,10 +117,10 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   const double move = std::max(
     MovePartOfStep * options.World.SmallestStep(), MovePartOfTolerance * options.DistanceTolerance);
   const isodiamond::Grid& grid = hierarchy.SampleGrid();
-  const isodiamond::StuffedMesh result =
-    isodiamond::Stuff({ leaves, vertices, positions, options.World, grid, move,
-                        AllowancesOf(leaves, vertices, hierarchy, options) },
-      parallelFor);
+  isodiamond::StuffingInput input{ leaves, vertices, positions, options.World, grid, move };
+  input.KeepsInside = options.KeepsInside;
+  FindAllowances(hierarchy, options, input);
+  const isodiamond::StuffedMesh result = isodiamond::Stuff(input, parallelFor);
   const isodiamond::TetrahedronMesh& stuffed = result.Mesh;
   for (const std::uint32_t leaf : result.FarLeaves)
   {

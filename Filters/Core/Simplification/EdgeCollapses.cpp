@@ -8,8 +8,9 @@
 namespace isodiamond
 {
 
-EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart)
-  : Positions(part.Positions)
+EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuard* guard)
+  : Guard(guard)
+  , Positions(part.Positions)
   , Links(part.Simple)
   , Triangles(this->Links.Triangles)
   , Neighbours(this->Links.Neighbours)
@@ -396,8 +397,13 @@ std::vector<bool> EdgeCollapses::Run()
       this->Offer(at.Vertex, -HUGE_VAL, 0);
     }
     else if (this->FindHole(at.Vertex, at.Target, hole) && this->KeepsTopology(hole) &&
-      hole.SeeFromAbove(this->Positions, this->Normals, at.Vertex) && this->Fill(at.Vertex, hole))
+      hole.SeeFromAbove(this->Positions, this->Normals, at.Vertex) && this->Fill(at.Vertex, hole) &&
+      (this->Guard == nullptr || this->Guard->Allows(at.Vertex, at.Target)))
     {
+      if (this->Guard != nullptr)
+      {
+        this->Guard->Collapse(at.Vertex, at.Target);
+      }
       this->Collapse(at.Vertex, hole);
     }
     else

@@ -15,6 +15,20 @@
 namespace isodiamond
 {
 
+/** What else an edge of a surface belongs to, that has a say in its collapse. */
+class CollapseGuard
+{
+public:
+  virtual ~CollapseGuard() = default;
+  /** Whether a vertex may go into another one. */
+  virtual bool Allows(std::uint32_t vertex, std::uint32_t target) = 0;
+  /** It does. */
+  virtual void Collapse(std::uint32_t vertex, std::uint32_t target) = 0;
+  /** Undoes collapses. @return the vertices that are there again: these, and all whose collapses
+   *  built on theirs */
+  virtual std::vector<std::uint32_t> Undo(const std::vector<std::uint32_t>& vertices) = 0;
+};
+
 /**
  * Collapses edges of a mesh into one of their ends, the cheapest by quadrics first (Garland and
  * Heckbert, SIGGRAPH 1997), as long as all keeps its allowance.
@@ -36,7 +50,7 @@ public:
   /** @param part stays as it is, and must outlive it
    *  @param usedPart of allowances, by samples: between them the surface may be a bit farther off
    */
-  EdgeCollapses(const MeshPart& part, double usedPart);
+  EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuard* guard = nullptr);
 
   /** Collapses all that it can. @return by number: whether a triangle is another one now, or gone
    */
@@ -131,6 +145,7 @@ private:
   template <typename Visit>
   void ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const;
 
+  CollapseGuard* Guard;          ///< or null
   std::vector<Vector> Positions; ///< from the first one
   LinkedTriangles Links;
   std::vector<Triangle>& Triangles;       ///< of these

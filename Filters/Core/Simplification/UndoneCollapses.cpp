@@ -133,6 +133,21 @@ std::vector<bool> EdgeCollapses::Undo(
   {
     mark(this->RemovedIn[point]);
   }
+  if (this->Guard != nullptr)
+  {
+    std::vector<std::uint32_t> vertices;
+    for (std::size_t i = 0; i < this->Steps.size(); ++i)
+    {
+      if (isUndone[i])
+      {
+        vertices.push_back(this->Steps[i].Vertex);
+      }
+    }
+    for (const std::uint32_t vertex : this->Guard->Undo(vertices))
+    {
+      mark(this->RemovedIn[vertex]);
+    }
+  }
   // What builds on it, forwards; then back.
   std::vector<bool> isTouched(this->Triangles.size());
   for (std::size_t i = 0; i < this->Steps.size(); ++i)

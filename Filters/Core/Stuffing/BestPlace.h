@@ -43,6 +43,16 @@ public:
     return worst;
   }
 
+  /** Calls visit(sine) of each tetrahedron with the point at a place. */
+  template <typename Visit>
+  void ForEachSine(const Vector& place, Visit&& visit) const
+  {
+    for (const std::array<Vector, 3>& face : this->Faces)
+    {
+      visit(SmallestSine(place, face[0], face[1], face[2]));
+    }
+  }
+
   Vector Mean() const
   {
     Vector sum{};

@@ -20,10 +20,16 @@ namespace
 
 /** Passes over what is bad; most is done in two. */
 constexpr int MostPasses = 10;
-/** Less is no improvement. */
-constexpr double LeastGain = 1e-3;
-/** A new point has to be worth it. */
-constexpr double LeastGainOfPoint = 0.01;
+/** Tries in all passes, of so many that are bad at first: where it is hopeless, for a coarse mesh
+ *  can be no better, they would become ever more. */
+constexpr std::size_t MostTries(std::size_t bad)
+{
+  return 1000 + 4 * bad;
+}
+/** Less of what a tetrahedron lacks is no improvement. */
+constexpr double LeastGain = 0.01;
+/** Tetrahedra with less than this part of the wanted sine are all equally bad. */
+constexpr double WorstPart = 0.01;
 
 /** Tries between two looks at whether to go on: some milliseconds. */
 constexpr std::size_t TriesOfStep = 16;
@@ -42,7 +48,7 @@ struct Change
   static constexpr std::uint32_t NewPoint = LocalMesh::None;
 
   Kinds Kind = None;
-  double Sine = -1.0; ///< the smallest of what it makes
+  double Gain = 0.0; ///< see Improver::Shortfall
   std::uint32_t Point = 0;
   std::uint32_t Other = 0;
   Vector Place{};
@@ -65,9 +71,16 @@ public:
   {
     std::vector<std::uint32_t> bad(this->Mesh.Mesh().Tetrahedra.size());
     std::iota(bad.begin(), bad.end(), 0U);
+    std::size_t triesLeft = 0;
     for (int pass = 0; pass < MostPasses && !bad.empty(); ++pass)
     {
       bad = this->WorstFirst(bad);
+      triesLeft = pass == 0 ? MostTries(bad.size()) : triesLeft;
+      if (bad.size() > triesLeft)
+      {
+        return;
+      }
+      triesLeft -= bad.size();
       std::vector<std::uint32_t> changed;
       InSteps(parallelFor, bad.size(), TriesOfStep,
         [&](std::size_t i)
@@ -144,7 +157,7 @@ private:
   {
     const Corners corners = this->Mesh.CornersOf(tetrahedron);
     this->Best = Change();
-    this->Least = this->Mesh.SineOf(tetrahedron) + LeastGain;
+    this->Best.Gain = LeastGain * this->Shortfall(this->Mesh.SineOf(tetrahedron));
     for (const std::uint32_t point : corners)
     {
       this->TryToMove(point);
@@ -217,10 +230,49 @@ private:
     this->Mesh.Move(point, change.Place);
   }
 
-  /** Whether a change to a sine would be the best one so far. @param enough it has to be more */
-  bool IsBetter(double sine, double enough) const
+  /** What a tetrahedron lacks: of several bad ones each counts, the worst most. */
+  double Shortfall(double sine) const
   {
-    return sine > this->Least && sine > this->Best.Sine && sine > enough;
+    const double missing =
+      std::max(0.0, this->Wanted / std::max(sine, WorstPart * this->Wanted) - 1.0);
+    return missing * missing;
+  }
+
+  /** Of some tetrahedra. */
+  struct Shape
+  {
+    double Worst = 1.0; ///< the smallest sine
+    double Shortfall = 0.0;
+  };
+  void Add(double sine, Shape& shape) const
+  {
+    shape.Worst = std::min(shape.Worst, sine);
+    shape.Shortfall += this->Shortfall(sine);
+  }
+  template <typename Tetrahedra>
+  Shape ShapeOf(const Tetrahedra& tetrahedra) const
+  {
+    Shape shape;
+    for (const auto& tetrahedron : tetrahedra)
+    {
+      this->Add(this->Mesh.SineOf(tetrahedron), shape);
+    }
+    return shape;
+  }
+
+  /** Whether a change would be the best one so far: the worst gets no worse, and all together
+   *  better. */
+  bool IsBetter(const Shape& before, const Shape& after) const
+  {
+    return after.Worst >= before.Worst && before.Shortfall - after.Shortfall > this->Best.Gain;
+  }
+  /** Begins the best change so far. */
+  Change& Take(Change::Kinds kind, const Shape& before, const Shape& after)
+  {
+    this->Best = Change();
+    this->Best.Kind = kind;
+    this->Best.Gain = before.Shortfall - after.Shortfall;
+    return this->Best;
   }
 
   //--- Moves ------------------------------------------------------------------
@@ -236,16 +288,16 @@ private:
     {
       star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
     }
-    const double before = this->Mesh.WorstAround(point);
+    const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Wanted);
-    if (this->IsBetter(best.Sine, before + LeastGain))
+    Shape after;
+    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
+    if (this->IsBetter(before, after))
     {
-      this->Best = Change();
-      this->Best.Kind = Change::Move;
-      this->Best.Sine = best.Sine;
-      this->Best.Point = point;
-      this->Best.Place = best.Place;
+      Change& move = this->Take(Change::Move, before, after);
+      move.Point = point;
+      move.Place = best.Place;
     }
   }
 
@@ -253,30 +305,27 @@ private:
 
   void TryToCollapse(std::uint32_t from, std::uint32_t to)
   {
-    double sine = 1.0;
+    const Shape before = this->ShapeOf(this->Mesh.StarOf(from));
+    Shape after;
     for (const std::uint32_t tetrahedron : this->Mesh.StarOf(from))
     {
       Corners corners = this->Mesh.CornersOf(tetrahedron);
       if (!Has(corners, to))
       {
         std::replace(corners.begin(), corners.end(), from, to);
-        sine = std::min(sine, this->Mesh.SineOf(corners));
-        if (sine <= std::max(this->Least, this->Best.Sine))
+        this->Add(this->Mesh.SineOf(corners), after);
+        if (!this->IsBetter(before, after))
         {
           return;
         }
       }
     }
-    // Nothing is left of what was there: beyond what is wanted it need not get better.
-    const double enough = std::min(this->Mesh.WorstAround(from) + LeastGain, this->Wanted);
-    if (this->IsBetter(sine, enough) && this->Mesh.CanCollapse(from, to) &&
+    if (this->IsBetter(before, after) && this->Mesh.CanCollapse(from, to) &&
       StaysNear(this->Mesh, from, to, this->Options.SurfaceMove))
     {
-      this->Best = Change();
-      this->Best.Kind = Change::Collapse;
-      this->Best.Sine = sine;
-      this->Best.Point = from;
-      this->Best.Other = to;
+      Change& collapse = this->Take(Change::Collapse, before, after);
+      collapse.Point = from;
+      collapse.Other = to;
     }
   }
 
@@ -290,16 +339,15 @@ private:
     {
       return;
     }
-    double before = 1.0;
-    for (const std::uint32_t tetrahedron : ring.Tetrahedra)
-    {
-      before = std::min(before, this->Mesh.SineOf(tetrahedron));
-    }
+    const Shape before = this->ShapeOf(ring.Tetrahedra);
     std::vector<Corners> fresh;
-    const double sine = FillRing(this->Mesh, a, b, ring.Points, fresh);
-    if (this->IsBetter(sine, before + LeastGain) && this->AreNew(ring, fresh))
+    FillRing(this->Mesh, a, b, ring.Points, fresh);
+    const Shape after = this->ShapeOf(fresh);
+    if (this->IsBetter(before, after) && this->AreNew(ring, fresh))
     {
-      this->TakeReplacement(sine, ring.Tetrahedra, std::move(fresh));
+      Change& replace = this->Take(Change::Replace, before, after);
+      replace.Old = ring.Tetrahedra;
+      replace.Fresh = std::move(fresh);
     }
   }
 
@@ -355,27 +403,17 @@ private:
     {
       std::swap(face[1], face[2]);
     }
-    double sine = 1.0;
-    std::vector<Corners> fresh;
-    for (int i = 0; i < 3; ++i)
+    std::vector<Corners> fresh = { { far, apex, face[0], face[1] }, { far, apex, face[1], face[2] },
+      { far, apex, face[2], face[0] } };
+    std::vector<std::uint32_t> old = { tetrahedron, *other };
+    const Shape before = this->ShapeOf(old);
+    const Shape after = this->ShapeOf(fresh);
+    if (this->IsBetter(before, after) && !this->Mesh.HasEdge(apex, far))
     {
-      fresh.push_back({ far, apex, face[i], face[(i + 1) % 3] });
-      sine = std::min(sine, this->Mesh.SineOf(fresh.back()));
+      Change& replace = this->Take(Change::Replace, before, after);
+      replace.Old = std::move(old);
+      replace.Fresh = std::move(fresh);
     }
-    const double before = std::min(this->Mesh.SineOf(tetrahedron), this->Mesh.SineOf(*other));
-    if (this->IsBetter(sine, before + LeastGain) && !this->Mesh.HasEdge(apex, far))
-    {
-      this->TakeReplacement(sine, { tetrahedron, *other }, std::move(fresh));
-    }
-  }
-
-  void TakeReplacement(double sine, std::vector<std::uint32_t> old, std::vector<Corners> fresh)
-  {
-    this->Best = Change();
-    this->Best.Kind = Change::Replace;
-    this->Best.Sine = sine;
-    this->Best.Old = std::move(old);
-    this->Best.Fresh = std::move(fresh);
   }
 
   //--- New points -------------------------------------------------------------
@@ -398,33 +436,33 @@ private:
         return;
       }
     }
-    double before = 1.0;
     PointStar star;
-    Change split;
+    std::vector<Corners> fresh;
     for (const std::uint32_t tetrahedron : ring.Tetrahedra)
     {
-      before = std::min(before, this->Mesh.SineOf(tetrahedron));
       for (const std::uint32_t end : { a, b })
       {
         Corners corners = this->Mesh.CornersOf(tetrahedron);
         star.Add(this->Mesh.Mesh(), corners, end);
         std::replace(corners.begin(), corners.end(), end, Change::NewPoint);
-        split.Fresh.push_back(corners);
+        fresh.push_back(corners);
       }
     }
     const auto walls = static_cast<Walls::Type>(place);
     const PlacedPoint best = BestPlace(
       star, 0.5 * (this->Mesh.At(a) + this->Mesh.At(b)), walls, this->Options.Axes, this->Wanted);
-    if (this->IsBetter(best.Sine, before + LeastGainOfPoint))
+    const Shape before = this->ShapeOf(ring.Tetrahedra);
+    Shape after;
+    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
+    if (this->IsBetter(before, after))
     {
-      split.Kind = Change::Split;
-      split.Sine = best.Sine;
+      Change& split = this->Take(Change::Split, before, after);
       split.Point = a;
       split.Other = b;
       split.Place = best.Place;
       split.OnWalls = walls;
       split.Old = ring.Tetrahedra;
-      this->Best = std::move(split);
+      split.Fresh = std::move(fresh);
     }
   }
 
@@ -432,7 +470,6 @@ private:
   const ImprovementOptions& Options;
   double Wanted; ///< sine
   Change Best;
-  double Least = 0.0; ///< that a change has to exceed
   int Changes = 0;
   /** How many changes there were when a tetrahedron was tried last, and a point touched. */
   std::unordered_map<std::uint32_t, int> Tried, Touched;

@@ -23,12 +23,12 @@ struct ImprovementOptions
 /**
  * Improves the worst tetrahedra of a mesh, by changes of their neighbourhood.
  *
- * For a tetrahedron with a bad angle all of these are tried, and what makes the worst of the
- * tetrahedra that it touches best is done: a point moves, inside or on a wall; an edge shrinks into
- * one of its ends; an edge goes, and what is around it is filled without; two tetrahedra become
- * three around an edge through their common face; and, if none of these helps, an edge gets a point
- * in its middle, which is moved. Nothing is done unless that worst one gets better. Points on
- * surfaces stay where they are, or go.
+ * For a tetrahedron with a bad angle all of these are tried, and what leaves least to be wished for
+ * of all the tetrahedra that it touches is done: a point moves, inside or on a wall; an edge
+ * shrinks into one of its ends; an edge goes, and what is around it is filled without; two
+ * tetrahedra become three around an edge through their common face; and, if none of these helps, an
+ * edge gets a point in its middle, which is moved. Nothing is done that makes the worst one worse.
+ * Points on surfaces stay where they are, or go.
  *
  * The worst come first; order and result do not depend on anything but the mesh. Topology is that
  * of before (LocalMesh.h). Klingner & Shewchuk, "Aggressive tetrahedral mesh improvement" (2007),

@@ -420,6 +420,22 @@ void LocalMesh::Replace(const std::vector<std::uint32_t>& old, const std::vector
     [&](const Corners& corners) { this->Add(corners, origin, changed); });
 }
 
+void LocalMesh::PutBack(
+  const std::vector<std::uint32_t>& old, const std::vector<std::uint32_t>& fresh)
+{
+  std::for_each(
+    fresh.begin(), fresh.end(), [&](std::uint32_t tetrahedron) { this->Remove(tetrahedron); });
+  for (const std::uint32_t tetrahedron : old)
+  {
+    const Corners& corners = this->CornersOf(tetrahedron);
+    this->Sines[tetrahedron] = this->SineOf(corners);
+    for (const std::uint32_t point : corners)
+    {
+      this->OwnStarOf(point).push_back(tetrahedron);
+    }
+  }
+}
+
 std::uint32_t LocalMesh::AddPoint(
   const Vector& at, Walls::Type walls, const std::vector<Share>& shares)
 {

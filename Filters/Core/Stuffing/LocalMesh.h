@@ -73,6 +73,8 @@ public:
   /** Puts tetrahedra in the place of others. */
   void Replace(const std::vector<std::uint32_t>& old, const std::vector<Corners>& fresh,
     std::vector<std::uint32_t>& changed);
+  /** Undoes a change that put tetrahedra in the place of others, which are all still there. */
+  void PutBack(const std::vector<std::uint32_t>& old, const std::vector<std::uint32_t>& fresh);
   /** Adds a point inside, or on walls. @return its id */
   std::uint32_t AddPoint(const Vector& at, Walls::Type walls, const std::vector<Share>& shares);
   ///@}

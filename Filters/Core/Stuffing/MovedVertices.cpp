@@ -102,7 +102,8 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
       {
         const bool isBehind =
           (state == BelowLower && surface == 1) || (state == AboveUpper && surface == 0);
-        if (isBehind || !this->IsCut(tetrahedron, younger, older, surface))
+        if (isBehind || CommonWalls(walls, this->Mesh.WallsOf(corners[other])) != walls ||
+          !this->IsCut(tetrahedron, younger, older, surface))
         {
           continue;
         }

@@ -2,9 +2,9 @@
 #include "Stuffing/Stuffing.h"
 
 #include "Stuffing/Background.h"
+#include "Stuffing/Coarsening.h"
 #include "Stuffing/Improvement.h"
 #include "Stuffing/MovedVertices.h"
-#include "Stuffing/SurfaceDistance.h"
 
 #include <cmath>
 #include <utility>
@@ -66,7 +66,8 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   result.Mesh = Improve(vertices.Cut(), options, parallelFor);
   if (!input.Allowances.empty())
   {
-    result.FarLeaves = FindFarLeaves(plain, result.Mesh, input.Allowances);
+    result.FarLeaves = Coarsen(
+      result.Mesh, { plain, input.Allowances, input.CanBeFiner, input.KeepsInside }, parallelFor);
   }
   return result;
 }

@@ -20,8 +20,12 @@ struct StuffingInput
   const GridGeometry& World;
   const Grid& SampleGrid;
   double SurfaceMove = 0.0; ///< see ImprovementOptions
-  /** By leaf, see FindFarLeaves(); none to not measure. */
+  ///@{
+  /** See CoarseningInput; none to neither measure nor coarsen. */
   std::vector<double> Allowances = {};
+  std::vector<bool> CanBeFiner = {};
+  bool KeepsInside = false;
+  ///@}
 };
 
 /**
@@ -34,8 +38,8 @@ struct StuffingInput
  * that they had. What is wanted of the angles, 15 to 165 degrees, is no promise: where a surface
  * nearly touches itself some are left that are worse.
  *
- * If there are allowances the surfaces are measured (SurfaceDistance.h); it is for the caller to
- * refine where they are too far away.
+ * If there are allowances the surfaces are measured; it is for the caller to refine where they are
+ * too far away. If they are not, the mesh is made coarser, as far as allowed (Coarsening.h).
  *
  * Angles are those of the world: if steps on the axes differ in length, they suffer from the
  * start.
@@ -43,7 +47,7 @@ struct StuffingInput
 struct StuffedMesh
 {
   TetrahedronMesh Mesh;
-  std::vector<std::uint32_t> FarLeaves; ///< where a surface is too far away, as it is measured
+  std::vector<std::uint32_t> FarLeaves; ///< that have to be finer, see Coarsen()
 };
 /** @param parallelFor is given the work in steps, one after the other: it can tell, and abort */
 StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor);

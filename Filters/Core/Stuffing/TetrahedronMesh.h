@@ -100,6 +100,24 @@ inline double SixVolumes(const Vector& a, const Vector& b, const Vector& c, cons
   return Dot(Cross(b - a, c - a), d - a);
 }
 
+inline double VolumeOf(const TetrahedronMesh& mesh, const Corners& corners)
+{
+  return SixVolumes(mesh.Positions[corners[0]], mesh.Positions[corners[1]],
+           mesh.Positions[corners[2]], mesh.Positions[corners[3]]) /
+    6.0;
+}
+
+/** Of all tetrahedra. */
+inline double VolumeOf(const TetrahedronMesh& mesh)
+{
+  double volume = 0.0;
+  for (const Corners& corners : mesh.Tetrahedra)
+  {
+    volume += VolumeOf(mesh, corners);
+  }
+  return volume;
+}
+
 /** The smallest and the largest dihedral angle, in degrees. */
 std::array<double, 2> DihedralAngles(
   const Vector& a, const Vector& b, const Vector& c, const Vector& d);

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/Coarsening.h"
+
+#include "Simplification/PartDistance.h"
+#include "Stuffing/MeasuredSurfaces.h"
+#include "Stuffing/TetrahedronCollapses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** The dihedral angle in degrees that tetrahedra have at the least, and by which they have less
+ *  than 180, unless what they replace has worse ones. The less, the fewer tetrahedra. */
+constexpr double LeastAngle = 20.0;
+
+/** Passes over inside and surfaces; what one leaves lets the other one go on. */
+constexpr int CollapsePasses = 6;
+
+/** The leaves of a stuffed mesh where surfaces are too far away, and which could be finer. */
+std::vector<std::uint32_t> FarLeaves(const MeasuredSurfaces& surfaces,
+  const PartDistance::Faults& faults, const std::vector<bool>& canBeFiner)
+{
+  std::vector<std::uint32_t> leaves;
+  for (std::uint32_t i = 0; i < surfaces.Part.Original.Triangles.size(); ++i)
+  {
+    if (surfaces.Part.Near[i].empty())
+    {
+      leaves.push_back(surfaces.Origins[i]); // nothing is near to it
+    }
+  }
+  for (const std::uint32_t triangle : faults.Triangles)
+  {
+    leaves.push_back(surfaces.SimpleOrigins[triangle]);
+  }
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
+                 [&](std::uint32_t leaf) { return !canBeFiner[leaf]; }),
+    leaves.end());
+  return leaves;
+}
+
+}
+
+std::vector<std::uint32_t> Coarsen(
+  TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor)
+{
+  MeasuredSurfaces surfaces(input.Plain, mesh, input.Allowances);
+  MeshPart& part = surfaces.Part;
+  if (!surfaces.AreSound)
+  {
+    return {};
+  }
+  PartDistance distance(part);
+  PartDistance::Faults faults = distance.Find(
+    part.Simple, surfaces.Homes(), std::vector<bool>(part.Simple.Triangles.size(), true));
+  if (std::vector<std::uint32_t> far = FarLeaves(surfaces, faults, input.CanBeFiner); !far.empty())
+  {
+    return far;
+  }
+
+  TetrahedronCollapses tetrahedra(std::move(mesh), LeastAngle, VolumeOf(input.Plain));
+  EdgeCollapses edges(part, input.UsedPart, &tetrahedra);
+  std::vector<bool> isTouched;
+  std::size_t before = 0;
+  for (int pass = 0; pass < CollapsePasses && (pass == 0 || tetrahedra.Count() > before); ++pass)
+  {
+    before = tetrahedra.Count();
+    if (!input.KeepsInside)
+    {
+      tetrahedra.CollapseInside(parallelFor);
+    }
+    parallelFor(1, 1, [&](std::int64_t, std::int64_t) { isTouched = edges.Run(); });
+  }
+  do
+  {
+    faults = distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched);
+    isTouched = faults.Any() ? edges.Undo(faults.Triangles, faults.Points) : std::vector<bool>();
+  } while (std::find(isTouched.begin(), isTouched.end(), true) != isTouched.end());
+  mesh = tetrahedra.Take();
+  return {};
+}
+
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_Coarsening_h
+#define isodiamond_Coarsening_h
+
+#include "Field/Parallel.h"
+#include "Stuffing/TetrahedronMesh.h"
+
+namespace isodiamond
+{
+
+/** What tells how coarse a mesh may get. */
+struct CoarseningInput
+{
+  const TetrahedronMesh& Plain; ///< the volume's mesh, with its leaves as origins
+  /** By leaf: how far from its part of the surfaces those of the result may be. */
+  const std::vector<double>& Allowances;
+  /** By leaf: whether it could be finer. */
+  const std::vector<bool>& CanBeFiner;
+  bool KeepsInside = false; ///< whether points inside stay
+  /** Of allowances, by samples; what turns out to be too much is undone. */
+  double UsedPart = 0.75;
+};
+
+/**
+ * Makes a stuffed mesh coarser, within what is allowed: edges collapse, on surfaces as Simplify
+ * collapses them (EdgeCollapses.h), and inside, where the tetrahedra that this makes are of good
+ * shape (TetrahedronCollapses.h). All of both surfaces is measured against those of the volume's
+ * mesh, both ways (PartDistance.h), and what is too far away undone.
+ *
+ * @return leaves where a surface was too far away before, and which could be finer, sorted. If
+ *         there are any the mesh stays as it is: it is for the caller to refine and begin again.
+ *         What is too far away and cannot be finer stays as it is there.
+ */
+std::vector<std::uint32_t> Coarsen(
+  TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor);
+
+}
+
+#endif

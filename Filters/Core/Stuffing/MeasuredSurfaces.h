@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_MeasuredSurfaces_h
+#define isodiamond_MeasuredSurfaces_h
+
+#include "Simplification/MeshPart.h"
+#include "Stuffing/TetrahedronMesh.h"
+
+namespace isodiamond
+{
+
+/** The triangles of both surfaces of a mesh, from outside, and the origins of their tetrahedra. */
+struct Surfaces
+{
+  std::vector<Triangle> Triangles;
+  std::vector<std::uint32_t> Origins;
+};
+Surfaces SurfacesOf(const TetrahedronMesh& mesh);
+
+/**
+ * The surfaces of a volume's mesh, and of what was made of it, to be compared.
+ *
+ * The second one has some points of the first; samples of the first are over the triangle of the
+ * second that is nearest, as far as walking over the surface tells.
+ */
+struct MeasuredSurfaces
+{
+  /** @param allowances by origin: how far from its triangles of the first mesh the second one may
+   * be */
+  MeasuredSurfaces(const TetrahedronMesh& plain, const TetrahedronMesh& stuffed,
+    const std::vector<double>& allowances);
+
+  /** By sample: the triangle of the second mesh that it lies over. */
+  std::vector<std::uint32_t> Homes() const;
+
+  /** Whether both can be walked over: no edge of more than two triangles. */
+  bool AreSound = false;
+  MeshPart Part;                            ///< the first one is the original; if they are sound
+  std::vector<std::uint32_t> Origins;       ///< by triangle of the first mesh
+  std::vector<std::uint32_t> SimpleOrigins; ///< of the second
+};
+
+}
+
+#endif

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/TetrahedronCollapses.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** How much longer an edge may be than the longest one that one of its ends had. */
+constexpr double MostGrowth = 1.5;
+
+/** The part of the volume that may come or go. */
+constexpr double MostOfVolume = 0.005;
+
+/** Vertices between two looks at whether to go on. */
+constexpr std::size_t TriesOfStep = 64;
+
+}
+
+TetrahedronCollapses::TetrahedronCollapses(TetrahedronMesh mesh, double leastAngle, double volume)
+  : Mesh(std::move(mesh))
+  , LeastSine(std::sin(leastAngle / 57.29577951308232))
+  , WantedVolume(volume)
+  , Volume(VolumeOf(this->Mesh.Mesh()))
+  , MostChange(std::max(MostOfVolume * volume, std::abs(this->Volume - volume)))
+  , Longest(this->Mesh.Mesh().Positions.size())
+  , IsTried(this->Longest.size())
+{
+  for (const Corners& corners : this->Mesh.Mesh().Tetrahedra)
+  {
+    for (const std::uint32_t a : corners)
+    {
+      for (const std::uint32_t b : corners)
+      {
+        const Vector edge = this->Mesh.At(b) - this->Mesh.At(a);
+        this->Longest[a] = std::max(this->Longest[a], Dot(edge, edge));
+      }
+    }
+  }
+}
+
+bool TetrahedronCollapses::IsLong(std::uint32_t a, std::uint32_t b) const
+{
+  const Vector edge = this->Mesh.At(b) - this->Mesh.At(a);
+  return Dot(edge, edge) > MostGrowth * MostGrowth * std::max(this->Longest[a], this->Longest[b]);
+}
+
+double TetrahedronCollapses::SineNeeded(std::uint32_t vertex) const
+{
+  return std::min(this->LeastSine, this->Mesh.WorstAround(vertex));
+}
+
+/** The smallest sine of what a collapse makes; any that is less than what is needed if it is, or
+ *  an edge is too long. */
+double TetrahedronCollapses::SineAfter(
+  std::uint32_t vertex, std::uint32_t target, double needed) const
+{
+  double sine = 1.0;
+  for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
+  {
+    Corners corners = this->Mesh.CornersOf(tetrahedron);
+    if (Has(corners, target))
+    {
+      continue;
+    }
+    std::replace(corners.begin(), corners.end(), vertex, target);
+    sine = std::min(sine, this->Mesh.SineOf(corners));
+    if (sine < needed ||
+      std::any_of(corners.begin(), corners.end(),
+        [&](std::uint32_t corner) { return this->IsLong(corner, target); }))
+    {
+      return -1.0;
+    }
+  }
+  return sine;
+}
+
+/** How much volume a collapse adds. */
+double TetrahedronCollapses::GainOf(std::uint32_t vertex, std::uint32_t target) const
+{
+  if (this->Mesh.Mesh().Surfaces[vertex] == 0)
+  {
+    return 0.0; // nothing but boundaries of the grid, along which it goes
+  }
+  double gain = 0.0;
+  for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
+  {
+    Corners corners = this->Mesh.CornersOf(tetrahedron);
+    gain -= VolumeOf(this->Mesh.Mesh(), corners);
+    std::replace(corners.begin(), corners.end(), vertex, target);
+    gain += VolumeOf(this->Mesh.Mesh(), corners);
+  }
+  return gain;
+}
+
+bool TetrahedronCollapses::KeepsVolume(double gain) const
+{
+  const double before = std::abs(this->Volume - this->WantedVolume);
+  const double after = std::abs(this->Volume + gain - this->WantedVolume);
+  return after <= std::max(before, this->MostChange); // undoing may have led beyond
+}
+
+bool TetrahedronCollapses::Allows(std::uint32_t vertex, std::uint32_t target)
+{
+  const double needed = this->SineNeeded(vertex);
+  return this->SineAfter(vertex, target, needed) >= needed &&
+    this->KeepsVolume(this->GainOf(vertex, target)) && this->Mesh.CanCollapse(vertex, target);
+}
+
+void TetrahedronCollapses::Collapse(std::uint32_t vertex, std::uint32_t target)
+{
+  const LocalMesh::Star star = this->Mesh.StarOf(vertex);
+  Step step{ vertex, this->GainOf(vertex, target), { star.begin(), star.end() }, {} };
+  this->Volume += step.Gain;
+  this->Mesh.Collapse(vertex, target, step.Fresh);
+  for (const std::uint32_t tetrahedron : step.Old)
+  {
+    for (const std::uint32_t point : this->Mesh.CornersOf(tetrahedron))
+    {
+      this->IsTried[point] = false;
+    }
+  }
+  this->Steps.push_back(std::move(step));
+}
+
+/** The other ends of a vertex's edges into which it could go, the best first. */
+void TetrahedronCollapses::FindTargets(std::uint32_t vertex, double needed)
+{
+  this->Targets.clear();
+  for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
+  {
+    for (const std::uint32_t target : this->Mesh.CornersOf(tetrahedron))
+    {
+      if (target != vertex &&
+        std::none_of(this->Targets.begin(), this->Targets.end(),
+          [&](const auto& known) { return known.second == target; }))
+      {
+        this->Targets.emplace_back(0.0, target);
+      }
+    }
+  }
+  for (auto& [sine, target] : this->Targets)
+  {
+    sine = -this->SineAfter(vertex, target, needed);
+  }
+  std::sort(this->Targets.begin(), this->Targets.end());
+}
+
+void TetrahedronCollapses::CollapseInside(const ParallelFor& parallelFor)
+{
+  // In an order that knows nothing of places: else one after the other would go into one vertex.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+  const TetrahedronMesh& mesh = this->Mesh.Mesh();
+  for (std::uint32_t point = 0; point < mesh.Positions.size(); ++point)
+  {
+    if (mesh.Surfaces[point] == 0 && !this->IsTried[point])
+    {
+      order.emplace_back(point * 2654435761U, point);
+    }
+  }
+  std::sort(order.begin(), order.end());
+  InSteps(parallelFor, order.size(), TriesOfStep,
+    [&](std::size_t i)
+    {
+      const std::uint32_t vertex = order[i].second;
+      const double needed = this->SineNeeded(vertex);
+      this->FindTargets(vertex, needed);
+      this->IsTried[vertex] = true;
+      const auto found = std::find_if(this->Targets.begin(), this->Targets.end(),
+        [&](const auto& target)
+        { return -target.first < needed || this->Mesh.CanCollapse(vertex, target.second); });
+      if (found != this->Targets.end() && -found->first >= needed)
+      {
+        this->Collapse(vertex, found->second);
+      }
+    });
+}
+
+std::vector<std::uint32_t> TetrahedronCollapses::Undo(const std::vector<std::uint32_t>& vertices)
+{
+  std::vector<bool> isAsked(this->IsTried.size());
+  for (const std::uint32_t vertex : vertices)
+  {
+    isAsked[vertex] = true;
+  }
+  // What builds on it, forwards; then back.
+  std::vector<bool> isUndone(this->Steps.size());
+  std::vector<bool> goes(this->Mesh.Mesh().Tetrahedra.size());
+  std::vector<std::uint32_t> back;
+  for (std::size_t i = 0; i < this->Steps.size(); ++i)
+  {
+    const Step& step = this->Steps[i];
+    isUndone[i] = isAsked[step.Vertex] ||
+      std::any_of(step.Old.begin(), step.Old.end(),
+        [&](std::uint32_t tetrahedron) { return goes[tetrahedron]; });
+    if (isUndone[i])
+    {
+      std::for_each(step.Fresh.begin(), step.Fresh.end(),
+        [&](std::uint32_t tetrahedron) { goes[tetrahedron] = true; });
+      back.push_back(step.Vertex);
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = this->Steps.size(); i-- > 0;)
+  {
+    if (isUndone[i])
+    {
+      this->Mesh.PutBack(this->Steps[i].Old, this->Steps[i].Fresh);
+      this->Volume -= this->Steps[i].Gain;
+    }
+  }
+  for (std::size_t i = 0; i < this->Steps.size(); ++i)
+  {
+    if (!isUndone[i])
+    {
+      std::swap(this->Steps[kept++], this->Steps[i]);
+    }
+  }
+  this->Steps.resize(kept);
+  return back;
+}
+
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StuffingTestTools.h"
+
+#include "DistanceTestTools.h"
+
+#include "Mesh/IntervalExtraction.h"
+#include "Simplification/PartDistance.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace isodiamond;
+
+namespace test
+{
+
+Stuffed::Stuffed(const IsodiamondHierarchy& hierarchy, const Query& query,
+  const GridGeometry& world, const HiddenCells* hidden)
+  : Plain(ExtractVolume(hierarchy, query))
+{
+  const RefinedSet refined(hierarchy, query, SerialFor);
+  const IntervalExtraction extraction(refined, SerialFor);
+  std::vector<Vector> points;
+  for (const std::array<double, 3>& point : this->Plain.Points)
+  {
+    points.push_back(world(point));
+  }
+  const CutMesh leaves = extraction.Leaves(hidden);
+  const std::vector<Vector> vertices = VerticesInWorld(leaves, world);
+  const double move = std::max(0.25 * world.SmallestStep(), 0.5 * query.Tolerance);
+  this->LeafCount = leaves.Tetrahedra.size();
+  this->Mesh =
+    Stuff({ leaves, vertices, points, world, hierarchy.SampleGrid(), move }, SerialFor).Mesh;
+}
+
+TetrahedronMesh Stuffed::PlainMesh() const
+{
+  TetrahedronMesh plain = this->Mesh;
+  plain.Tetrahedra.clear();
+  plain.Positions.resize(this->Plain.Points.size());
+  plain.Surfaces = this->Plain.Surfaces;
+  for (const std::array<std::int32_t, 4>& corners : this->Plain.Tetrahedra)
+  {
+    plain.Tetrahedra.push_back(
+      { static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[1]),
+        static_cast<std::uint32_t>(corners[2]), static_cast<std::uint32_t>(corners[3]) });
+  }
+  plain.Origins.assign(plain.Tetrahedra.size(), 0);
+  return plain;
+}
+
+Volume Stuffed::AsVolume() const
+{
+  Volume volume;
+  std::vector<std::int32_t> ids(this->Mesh.Positions.size(), -1);
+  for (const Corners& corners : this->Mesh.Tetrahedra)
+  {
+    std::array<std::int32_t, 4> tetrahedron{};
+    for (int i = 0; i < 4; ++i)
+    {
+      std::int32_t& id = ids[corners[i]];
+      if (id < 0)
+      {
+        id = static_cast<std::int32_t>(volume.Points.size());
+        volume.Points.push_back(this->Mesh.Positions[corners[i]]);
+        volume.Surfaces.push_back(this->Mesh.Surfaces[corners[i]]);
+        volume.Values.push_back(0.0);
+      }
+      tetrahedron[i] = id;
+    }
+    volume.Tetrahedra.push_back(tetrahedron);
+    volume.Levels.push_back(0);
+  }
+  return volume;
+}
+
+std::size_t Stuffed::CountBad() const
+{
+  return std::count_if(this->Mesh.Tetrahedra.begin(), this->Mesh.Tetrahedra.end(),
+    [&](const Corners& corners)
+    { return SmallestSine(this->Mesh, corners) < std::sin(15.0 * std::acos(-1.0) / 180.0); });
+}
+
+Topology TopologyOf(const Volume& volume, AnyMesh mesh)
+{
+  mesh.Interval = volume;
+  return Topology(mesh);
+}
+
+bool IsFar(const TetrahedronMesh& plain, const TetrahedronMesh& mesh, double allowance)
+{
+  MeasuredSurfaces surfaces(plain, mesh, { allowance });
+  EXPECT_TRUE(surfaces.AreSound);
+  const std::vector<bool> all(surfaces.Part.Simple.Triangles.size(), true);
+  return PartDistance(surfaces.Part).Find(surfaces.Part.Simple, surfaces.Homes(), all).Any();
+}
+
+std::string FarByForce(const Volume& plain, const Volume& mesh, double allowance)
+{
+  Promise promise;
+  promise.Tolerance = allowance;
+  std::string fault;
+  for (const int surface : { -1, 1 })
+  {
+    fault +=
+      FaultOf(promise, Placed(plain, surface, AffineMap()), Placed(mesh, surface, AffineMap()));
+  }
+  return fault;
+}
+
+Field GyroidField(int size, double periods)
+{
+  Field field{ "gyroid", { size, size, size }, {}, 0.1 };
+  const double step = periods * 2.0 * std::acos(-1.0) / (size - 1);
+  for (int z = 0; z < size; ++z)
+  {
+    for (int y = 0; y < size; ++y)
+    {
+      for (int x = 0; x < size; ++x)
+      {
+        field.Samples.push_back(static_cast<float>(std::sin(step * x) * std::cos(step * y) +
+          std::sin(step * y) * std::cos(step * z) + std::sin(step * z) * std::cos(step * x)));
+      }
+    }
+  }
+  return field;
+}
+
+Built BuildVolume(const Field& field, const Isoregion& region)
+{
+  BuildOptions options = Distance();
+  options.PreserveTopology = true;
+  return { BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, options), SerialFor };
+}
+
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef StuffingTestTools_h
+#define StuffingTestTools_h
+
+#include "IntervalTestTools.h"
+#include "TopologyTestTools.h"
+
+#include "Stuffing/MeasuredSurfaces.h"
+#include "Stuffing/Stuffing.h"
+
+/**
+ * @file StuffingTestTools.h
+ * Tetrahedra for simulations, and fields to make them of.
+ */
+namespace test
+{
+
+/** The mesh of a query, and what is made of it for simulations. */
+struct Stuffed
+{
+  Volume Plain; ///< in index space
+  isodiamond::TetrahedronMesh Mesh;
+  std::size_t LeafCount = 0;
+
+  Stuffed(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond::Query& query,
+    const isodiamond::GridGeometry& world = isodiamond::AffineMap(),
+    const isodiamond::HiddenCells* hidden = nullptr);
+
+  /** The volume's mesh of the same points; all tetrahedra are of the first leaf, so that one
+   *  allowance goes for all. */
+  isodiamond::TetrahedronMesh PlainMesh() const;
+
+  /** As a volume with the points that are used. */
+  Volume AsVolume() const;
+
+  /** Tetrahedra with an angle below 15 or above 165 degrees. */
+  std::size_t CountBad() const;
+};
+
+/** The topology of a volume, and of its surfaces. */
+Topology TopologyOf(const Volume& volume, AnyMesh mesh);
+
+/** Whether anything of the surfaces of a mesh is farther from those of a plain one than allowed, as
+ *  it is measured, or the other way. */
+bool IsFar(const isodiamond::TetrahedronMesh& plain, const isodiamond::TetrahedronMesh& mesh,
+  double allowance);
+
+/** The same, by brute force; both are volumes in index space. */
+std::string FarByForce(const Volume& plain, const Volume& mesh, double allowance);
+
+/** A smooth field with tunnels. */
+Field GyroidField(int size, double periods);
+
+Built BuildVolume(const Field& field, const isodiamond::Isoregion& region);
+
+}
+
+#endif

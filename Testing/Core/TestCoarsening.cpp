@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tetrahedra for simulations, made coarser: promises by brute force, what stays, undoing.
+#include "RandomTestTools.h"
+#include "StuffingTestTools.h"
+
+#include "Stuffing/Coarsening.h"
+#include "Stuffing/TetrahedronCollapses.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+using namespace isodiamond;
+
+namespace
+{
+
+/** A stuffed mesh, coarser. */
+struct Coarsened
+{
+  test::Stuffed Result;
+  std::vector<std::uint32_t> FarLeaves;
+
+  /** @param canBeFiner all of it */
+  Coarsened(const test::Stuffed& stuffed, double allowance, bool canBeFiner,
+    bool keepsInside = false, double usedPart = 0.75)
+    : Result(stuffed)
+  {
+    const TetrahedronMesh plain = stuffed.PlainMesh();
+    const std::vector<double> allowances(stuffed.LeafCount, allowance);
+    const std::vector<bool> finer(stuffed.LeafCount, canBeFiner);
+    this->FarLeaves =
+      Coarsen(this->Result.Mesh, { plain, allowances, finer, keepsInside, usedPart }, SerialFor);
+  }
+};
+
+double WorstSine(const TetrahedronMesh& mesh)
+{
+  double worst = 1.0;
+  for (const Corners& corners : mesh.Tetrahedra)
+  {
+    worst = std::min(worst, SmallestSine(mesh, corners));
+  }
+  return worst;
+}
+
+test::Stuffed Gyroid(double tolerance, const Isoregion& region = { 0.1, HUGE_VAL })
+{
+  Query query;
+  query.Tolerance = tolerance;
+  return { *test::BuildVolume(test::GyroidField(33, 1.5), region).Hierarchy, query };
+}
+
+/** By point: the length of the longest edge there. */
+std::vector<double> LongestEdges(const TetrahedronMesh& mesh)
+{
+  std::vector<double> longest(mesh.Positions.size());
+  for (const Corners& corners : mesh.Tetrahedra)
+  {
+    for (const std::uint32_t a : corners)
+    {
+      for (const std::uint32_t b : corners)
+      {
+        const Vector edge = mesh.Positions[b] - mesh.Positions[a];
+        longest[a] = std::max(longest[a], std::sqrt(Dot(edge, edge)));
+      }
+    }
+  }
+  return longest;
+}
+
+/** The triangles that are there, each from its least point on. */
+std::set<Triangle> SetOf(const std::vector<Triangle>& triangles)
+{
+  std::set<Triangle> all;
+  for (Triangle triangle : triangles)
+  {
+    if (triangle[0] != None)
+    {
+      std::rotate(
+        triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+      all.insert(triangle);
+    }
+  }
+  return all;
+}
+
+/** The tetrahedra, each with its corners sorted, in an order of their own. */
+std::set<Corners> SetOf(const TetrahedronMesh& mesh)
+{
+  std::set<Corners> all;
+  for (Corners corners : mesh.Tetrahedra)
+  {
+    std::sort(corners.begin(), corners.end());
+    all.insert(corners);
+  }
+  return all;
+}
+
+}
+
+TEST(Coarsening, KeepsPromiseShapeAndTopologyOfRandomFields)
+{
+  std::size_t before = 0;
+  std::size_t after = 0;
+  test::ForRandomSeeds(
+    [&](std::uint32_t seed)
+    {
+      test::Random random(seed);
+      const test::RandomSamples samples(random, 10, 100);
+      const Isoregion any = test::RandomRegion(random, samples);
+      if (!any.IsVolume() && !std::isfinite(any.Isovalue()))
+      {
+        return;
+      }
+      const Isoregion region = any.IsVolume() ? any : Isoregion(any.Isovalue(), HUGE_VAL);
+      const BuildOptions options = test::RandomOptions(random, samples.Dimensions);
+      SCOPED_TRACE(test::Describe(samples, region));
+      const test::Built built(
+        BuildIsodiamonds(Model::Minimal, samples.View(), region, SerialFor, options), SerialFor);
+      const Query query = test::RandomQuery(random, *built.Hierarchy, options.World);
+      const test::Stuffed stuffed(*built.Hierarchy, query);
+      const double allowance = std::exp(test::Uniform(random, -3.0, 1.5));
+      const bool canBeFiner = random() % 2 == 0;
+      const bool keepsInside = random() % 4 == 0;
+      // Samples that allow too much leave it to the measuring.
+      const double usedPart = random() % 2 == 0 ? 0.75 : 4.0;
+      const Coarsened coarse(stuffed, allowance, canBeFiner, keepsInside, usedPart);
+      const test::Volume volume = coarse.Result.AsVolume();
+      if (!coarse.FarLeaves.empty())
+      {
+        EXPECT_TRUE(canBeFiner);
+        EXPECT_EQ(coarse.Result.Mesh.Tetrahedra, stuffed.Mesh.Tetrahedra);
+        return;
+      }
+      before += stuffed.Mesh.Tetrahedra.size();
+      after += coarse.Result.Mesh.Tetrahedra.size();
+      EXPECT_EQ(test::FindFault(volume, samples.Dimensions), "");
+      const test::AnyMesh plain(*built.Hierarchy, query);
+      EXPECT_EQ(test::TopologyOf(volume, plain), test::Topology(plain));
+      EXPECT_GE(WorstSine(coarse.Result.Mesh), std::min(WorstSine(stuffed.Mesh), 0.342));
+      if (canBeFiner)
+      {
+        EXPECT_EQ(test::FarByForce(stuffed.Plain, volume, 1.0001 * allowance), "");
+      }
+      std::set<std::array<double, 3>> points;
+      for (const Corners& corners : stuffed.Mesh.Tetrahedra)
+      {
+        for (const std::uint32_t point : corners)
+        {
+          points.insert(stuffed.Mesh.Positions[point]);
+        }
+      }
+      std::size_t inside = 0;
+      for (std::size_t i = 0; i < volume.Points.size(); ++i)
+      {
+        EXPECT_EQ(points.erase(volume.Points[i]), 1U);
+        inside += volume.Surfaces[i] == 0 ? 1 : 0;
+      }
+      if (keepsInside)
+      {
+        const test::Volume all = stuffed.AsVolume();
+        EXPECT_EQ(inside, std::count(all.Surfaces.begin(), all.Surfaces.end(), 0));
+      }
+    });
+  EXPECT_LT(after, before);
+}
+
+TEST(Coarsening, SavesMostOfSmoothSurfaces)
+{
+  const test::Stuffed stuffed = Gyroid(0.1);
+  const Coarsened coarse(stuffed, 0.5, true);
+  ASSERT_TRUE(coarse.FarLeaves.empty());
+  EXPECT_LT(coarse.Result.Mesh.Tetrahedra.size(), stuffed.Mesh.Tetrahedra.size() / 2);
+  EXPECT_EQ(test::FarByForce(stuffed.Plain, coarse.Result.AsVolume(), 0.5), "");
+  EXPECT_NEAR(VolumeOf(coarse.Result.Mesh) / VolumeOf(stuffed.PlainMesh()), 1.0, 0.01);
+  // No edge gets much longer than those around were, so what is inside stays fine.
+  const std::vector<double> before = LongestEdges(stuffed.Mesh);
+  const TetrahedronMesh& mesh = coarse.Result.Mesh;
+  for (const Corners& corners : mesh.Tetrahedra)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = 0; j < i; ++j)
+      {
+        const Vector edge = mesh.Positions[corners[i]] - mesh.Positions[corners[j]];
+        const double most = 1.5 * std::max(before[corners[i]], before[corners[j]]);
+        EXPECT_LE(std::sqrt(Dot(edge, edge)), most + 1e-9);
+      }
+    }
+  }
+}
+
+// Two surfaces with less between them than they may move: what they gain they also lose.
+TEST(Coarsening, KeepsTheVolumeOfWhatIsThin)
+{
+  const test::Stuffed stuffed = Gyroid(0.3, { -0.2, 0.2 });
+  const Coarsened coarse(stuffed, 2.0, true);
+  ASSERT_TRUE(coarse.FarLeaves.empty());
+  EXPECT_LT(coarse.Result.Mesh.Tetrahedra.size(), stuffed.Mesh.Tetrahedra.size() * 3 / 4);
+  const double wanted = VolumeOf(stuffed.PlainMesh());
+  EXPECT_NEAR(VolumeOf(coarse.Result.Mesh), wanted, std::abs(VolumeOf(stuffed.Mesh) - wanted));
+}
+
+// What is too far away from the start has to be finer; where nothing is, it stays as it is.
+TEST(Coarsening, LeavesAloneWhatIsFarFromTheStart)
+{
+  const test::Stuffed stuffed = Gyroid(0.5);
+  const Coarsened asked(stuffed, 1e-3, true);
+  ASSERT_FALSE(asked.FarLeaves.empty());
+  EXPECT_TRUE(std::is_sorted(asked.FarLeaves.begin(), asked.FarLeaves.end()));
+  EXPECT_LT(asked.FarLeaves.back(), stuffed.LeafCount);
+  EXPECT_EQ(asked.Result.Mesh.Tetrahedra, stuffed.Mesh.Tetrahedra);
+
+  const Coarsened finest(stuffed, 1e-3, false);
+  EXPECT_TRUE(finest.FarLeaves.empty());
+  const std::set<Triangle> before = SetOf(SurfacesOf(stuffed.Mesh).Triangles);
+  const std::set<Triangle> after = SetOf(SurfacesOf(finest.Result.Mesh).Triangles);
+  EXPECT_GT(after.size(), before.size() * 9 / 10);
+  EXPECT_LT(finest.Result.Mesh.Tetrahedra.size(), stuffed.Mesh.Tetrahedra.size());
+}
+
+TEST(Coarsening, IsTheSameWithThreads)
+{
+  const test::Stuffed stuffed = Gyroid(0.1);
+  const Coarsened one(stuffed, 0.5, true);
+  Coarsened four(stuffed, 0.5, true);
+  four.Result.Mesh = stuffed.Mesh;
+  const std::vector<double> allowances(stuffed.LeafCount, 0.5);
+  const std::vector<bool> finer(stuffed.LeafCount, true);
+  Coarsen(four.Result.Mesh, { stuffed.PlainMesh(), allowances, finer }, test::ThreadedFor(4));
+  EXPECT_EQ(four.Result.Mesh.Tetrahedra, one.Result.Mesh.Tetrahedra);
+}
+
+// Any collapses are undone, with what builds on them; of all nothing is left.
+TEST(TetrahedronCollapses, CanBeUndone)
+{
+  test::Stuffed stuffed = Gyroid(0.1);
+  const std::set<Corners> before = SetOf(stuffed.Mesh);
+  test::Random random(7);
+  TetrahedronCollapses collapses(stuffed.Mesh, 20.0, VolumeOf(stuffed.Mesh));
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t point = 0; point < stuffed.Mesh.Positions.size(); ++point)
+  {
+    all.push_back(point);
+  }
+  std::size_t together = 0; // that went with those that were asked for
+  for (int round = 0; round < 20; ++round)
+  {
+    collapses.CollapseInside(SerialFor);
+    ASSERT_GT(collapses.Count(), 100U);
+    std::vector<std::uint32_t> some;
+    for (int i = 0; i < 10; ++i)
+    {
+      some.push_back(all[random() % all.size()]);
+    }
+    const std::size_t count = collapses.Count();
+    const std::vector<std::uint32_t> undone = collapses.Undo(some);
+    EXPECT_EQ(collapses.Count(), count - undone.size());
+    together += std::count_if(undone.begin(), undone.end(),
+      [&](std::uint32_t point)
+      { return std::find(some.begin(), some.end(), point) == some.end(); });
+    EXPECT_TRUE(collapses.Undo(some).empty());
+  }
+  EXPECT_GT(together, 0U);
+  collapses.CollapseInside(SerialFor);
+  const std::size_t count = collapses.Count();
+  EXPECT_EQ(collapses.Undo(all).size(), count);
+  EXPECT_EQ(collapses.Count(), 0U);
+  EXPECT_EQ(SetOf(collapses.Take()), before);
+}
+
+// What is undone on a surface takes with it what builds on it inside, and on the surface by that.
+TEST(TetrahedronCollapses, AreUndoneTogetherWithThoseOfSurfaces)
+{
+  const test::Stuffed stuffed = Gyroid(0.1);
+  const MeasuredSurfaces surfaces(stuffed.PlainMesh(), stuffed.Mesh, { 0.5 });
+  TetrahedronCollapses tetrahedra(stuffed.Mesh, 20.0, VolumeOf(stuffed.Mesh));
+  EdgeCollapses edges(surfaces.Part, 0.75, &tetrahedra);
+  test::Random random(11);
+  for (int round = 0; round < 10; ++round)
+  {
+    for (int pass = 0; pass < 4; ++pass)
+    {
+      tetrahedra.CollapseInside(SerialFor);
+      edges.Run();
+    }
+    std::vector<std::uint32_t> some;
+    while (some.size() < 5)
+    {
+      const auto triangle =
+        static_cast<std::uint32_t>(random() % surfaces.Part.Simple.Triangles.size());
+      if (edges.Mesh().IsThere(triangle))
+      {
+        some.push_back(triangle);
+      }
+    }
+    edges.Undo(some, {});
+  }
+  EXPECT_EQ(SetOf(SurfacesOf(tetrahedra.Take()).Triangles), SetOf(edges.Mesh().Triangles));
+}
