@@ -275,29 +275,51 @@ TEST(TetrahedronCollapses, CanBeUndone)
 // What is undone on a surface takes with it what builds on it inside, and on the surface by that.
 TEST(TetrahedronCollapses, AreUndoneTogetherWithThoseOfSurfaces)
 {
-  const test::Stuffed stuffed = Gyroid(0.1);
-  const MeasuredSurfaces surfaces(stuffed.PlainMesh(), stuffed.Mesh, { 0.5 });
-  TetrahedronCollapses tetrahedra(stuffed.Mesh, 20.0, VolumeOf(stuffed.Mesh));
-  EdgeCollapses edges(surfaces.Part, 0.75, &tetrahedra);
-  test::Random random(11);
-  for (int round = 0; round < 10; ++round)
+  for (std::uint32_t seed = 1; seed <= 20; ++seed)
   {
-    for (int pass = 0; pass < 4; ++pass)
+    SCOPED_TRACE(seed);
+    test::Random random(seed);
+    test::Field field = test::GyroidField(21, test::Uniform(random, 0.8, 2.5));
+    for (float& sample : field.Samples)
     {
-      tetrahedra.CollapseInside(SerialFor);
-      edges.Run();
+      sample += static_cast<float>(test::Uniform(random, -0.2, 0.2));
     }
-    std::vector<std::uint32_t> some;
-    while (some.size() < 5)
+    const test::Built built =
+      test::BuildVolume(field, { test::Uniform(random, -0.8, 0.8), HUGE_VAL });
+    Query query;
+    query.Tolerance = 0.3;
+    test::Stuffed stuffed(*built.Hierarchy, query);
+    const MeasuredSurfaces surfaces(stuffed.PlainMesh(), stuffed.Mesh, { 1.0 });
+    const std::size_t count = surfaces.Part.Simple.Triangles.size();
+    TetrahedronCollapses tetrahedra(stuffed.Mesh, 10.0, VolumeOf(stuffed.Mesh));
+    if (!surfaces.AreSound || count == 0)
     {
-      const auto triangle =
-        static_cast<std::uint32_t>(random() % surfaces.Part.Simple.Triangles.size());
-      if (edges.Mesh().IsThere(triangle))
+      continue;
+    }
+    EdgeCollapses edges(surfaces.Part, 0.75, &tetrahedra);
+    for (int round = 0; round < 4; ++round)
+    {
+      for (int pass = 0; pass < 3; ++pass)
       {
-        some.push_back(triangle);
+        tetrahedra.CollapseInside(SerialFor);
+        edges.Run();
       }
+      std::vector<std::uint32_t> some;
+      for (int i = 0; i < 20; ++i)
+      {
+        const auto triangle = static_cast<std::uint32_t>(random() % count);
+        if (edges.Mesh().IsThere(triangle))
+        {
+          some.push_back(triangle);
+        }
+      }
+      edges.Undo(some, {});
     }
-    edges.Undo(some, {});
+    stuffed.Mesh = tetrahedra.Take();
+    EXPECT_EQ(SetOf(SurfacesOf(stuffed.Mesh).Triangles), SetOf(edges.Mesh().Triangles));
+    const test::Volume volume = stuffed.AsVolume();
+    EXPECT_EQ(test::FindFault(volume, field.Dims), "");
+    const test::AnyMesh plain(*built.Hierarchy, query);
+    EXPECT_EQ(test::TopologyOf(volume, plain), test::Topology(plain));
   }
-  EXPECT_EQ(SetOf(SurfacesOf(tetrahedra.Take()).Triangles), SetOf(edges.Mesh().Triangles));
 }

@@ -113,7 +113,7 @@ bool TetrahedronCollapses::Allows(std::uint32_t vertex, std::uint32_t target)
 void TetrahedronCollapses::Collapse(std::uint32_t vertex, std::uint32_t target)
 {
   const LocalMesh::Star star = this->Mesh.StarOf(vertex);
-  Step step{ vertex, this->GainOf(vertex, target), { star.begin(), star.end() }, {} };
+  Step step{ vertex, target, this->GainOf(vertex, target), { star.begin(), star.end() }, {} };
   this->Volume += step.Gain;
   this->Mesh.Collapse(vertex, target, step.Fresh);
   for (const std::uint32_t tetrahedron : step.Old)
@@ -186,20 +186,23 @@ std::vector<std::uint32_t> TetrahedronCollapses::Undo(const std::vector<std::uin
   {
     isAsked[vertex] = true;
   }
-  // What builds on it, forwards; then back.
+  // What builds on it, forwards: around either end of its edge the mesh was another one. Then back.
   std::vector<bool> isUndone(this->Steps.size());
-  std::vector<bool> goes(this->Mesh.Mesh().Tetrahedra.size());
+  std::vector<bool> isChanged(this->IsTried.size());
   std::vector<std::uint32_t> back;
   for (std::size_t i = 0; i < this->Steps.size(); ++i)
   {
     const Step& step = this->Steps[i];
-    isUndone[i] = isAsked[step.Vertex] ||
-      std::any_of(step.Old.begin(), step.Old.end(),
-        [&](std::uint32_t tetrahedron) { return goes[tetrahedron]; });
+    isUndone[i] = isAsked[step.Vertex] || isChanged[step.Vertex] || isChanged[step.Target];
     if (isUndone[i])
     {
-      std::for_each(step.Fresh.begin(), step.Fresh.end(),
-        [&](std::uint32_t tetrahedron) { goes[tetrahedron] = true; });
+      for (const std::uint32_t tetrahedron : step.Old)
+      {
+        for (const std::uint32_t point : this->Mesh.CornersOf(tetrahedron))
+        {
+          isChanged[point] = true;
+        }
+      }
       back.push_back(step.Vertex);
     }
   }

@@ -45,6 +45,7 @@ private:
   struct Step
   {
     std::uint32_t Vertex = 0;
+    std::uint32_t Target = 0;
     double Gain = 0.0; ///< in volume
     std::vector<std::uint32_t> Old;
     std::vector<std::uint32_t> Fresh;
