@@ -47,7 +47,8 @@ public:
    * If it is not 0, ErrorTolerance does not count, but what comes of this: the least tolerance with
    * no more triangles (tetrahedra, of an interval volume) than this, in the sum over isovalues, or
    * the coarsest mesh and a warning. Of composite inputs each block has as many. With a region of
-   * interest or a viewpoint, and of an HD, the tolerance is found in 14 queries. Default: 0.
+   * interest or a viewpoint, and of an HD, the tolerance is found in 14 queries; with
+   * SimulationQuality by making some meshes. Default: 0.
    */
   vtkSetClampMacro(TargetNumberOfTriangles, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(TargetNumberOfTriangles, vtkIdType);
@@ -63,9 +64,11 @@ public:
    * onto it before anything is cut, and what is still bad is improved, so that dihedral angles lie
    * between 15 and 165 degrees wherever possible. Points on surfaces are points that the mesh
    * would have had; its pieces, holes and tunnels stay, positive and conforming as it is. By the
-   * distance metric the tolerance holds, but for cells of full resolution, which move their part
-   * of a surface by up to a voxel. With spacings that differ between the axes angles are worse.
-   * Making it takes much longer than the mesh alone. For isosurfaces an error. Default: off.
+   * distance metric the mesh is made as coarse as the tolerance allows, which holds, measured both
+   * ways, but for cells of full resolution, which move their part of a surface by up to a voxel;
+   * with an interior tolerance points inside stay. With spacings that differ between the axes
+   * angles are worse. Making it takes much longer than the mesh alone. For isosurfaces an error.
+   * Default: off.
    */
   vtkSetMacro(SimulationQuality, bool);
   vtkGetMacro(SimulationQuality, bool);

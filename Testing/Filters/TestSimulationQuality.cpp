@@ -200,6 +200,38 @@ TEST(SimulationQuality, KeepsTheToleranceBothWays)
   }
 }
 
+TEST(SimulationQuality, MakesFewerTetrahedra)
+{
+  const auto volume = Ball(test::BallImage({ 33, 33, 33 }), 1.0);
+  volume->SimulationQualityOff();
+  volume->Update();
+  const vtkIdType plain = volume->GetOutput()->GetNumberOfCells();
+  volume->SimulationQualityOn();
+  volume->Update();
+  const vtkIdType coarse = volume->GetOutput()->GetNumberOfCells();
+  EXPECT_LT(coarse, 0.8 * plain);
+  EXPECT_GE(volume->GetSmallestDihedralAngle(), 15.0);
+  // Who asks for something inside keeps the points there.
+  volume->SetInteriorTolerance(1e9);
+  volume->Update();
+  EXPECT_GT(volume->GetOutput()->GetNumberOfCells(), coarse);
+}
+
+TEST(SimulationQuality, MeetsATarget)
+{
+  const auto volume = Ball(test::BallImage({ 33, 33, 33 }), 0.0);
+  volume->SetTargetNumberOfTriangles(2000);
+  volume->Update();
+  EXPECT_LE(volume->GetOutput()->GetNumberOfCells(), 2000);
+  EXPECT_GT(volume->GetOutput()->GetNumberOfCells(), 1000);
+  const double achieved = volume->GetAchievedTolerance();
+  const vtkIdType cells = volume->GetOutput()->GetNumberOfCells();
+  volume->SetTargetNumberOfTriangles(0);
+  volume->SetErrorTolerance(achieved);
+  volume->Update();
+  EXPECT_EQ(volume->GetOutput()->GetNumberOfCells(), cells);
+}
+
 TEST(SimulationQuality, HasValuesLevelsAndOtherArrays)
 {
   const auto image = test::MakeImage(
