@@ -6,6 +6,8 @@
 #include "Mesh/IntervalExtraction.h"
 #include "Simplification/PartDistance.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 

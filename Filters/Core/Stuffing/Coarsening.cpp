@@ -6,7 +6,6 @@
 #include "Stuffing/TetrahedronCollapses.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace isodiamond
