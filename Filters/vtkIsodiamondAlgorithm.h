@@ -62,13 +62,13 @@ public:
   /**
    * Tetrahedra for simulations, of an interval volume: vertices that are near to a surface move
    * onto it before anything is cut, and what is still bad is improved, so that dihedral angles lie
-   * between 15 and 165 degrees wherever possible. Points on surfaces are points that the mesh
-   * would have had; its pieces, holes and tunnels stay, positive and conforming as it is. By the
-   * distance metric the mesh is made as coarse as the tolerance allows, which holds, measured both
-   * ways, but for cells of full resolution, which move their part of a surface by up to a voxel;
-   * with an interior tolerance points inside stay. With spacings that differ between the axes
-   * angles are worse. Making it takes much longer than the mesh alone. For isosurfaces an error.
-   * Default: off.
+   * between 15 and 165 degrees wherever possible. Points on surfaces stay where they are,
+   * or go; pieces, holes and tunnels stay, and tetrahedra positive and conforming. By the
+   * distance metric the mesh begins at half of the tolerance and is made as coarse as all of it
+   * allows, which holds, measured both ways, but for cells of full resolution, which move their
+   * part of a surface by up to a voxel; with an interior tolerance points inside stay. With
+   * spacings that differ between the axes angles are worse. Making it takes much longer than the
+   * mesh alone. For isosurfaces an error. Default: off.
    */
   vtkSetMacro(SimulationQuality, bool);
   vtkGetMacro(SimulationQuality, bool);

@@ -128,6 +128,29 @@ Field GyroidField(int size, double periods)
   return field;
 }
 
+void ForRandomVolumes(
+  const std::function<void(Random&, const RandomSamples&, const BuildOptions&, const Built&)>&
+    check)
+{
+  ForRandomSeeds(
+    [&](std::uint32_t seed)
+    {
+      Random random(seed);
+      const RandomSamples samples(random, 10, 100);
+      const Isoregion any = RandomRegion(random, samples);
+      if (!any.IsVolume() && !std::isfinite(any.Isovalue()))
+      {
+        return;
+      }
+      const Isoregion region = any.IsVolume() ? any : Isoregion(any.Isovalue(), HUGE_VAL);
+      const BuildOptions options = RandomOptions(random, samples.Dimensions);
+      SCOPED_TRACE(Describe(samples, region));
+      const Built built(
+        BuildIsodiamonds(Model::Minimal, samples.View(), region, SerialFor, options), SerialFor);
+      check(random, samples, options, built);
+    });
+}
+
 Built BuildVolume(const Field& field, const Isoregion& region)
 {
   BuildOptions options = Distance();

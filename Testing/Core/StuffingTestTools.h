@@ -3,10 +3,13 @@
 #define StuffingTestTools_h
 
 #include "IntervalTestTools.h"
+#include "RandomTestTools.h"
 #include "TopologyTestTools.h"
 
 #include "Stuffing/MeasuredSurfaces.h"
 #include "Stuffing/Stuffing.h"
+
+#include <functional>
 
 /**
  * @file StuffingTestTools.h
@@ -50,6 +53,11 @@ std::string FarByForce(const Volume& plain, const Volume& mesh, double allowance
 
 /** A smooth field with tunnels. */
 Field GyroidField(int size, double periods);
+
+/** Calls check with random samples, how they are built, and the volume between two values, or above
+ *  one, for as many seeds as ForRandomSeeds(). */
+void ForRandomVolumes(const std::function<void(Random& random, const RandomSamples& samples,
+    const isodiamond::BuildOptions& options, const Built& built)>& check);
 
 Built BuildVolume(const Field& field, const isodiamond::Isoregion& region);
 

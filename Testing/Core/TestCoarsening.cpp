@@ -105,21 +105,10 @@ TEST(Coarsening, KeepsPromiseShapeAndTopologyOfRandomFields)
 {
   std::size_t before = 0;
   std::size_t after = 0;
-  test::ForRandomSeeds(
-    [&](std::uint32_t seed)
+  test::ForRandomVolumes(
+    [&](test::Random& random, const test::RandomSamples& samples, const BuildOptions& options,
+      const test::Built& built)
     {
-      test::Random random(seed);
-      const test::RandomSamples samples(random, 10, 100);
-      const Isoregion any = test::RandomRegion(random, samples);
-      if (!any.IsVolume() && !std::isfinite(any.Isovalue()))
-      {
-        return;
-      }
-      const Isoregion region = any.IsVolume() ? any : Isoregion(any.Isovalue(), HUGE_VAL);
-      const BuildOptions options = test::RandomOptions(random, samples.Dimensions);
-      SCOPED_TRACE(test::Describe(samples, region));
-      const test::Built built(
-        BuildIsodiamonds(Model::Minimal, samples.View(), region, SerialFor, options), SerialFor);
       const Query query = test::RandomQuery(random, *built.Hierarchy, options.World);
       const test::Stuffed stuffed(*built.Hierarchy, query);
       const double allowance = std::exp(test::Uniform(random, -3.0, 1.5));

@@ -52,21 +52,10 @@ TEST(Stuffing, KeepsConformityTopologyAndPointsOfRandomFields)
 {
   std::size_t moved = 0;
   std::size_t blended = 0;
-  test::ForRandomSeeds(
-    [&](std::uint32_t seed)
+  test::ForRandomVolumes(
+    [&](test::Random& random, const test::RandomSamples& samples, const BuildOptions& options,
+      const test::Built& built)
     {
-      test::Random random(seed);
-      const test::RandomSamples samples(random, 10, 100);
-      const Isoregion any = test::RandomRegion(random, samples);
-      if (!any.IsVolume() && !std::isfinite(any.Isovalue()))
-      {
-        return;
-      }
-      const Isoregion region = any.IsVolume() ? any : Isoregion(any.Isovalue(), HUGE_VAL);
-      const BuildOptions options = test::RandomOptions(random, samples.Dimensions);
-      SCOPED_TRACE(test::Describe(samples, region));
-      const test::Built built(
-        BuildIsodiamonds(Model::Minimal, samples.View(), region, SerialFor, options), SerialFor);
       for (int i = 0; i < 2; ++i)
       {
         const Query query =

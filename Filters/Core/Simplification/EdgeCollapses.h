@@ -49,7 +49,7 @@ class EdgeCollapses
 public:
   /** @param part stays as it is, and must outlive it
    *  @param usedPart of allowances, by samples: between them the surface may be a bit farther off
-   */
+   *  @param guard is asked last, and told; null if there is none. Must outlive it */
   EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuard* guard = nullptr);
 
   /** Collapses all that it can. @return by number: whether a triangle is another one now, or gone

@@ -63,7 +63,7 @@ public:
   Improver(TetrahedronMesh mesh, const ImprovementOptions& options)
     : Mesh(std::move(mesh))
     , Options(options)
-    , Wanted(std::sin(options.WantedAngle / 57.29577951308232))
+    , Wanted(std::sin(options.WantedAngle / DegreesOfRadian))
   {
   }
 

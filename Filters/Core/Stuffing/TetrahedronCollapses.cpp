@@ -22,7 +22,7 @@ constexpr std::size_t TriesOfStep = 64;
 
 TetrahedronCollapses::TetrahedronCollapses(TetrahedronMesh mesh, double leastAngle, double volume)
   : Mesh(std::move(mesh))
-  , LeastSine(std::sin(leastAngle / 57.29577951308232))
+  , LeastSine(std::sin(leastAngle / DegreesOfRadian))
   , WantedVolume(volume)
   , Volume(VolumeOf(this->Mesh.Mesh()))
   , MostChange(std::max(MostOfVolume * volume, std::abs(this->Volume - volume)))

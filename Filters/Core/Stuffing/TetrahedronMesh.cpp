@@ -51,8 +51,7 @@ std::array<double, 2> DihedralAngles(
       range = { std::min(range[0], cosine), std::max(range[1], cosine) };
     }
   }
-  constexpr double degrees = 57.29577951308232;
-  return { degrees * std::acos(range[1]), degrees * std::acos(range[0]) };
+  return { DegreesOfRadian * std::acos(range[1]), DegreesOfRadian * std::acos(range[0]) };
 }
 
 std::array<double, 2> DihedralAngles(const TetrahedronMesh& mesh)
