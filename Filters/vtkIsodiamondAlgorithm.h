@@ -62,8 +62,9 @@ public:
   /**
    * Tetrahedra for simulations, of an interval volume: vertices that are near to a surface move
    * onto it before anything is cut, and what is still bad is improved, so that dihedral angles lie
-   * between 15 and 165 degrees wherever possible. Points on surfaces stay where they are,
-   * or go; pieces, holes and tunnels stay, and tetrahedra positive and conforming. By the
+   * between 15 and 165 degrees wherever possible. Points on surfaces stay where they are, or go;
+   * a few, where a surface nearly touches itself, move by a quarter of their edge at most. Pieces,
+   * holes and tunnels stay, and tetrahedra positive and conforming. By the
    * distance metric the mesh begins at half of the tolerance and is made as coarse as all of it
    * allows, which holds, measured both ways, but for cells of full resolution, which move their
    * part of a surface by up to a voxel; with an interior tolerance points inside stay. With

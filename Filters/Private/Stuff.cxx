@@ -90,7 +90,7 @@ void Blend(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used, vtkP
   }
 }
 
-/** Where points are, and which of them on surfaces: those that were moved or added are not. */
+/** Where points are that were moved or added, and which of them on surfaces. */
 void WritePlaces(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used, Mesh& output)
 {
   vtkDataArray* surfaces = output.PointData->GetArray("Surface");
@@ -100,7 +100,7 @@ void WritePlaces(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used
     if (point >= 0)
     {
       output.Points->SetPoint(point, mesh.Positions[blended.Point].data());
-      surfaces->SetComponent(point, 0, 0.0);
+      surfaces->SetComponent(point, 0, mesh.Surfaces[blended.Point]);
     }
   }
 }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 using namespace isodiamond;
 
@@ -29,10 +30,11 @@ Stuffed::Stuffed(const IsodiamondHierarchy& hierarchy, const Query& query,
   }
   const CutMesh leaves = extraction.Leaves(hidden);
   const std::vector<Vector> vertices = VerticesInWorld(leaves, world);
-  const double move = std::max(0.25 * world.SmallestStep(), 0.5 * query.Tolerance);
+  this->SurfaceMove = std::max(0.25 * world.SmallestStep(), 0.5 * query.Tolerance);
   this->LeafCount = leaves.Tetrahedra.size();
   this->Mesh =
-    Stuff({ leaves, vertices, points, world, hierarchy.SampleGrid(), move }, SerialFor).Mesh;
+    Stuff({ leaves, vertices, points, world, hierarchy.SampleGrid(), this->SurfaceMove }, SerialFor)
+      .Mesh;
 }
 
 TetrahedronMesh Stuffed::PlainMesh() const
@@ -74,6 +76,14 @@ Volume Stuffed::AsVolume() const
     volume.Levels.push_back(0);
   }
   return volume;
+}
+
+std::vector<BlendedPoint> Stuffed::Shifted() const
+{
+  std::vector<BlendedPoint> shifted;
+  std::copy_if(this->Mesh.Blended.begin(), this->Mesh.Blended.end(), std::back_inserter(shifted),
+    [&](const BlendedPoint& blended) { return this->Mesh.Surfaces[blended.Point] != 0; });
+  return shifted;
 }
 
 std::size_t Stuffed::CountBad() const

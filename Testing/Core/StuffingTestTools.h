@@ -24,6 +24,7 @@ struct Stuffed
   Volume Plain; ///< in index space
   isodiamond::TetrahedronMesh Mesh;
   std::size_t LeafCount = 0;
+  double SurfaceMove = 0.0;
 
   Stuffed(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond::Query& query,
     const isodiamond::GridGeometry& world = isodiamond::AffineMap(),
@@ -35,6 +36,9 @@ struct Stuffed
 
   /** As a volume with the points that are used. */
   Volume AsVolume() const;
+
+  /** The points on surfaces that are not where they were. */
+  std::vector<isodiamond::BlendedPoint> Shifted() const;
 
   /** Tetrahedra with an angle below 15 or above 165 degrees. */
   std::size_t CountBad() const;

@@ -52,6 +52,7 @@ TEST(Stuffing, KeepsConformityTopologyAndPointsOfRandomFields)
 {
   std::size_t moved = 0;
   std::size_t blended = 0;
+  std::size_t shifts = 0;
   test::ForRandomVolumes(
     [&](test::Random& random, const test::RandomSamples& samples, const BuildOptions& options,
       const test::Built& built)
@@ -65,8 +66,16 @@ TEST(Stuffing, KeepsConformityTopologyAndPointsOfRandomFields)
         EXPECT_EQ(test::FindFault(volume, samples.Dimensions), "");
         const test::AnyMesh plain(*built.Hierarchy, query);
         EXPECT_EQ(test::TopologyOf(volume, plain), test::Topology(plain));
-        const std::set<std::array<double, 3>> points(
+        std::set<std::array<double, 3>> points(
           stuffed.Plain.Points.begin(), stuffed.Plain.Points.end());
+        for (const BlendedPoint& shifted : stuffed.Shifted())
+        {
+          const Vector& place = stuffed.Mesh.Positions[shifted.Point];
+          const Vector way = place - stuffed.Plain.Points[shifted.Shares.at(0).Point];
+          EXPECT_LE(std::sqrt(Dot(way, way)), stuffed.SurfaceMove * (1.0 + 1e-9));
+          points.insert(place);
+          ++shifts;
+        }
         for (std::size_t j = 0; j < volume.Points.size(); ++j)
         {
           EXPECT_TRUE(volume.Surfaces[j] == 0 || points.count(volume.Points[j]) == 1);
@@ -77,6 +86,7 @@ TEST(Stuffing, KeepsConformityTopologyAndPointsOfRandomFields)
     });
   EXPECT_GT(moved, 0U);
   EXPECT_GT(blended, 0U);
+  EXPECT_GT(shifts, 0U);
 }
 
 TEST(Stuffing, HasTheAnglesThatSolversLikeOnSmoothFields)
@@ -102,8 +112,46 @@ TEST(Stuffing, HasTheAnglesThatSolversLikeOnSmoothFields)
   }
 }
 
+namespace
+{
+
+double Length(const Vector& way)
+{
+  return std::sqrt(Dot(way, way));
+}
+
+/** The ends of the edge of full resolution that a point is on: below and above. */
+std::array<Vector, 2> EdgeAt(const test::Field& field, const Vector& point)
+{
+  std::array<Vector, 2> ends = { point, point };
+  double nearest = HUGE_VAL;
+  // Of a point on a diagonal there are several pairs of corners of its cell.
+  for (int code = 0; code < 8; ++code)
+  {
+    Vector a{};
+    Vector b{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      a[axis] = (code >> axis & 1) != 0 ? std::ceil(point[axis]) : std::floor(point[axis]);
+      b[axis] = std::ceil(point[axis]) + std::floor(point[axis]) - a[axis];
+    }
+    const Vector off = Cross(b - a, point - a);
+    const auto index =
+      static_cast<std::size_t>(a[0] + field.Dims[0] * (a[1] + field.Dims[1] * a[2]));
+    if (Dot(off, off) < nearest && field.Samples[index] < 3.7)
+    {
+      nearest = Dot(off, off);
+      ends = { a, b };
+    }
+  }
+  return ends;
+}
+
+}
+
 TEST(Stuffing, LeavesFewBadTetrahedraInNoise)
 {
+  std::size_t shifts = 0;
   std::size_t bad = 0;
   std::size_t all = 0;
   for (unsigned seed = 1; seed <= 3; ++seed)
@@ -113,8 +161,41 @@ TEST(Stuffing, LeavesFewBadTetrahedraInNoise)
     const test::Stuffed stuffed(*built.Hierarchy, Query{});
     bad += stuffed.CountBad();
     all += stuffed.Mesh.Tetrahedra.size();
+    // Away from the end below of the edge, or as far as its middle.
+    for (const BlendedPoint& point : stuffed.Shifted())
+    {
+      ++shifts;
+      const Vector from = stuffed.Plain.Points[point.Shares.at(0).Point];
+      const std::array<Vector, 2> ends = EdgeAt(field, from);
+      const Vector& to = stuffed.Mesh.Positions[point.Point];
+      EXPECT_GE(Length(to - ends[0]),
+        std::min(Length(from - ends[0]), 0.5 * Length(ends[1] - ends[0])) - 1e-9);
+    }
   }
-  EXPECT_LT(bad, all / 100); // 126 of 19913
+  EXPECT_GT(shifts, 100U); // 187: only where nothing else helps
+  EXPECT_LT(shifts, 300U);
+  EXPECT_LT(bad, all / 1000); // 3 of 19091; 126 if no points on surfaces move
+}
+
+// The smallest grid where it fails: a single cell, whose corners stay however near a surface is.
+TEST(Stuffing, FailsInFewGridsOfOneCell)
+{
+  test::Random random(1);
+  const int cases = 1000;
+  int failed = 0;
+  for (int i = 0; i < cases; ++i)
+  {
+    test::Field field{ "cell", { 2, 2, 2 }, std::vector<float>(8), 0.0 };
+    for (float& value : field.Samples)
+    {
+      value = static_cast<float>(0.25 * std::round(test::Uniform(random, -16.0, 16.0)) + 0.01);
+    }
+    const test::Built built = test::BuildVolume(field, { 0.0, HUGE_VAL });
+    const test::Stuffed stuffed(*built.Hierarchy, Query{});
+    failed += stuffed.CountBad() > 0 ? 1 : 0;
+  }
+  EXPECT_GT(failed, 0);
+  EXPECT_LT(failed, cases / 10); // 66
 }
 
 TEST(Stuffing, BlendsAttributesAsPositions)
@@ -124,12 +205,28 @@ TEST(Stuffing, BlendsAttributesAsPositions)
   const test::Built built = test::BuildVolume(field, { 3.7, HUGE_VAL });
   const test::Stuffed stuffed(*built.Hierarchy, Query{});
   ASSERT_FALSE(stuffed.Mesh.Blended.empty());
+  ASSERT_LT(stuffed.Shifted().size(), stuffed.Mesh.Blended.size());
+  std::set<std::uint32_t> sources;
+  for (const BlendedPoint& shifted : stuffed.Shifted())
+  {
+    ASSERT_EQ(shifted.Shares.size(), 1U);
+    EXPECT_EQ(shifted.Shares[0].Part, 1.0);
+    const std::uint32_t source = shifted.Shares[0].Point;
+    sources.insert(source);
+    EXPECT_EQ(stuffed.Plain.Surfaces.at(source), stuffed.Mesh.Surfaces[shifted.Point]);
+  }
   for (const BlendedPoint& blended : stuffed.Mesh.Blended)
   {
+    if (stuffed.Mesh.Surfaces[blended.Point] != 0)
+    {
+      continue;
+    }
     Vector sum{};
     double parts = 0.0;
+    double near = 1e-9;
     for (const Share& share : blended.Shares)
     {
+      near = sources.count(share.Point) == 0 ? near : stuffed.SurfaceMove; // it was elsewhere
       ASSERT_LT(share.Point, stuffed.Plain.Points.size());
       EXPECT_GE(share.Part, -1e-9); // of what is around it
       sum = sum + share.Part * stuffed.Plain.Points[share.Point];
@@ -138,7 +235,7 @@ TEST(Stuffing, BlendsAttributesAsPositions)
     EXPECT_NEAR(parts, 1.0, 1e-9);
     for (int axis = 0; axis < 3; ++axis)
     {
-      EXPECT_NEAR(sum[axis], stuffed.Mesh.Positions[blended.Point][axis], 1e-9);
+      EXPECT_NEAR(sum[axis], stuffed.Mesh.Positions[blended.Point][axis], near);
     }
   }
 }

@@ -269,6 +269,24 @@ TEST(BestPlace, StaysOnWalls)
   EXPECT_GT(moved, 30); // of 36
 }
 
+TEST(BestPlace, StaysWithinReach)
+{
+  test::Random random(16);
+  double farthest = 0.0;
+  for (int round = 0; round < 50; ++round)
+  {
+    const TetrahedronMesh mesh = Octahedron(random);
+    PointStar star = StarOf(mesh, 0);
+    const Vector from = mesh.Positions[0];
+    const Reach reach{ from + Vector{ 0.03, 0.0, 0.0 }, 0.1 };
+    const PlacedPoint best = BestPlace(star, from, 0, UnitAxes, 1.0, reach);
+    const Vector way = best.Place - reach.Centre;
+    EXPECT_LE(std::sqrt(Dot(way, way)), 0.1);
+    farthest = std::max(farthest, std::sqrt(Dot(way, way)));
+  }
+  EXPECT_GT(farthest, 0.09);
+}
+
 // Where a world has no directions points stay, even where they are wrong.
 TEST(BestPlace, IsAlwaysAPlace)
 {
@@ -293,6 +311,22 @@ TEST(SurfaceChanges, StayNearByTheHeightOfWhatGoes)
     }
     EXPECT_TRUE(StaysNear(tent, 7, 1, 0.0)); // on no surface
   }
+}
+
+TEST(SurfaceChanges, ShiftPointsAwayFromWhatIsBeyondOrToTheMiddle)
+{
+  const LocalMesh tent(Tent(0.1));
+  const auto canBe = [&](double z, double end, double half) {
+    return CanShift(tent, 0, { 0.0, 0.0, z }, { { 0.0, 0.0, end }, half });
+  };
+  EXPECT_TRUE(canBe(2.45, 5.0, 2.5)); // of an edge from 0 to 5 near to the end inside
+  EXPECT_FALSE(canBe(2.55, 5.0, 2.5));
+  EXPECT_TRUE(canBe(0.05, 0.3, 1.0)); // near to the end beyond
+  EXPECT_FALSE(canBe(0.11, 0.3, 1.0));
+  // To the side as far as no triangle is folded.
+  const CutEdgeEnd above{ { 0.0, 0.0, 5.0 }, 2.5 };
+  EXPECT_TRUE(CanShift(tent, 0, { 0.5, 0.0, 0.1 }, above));
+  EXPECT_FALSE(CanShift(tent, 0, { 1.2, 0.0, 0.1 }, above));
 }
 
 // A corner of the rim is pulled in: from beside it a triangle would be turned over.
@@ -415,6 +449,45 @@ TEST(Improvement, RemovesFaces)
   }
   EXPECT_GT(removed, 50);
   EXPECT_LT(removed, 250);
+}
+
+// A flat tetrahedron of which only the top, on a surface, can move.
+TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
+{
+  TetrahedronMesh flat =
+    MeshOf({ { 0.0, 0.0, 0.05 }, { 1.0, 0.0, 0.0 }, { -0.5, 0.9, 0.0 }, { -0.5, -0.9, 0.0 } },
+      { { 0, 1, 2, 3 } });
+  std::fill(flat.OnWalls.begin() + 1, flat.OnWalls.end(), Walls::Fixed);
+  flat.Surfaces[0] = 1;
+  ImprovementOptions options;
+  options.Axes = UnitAxes;
+  const auto improve = [&](double move, const CutEdgeEnd& beyond)
+  {
+    options.SurfaceMove = move;
+    options.Beyond = { beyond, {}, {}, {} };
+    return Improve(flat, options, SerialFor);
+  };
+  const CutEdgeEnd below{ { 0.0, 0.0, -0.2 }, 0.5 };
+  const TetrahedronMesh round = improve(0.2, below);
+  EXPECT_GE(DihedralAngles(round)[0], options.WantedAngle);
+  ASSERT_EQ(round.Blended.size(), 1U);
+  EXPECT_EQ(round.Blended[0].Point, 4U);
+  EXPECT_EQ(round.Blended[0].Shares.at(0).Point, 0U);
+  EXPECT_EQ(round.Surfaces[4], 1);
+  EXPECT_EQ(round.Positions[0], flat.Positions[0]); // where the surface was
+  EXPECT_TRUE(Has(round.Tetrahedra.at(0), 4) && !Has(round.Tetrahedra[0], 0));
+
+  // No farther than it may, at once or in steps, nor than half of what half of its edge is.
+  for (const auto& [move, half] : { std::pair(0.04, 0.5), std::pair(0.2, 0.08) })
+  {
+    const TetrahedronMesh better = improve(move, { below.Position, half });
+    EXPECT_GT(DihedralAngles(better)[0], DihedralAngles(flat)[0]);
+    EXPECT_LE(better.Positions.back()[2], 0.09 + 1e-12);
+  }
+  // Not towards what is beyond, and not where nobody knows.
+  EXPECT_EQ(improve(0.2, { { 0.0, 0.0, 0.3 }, 0.5 }).Positions.size(), 4U);
+  options.Beyond.clear();
+  EXPECT_EQ(Improve(flat, options, SerialFor).Positions.size(), 4U);
 }
 
 TEST(LocalMesh, FindsRings)

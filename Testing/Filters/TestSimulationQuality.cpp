@@ -29,6 +29,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <random>
+#include <set>
+#include <utility>
 
 namespace
 {
@@ -257,6 +260,61 @@ TEST(SimulationQuality, HasValuesLevelsAndOtherArrays)
   vtkDataArray* levels = mesh->GetCellData()->GetArray("Level");
   ASSERT_EQ(levels->GetNumberOfTuples(), mesh->GetNumberOfCells());
   EXPECT_EQ(levels->GetRange()[1], 4.0);
+}
+
+// In noise some points on the surface move, and are on it afterwards, too.
+TEST(SimulationQuality, HasAClosedSurfaceInNoise)
+{
+  std::minstd_rand random(3);
+  const auto image = test::MakeImage({ 21, 21, 21 },
+    [&](double x, double y, double z)
+    {
+      const double noise = 6.0 * static_cast<double>(random()) / std::minstd_rand::max();
+      return noise + 4.0 -
+        std::sqrt(vtkMath::Distance2BetweenPoints(std::array<double, 3>{ x, y, z }.data(),
+          std::array<double, 3>{ 10.0, 10.0, 10.0 }.data()));
+    });
+  const auto volume = Ball(image, 0.0);
+  volume->Update();
+  std::map<std::pair<vtkIdType, vtkIdType>, int> counts;
+  const auto surface = LowerSurface(volume->GetOutput());
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i)
+  {
+    surface->GetCellPoints(i, ids);
+    for (int k = 0; k < 3; ++k)
+    {
+      ++counts[std::minmax({ ids->GetId(k), ids->GetId((k + 1) % 3) })];
+    }
+  }
+  EXPECT_GT(counts.size(), 1000U);
+  EXPECT_TRUE(std::all_of(
+    counts.begin(), counts.end(), [](const auto& edge) { return edge.second % 2 == 0; }));
+  // Some of its points are not on an edge of the grid, nor on a diagonal of a cell or a side.
+  const auto isBetween = [](double coordinate)
+  { return std::abs(coordinate - std::round(coordinate)) > 1e-9; };
+  int moved = 0;
+  std::set<vtkIdType> used;
+  for (const auto& edge : counts)
+  {
+    used.insert({ edge.first.first, edge.first.second });
+  }
+  for (const vtkIdType id : used)
+  {
+    double p[3];
+    surface->GetPoint(id, p);
+    std::set<double> parts;
+    for (const double coordinate : p)
+    {
+      const double part = coordinate - std::floor(coordinate);
+      if (isBetween(coordinate))
+      {
+        parts.insert(std::round(1e6 * std::min(part, 1.0 - part)));
+      }
+    }
+    moved += parts.size() > 1 ? 1 : 0;
+  }
+  EXPECT_GT(moved, 0);
 }
 
 TEST(SimulationQuality, IsTheSameFromAHierarchyAndWithThreads)

@@ -37,11 +37,16 @@ std::vector<Vector> Directions(Walls::Type walls, const std::array<Vector, 3>& a
 }
 
 PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
-  const std::array<Vector, 3>& axes, double wanted)
+  const std::array<Vector, 3>& axes, double wanted, const Reach& reach)
 {
   PlacedPoint best{ from, star.WorstAt(from, -1.0) };
   const auto tryAt = [&](const Vector& place)
   {
+    const Vector way = place - reach.Centre;
+    if (Dot(way, way) > reach.Radius * reach.Radius)
+    {
+      return false;
+    }
     const double sine = star.WorstAt(place, best.Sine);
     if (sine > best.Sine)
     {
@@ -55,7 +60,7 @@ PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
     tryAt(star.Mean());
   }
   const std::vector<Vector> directions = Directions(walls, axes);
-  double step = FirstStep * star.Radius(from);
+  double step = std::isfinite(reach.Radius) ? 0.5 * reach.Radius : FirstStep * star.Radius(from);
   for (int size = 0; size < StepSizes && best.Sine < wanted; ++size, step *= 0.5)
   {
     bool goesOn = true;

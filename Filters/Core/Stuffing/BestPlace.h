@@ -88,10 +88,18 @@ struct PlacedPoint
   double Sine = 0.0;
 };
 
+/** A ball. */
+struct Reach
+{
+  Vector Centre{};
+  double Radius = HUGE_VAL;
+};
+
 /** Looks for a better place for a point, until all around it is as wanted: first in the middle of
- *  its star, then in steps that get smaller. @param walls that it stays on */
+ *  its star, then in steps that get smaller.
+ *  @param walls that it stays on @param reach where it may be */
 PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
-  const std::array<Vector, 3>& axes, double wanted);
+  const std::array<Vector, 3>& axes, double wanted, const Reach& reach = {});
 
 }
 

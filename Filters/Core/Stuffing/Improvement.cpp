@@ -43,7 +43,8 @@ struct Change
     Move,     ///< of Point to Place
     Collapse, ///< of the edge from Point to Other into Other
     Replace,  ///< of Old by Fresh
-    Split     ///< as Replace, with Fresh around a new point, written as NewPoint, at Place
+    Split,    ///< as Replace, with Fresh around a new point, written as NewPoint, at Place
+    Shift     ///< of Point, on a surface, which a new point at Place replaces
   };
   static constexpr std::uint32_t NewPoint = LocalMesh::None;
 
@@ -178,6 +179,13 @@ private:
     {
       this->ForEachEdge(corners, [&](std::uint32_t a, std::uint32_t b) { this->TryToSplit(a, b); });
     }
+    for (const std::uint32_t point : corners)
+    {
+      if (this->Best.Kind == Change::None || this->Best.Kind == Change::Shift)
+      {
+        this->TryToShift(point);
+      }
+    }
     this->Do(this->Best, changed);
   }
 
@@ -213,13 +221,16 @@ private:
       case Change::Split:
         this->Split(change, changed);
         break;
+      case Change::Shift:
+        this->Shift(change, changed);
+        break;
     }
   }
 
   void Split(const Change& change, std::vector<std::uint32_t>& changed)
   {
     const std::uint32_t point =
-      this->Mesh.AddPoint(0.5 * (this->Mesh.At(change.Point) + this->Mesh.At(change.Other)),
+      this->Mesh.AddPoint(0.5 * (this->Mesh.At(change.Point) + this->Mesh.At(change.Other)), 0,
         change.OnWalls, { { change.Point, 0.5 }, { change.Other, 0.5 } });
     std::vector<Corners> fresh = change.Fresh;
     for (Corners& corners : fresh)
@@ -228,6 +239,22 @@ private:
     }
     this->Mesh.Replace(change.Old, fresh, changed);
     this->Mesh.Move(point, change.Place);
+  }
+
+  /** The old point stays known: it tells where the surface was. Attributes are those of before. */
+  void Shift(const Change& change, std::vector<std::uint32_t>& changed)
+  {
+    const std::uint32_t old = change.Point;
+    const std::uint32_t point = this->Mesh.AddPoint(change.Place, this->Mesh.Mesh().Surfaces[old],
+      this->Mesh.Mesh().OnWalls[old], { { old, 1.0 } });
+    const LocalMesh::Star star = this->Mesh.StarOf(old);
+    const std::vector<std::uint32_t> around(star.begin(), star.end());
+    for (const std::uint32_t tetrahedron : around)
+    {
+      Corners corners = this->Mesh.CornersOf(tetrahedron);
+      std::replace(corners.begin(), corners.end(), old, point);
+      this->Mesh.Replace({ tetrahedron }, { corners }, changed);
+    }
   }
 
   /** What a tetrahedron lacks: of several bad ones each counts, the worst most. */
@@ -463,6 +490,35 @@ private:
       split.OnWalls = walls;
       split.Old = ring.Tetrahedra;
       split.Fresh = std::move(fresh);
+    }
+  }
+
+  //--- Points on surfaces -----------------------------------------------------
+
+  void TryToShift(std::uint32_t point)
+  {
+    const std::uint32_t source = this->Mesh.SourceOf(point); // where the surface is
+    if (this->Mesh.Mesh().Surfaces[point] == 0 || source >= this->Options.Beyond.size())
+    {
+      return;
+    }
+    const CutEdgeEnd& beyond = this->Options.Beyond[source];
+    PointStar star;
+    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
+    {
+      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
+    }
+    const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
+    const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
+      this->Options.Axes, this->Wanted,
+      { this->Mesh.At(source), std::min(this->Options.SurfaceMove, 0.5 * beyond.Half) });
+    Shape after;
+    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
+    if (this->IsBetter(before, after) && CanShift(this->Mesh, point, best.Place, beyond))
+    {
+      Change& shift = this->Take(Change::Shift, before, after);
+      shift.Point = point;
+      shift.Place = best.Place;
     }
   }
 

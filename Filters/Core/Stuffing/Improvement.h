@@ -3,6 +3,7 @@
 #define isodiamond_Improvement_h
 
 #include "Field/Parallel.h"
+#include "Stuffing/SurfaceChanges.h"
 #include "Stuffing/TetrahedronMesh.h"
 
 namespace isodiamond
@@ -16,6 +17,9 @@ struct ImprovementOptions
   double WantedAngle = 15.0;
   /** How far a surface may get from where it was, at one change. */
   double SurfaceMove = 0.0;
+  /** By point: of the edge that a surface cuts there. Points on surfaces move only if these are
+   *  known. */
+  std::vector<CutEdgeEnd> Beyond = {};
   /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
   std::array<Vector, 3> Axes{};
 };
@@ -28,7 +32,9 @@ struct ImprovementOptions
  * shrinks into one of its ends; an edge goes, and what is around it is filled without; two
  * tetrahedra become three around an edge through their common face; and, if none of these helps, an
  * edge gets a point in its middle, which is moved. Nothing is done that makes the worst one worse.
- * Points on surfaces stay where they are, or go.
+ * Points on surfaces stay where they are, or go, unless all of that fails: where sheets nearly
+ * touch there is no room for anything round, so one of them is moved off (SurfaceChanges.h), and is
+ * a new point then.
  *
  * The worst come first; order and result do not depend on anything but the mesh. Topology is that
  * of before (LocalMesh.h). Klingner & Shewchuk, "Aggressive tetrahedral mesh improvement" (2007),

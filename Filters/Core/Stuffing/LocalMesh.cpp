@@ -437,11 +437,11 @@ void LocalMesh::PutBack(
 }
 
 std::uint32_t LocalMesh::AddPoint(
-  const Vector& at, Walls::Type walls, const std::vector<Share>& shares)
+  const Vector& at, std::int8_t surface, Walls::Type walls, const std::vector<Share>& shares)
 {
   const auto point = static_cast<std::uint32_t>(this->TheMesh.Positions.size());
   this->TheMesh.Positions.push_back(at);
-  this->TheMesh.Surfaces.push_back(0);
+  this->TheMesh.Surfaces.push_back(surface);
   this->TheMesh.OnWalls.push_back(walls);
   this->Changed.push_back(static_cast<std::uint32_t>(this->ChangedStars.size()));
   this->ChangedStars.emplace_back();

@@ -35,6 +35,14 @@ public:
   double SineOf(std::uint32_t tetrahedron) const { return this->Sines[tetrahedron]; }
   double SineOf(const Corners& corners) const { return SmallestSine(this->TheMesh, corners); }
 
+  /** The point that another one has its attributes from; itself, unless it is blended. */
+  std::uint32_t SourceOf(std::uint32_t point) const
+  {
+    return this->BlendOf[point] == None
+      ? point
+      : this->TheMesh.Blended[this->BlendOf[point]].Shares[0].Point;
+  }
+
   /** The tetrahedra at a point. */
   using Star = CellsAtPoints::Cells;
   Star StarOf(std::uint32_t point) const;
@@ -75,8 +83,9 @@ public:
     std::vector<std::uint32_t>& changed);
   /** Undoes a change that put tetrahedra in the place of others, which are all still there. */
   void PutBack(const std::vector<std::uint32_t>& old, const std::vector<std::uint32_t>& fresh);
-  /** Adds a point inside, or on walls. @return its id */
-  std::uint32_t AddPoint(const Vector& at, Walls::Type walls, const std::vector<Share>& shares);
+  /** Adds a point. @return its id */
+  std::uint32_t AddPoint(
+    const Vector& at, std::int8_t surface, Walls::Type walls, const std::vector<Share>& shares);
   ///@}
 
   /** What is alive. The LocalMesh is empty then. */

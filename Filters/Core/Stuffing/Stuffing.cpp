@@ -43,6 +43,36 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
   return axes;
 }
 
+/** By point, of isovertices. */
+std::vector<CutEdgeEnd> EndsBeyond(const Background& background)
+{
+  std::vector<CutEdgeEnd> ends(background.AllPoints().size());
+  for (std::uint32_t i = 0; i < background.Leaves().Tetrahedra.size(); ++i)
+  {
+    const CutMesh::Tetrahedron& leaf = background.Leaves().Tetrahedra[i];
+    for (int younger = 0; younger < 3; ++younger)
+    {
+      for (int older = younger + 1; older < 4; ++older)
+      {
+        const auto& cuts = leaf.Cuts[CutEdge(younger, older)];
+        const bool isRising = background.Leaves().Vertices[leaf.Vertices[younger]].Sign <
+          background.Leaves().Vertices[leaf.Vertices[older]].Sign;
+        for (int surface = 0; surface < 2; ++surface)
+        {
+          if (cuts[surface] != CutMesh::None)
+          {
+            const Vector& young = background.PositionOf(leaf.Vertices[younger]);
+            const Vector& old = background.PositionOf(leaf.Vertices[older]);
+            ends[cuts[surface]] = { isRising == (surface == 0) ? young : old,
+              0.5 * std::sqrt(Dot(young - old, young - old)) };
+          }
+        }
+      }
+    }
+  }
+  return ends;
+}
+
 }
 
 StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
@@ -59,6 +89,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;
   options.Axes = AxesOf(input.World);
+  options.Beyond = EndsBeyond(background);
   MovedVertices vertices(background);
   const TetrahedronMesh plain = input.Allowances.empty() ? TetrahedronMesh() : vertices.Cut();
   vertices.MoveAll(parallelFor);

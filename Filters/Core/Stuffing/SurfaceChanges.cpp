@@ -93,4 +93,31 @@ bool CanTurn(const LocalMesh& mesh, std::uint32_t a, std::uint32_t b, const Loca
     Dot(first, second) > LeastCosine * std::sqrt(Dot(first, first) * Dot(second, second));
 }
 
+bool CanShift(
+  const LocalMesh& mesh, std::uint32_t point, const Vector& to, const CutEdgeEnd& beyond)
+{
+  const Vector before = mesh.At(point) - beyond.Position;
+  const Vector after = to - beyond.Position;
+  if (Dot(after, after) < std::min(Dot(before, before), beyond.Half * beyond.Half))
+  {
+    return false;
+  }
+  for (const std::uint32_t tetrahedron : mesh.StarOf(point))
+  {
+    const Face others = Without(mesh.CornersOf(tetrahedron), point);
+    for (int i = 0; i < 3; ++i)
+    {
+      const std::uint32_t a = others[i];
+      const std::uint32_t b = others[(i + 1) % 3];
+      if (mesh.CountAt(point, a, b) == 1 &&
+        Dot(NormalOf({ mesh.At(point), mesh.At(a), mesh.At(b) }),
+          NormalOf({ to, mesh.At(a), mesh.At(b) })) <= 0.0)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 }
