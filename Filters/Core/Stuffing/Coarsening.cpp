@@ -67,7 +67,7 @@ std::vector<std::uint32_t> Coarsen(
   EdgeCollapses edges(part, input.UsedPart, &tetrahedra);
   std::vector<bool> isTouched;
   std::size_t before = 0;
-  for (int pass = 0; pass < CollapsePasses && (pass == 0 || tetrahedra.Count() > before); ++pass)
+  for (int pass = 0; pass < CollapsePasses && (pass == 0 || tetrahedra.Count() > 1.01 * before); ++pass)
   {
     before = tetrahedra.Count();
     if (!input.KeepsInside)
