@@ -50,6 +50,7 @@ vtkIsodiamond::WorldQuery vtkDiamondMesh::GetQuery() const
 {
   vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
   query.Simplify = false;
+  query.SimulationQuality = false;
   return query;
 }
 

@@ -60,16 +60,22 @@ public:
 
   ///@{
   /**
-   * Tetrahedra for simulations, of an interval volume: vertices that are near to a surface move
-   * onto it before anything is cut, and what is still bad is improved, so that dihedral angles lie
-   * between 15 and 165 degrees wherever possible. Points on surfaces stay where they are, or go;
-   * a few, where a surface nearly touches itself, move by a quarter of their edge at most. Pieces,
-   * holes and tunnels stay, and tetrahedra positive and conforming. By the
-   * distance metric the mesh begins at half of the tolerance and is made as coarse as all of it
-   * allows, which holds, measured both ways, but for cells of full resolution, which move their
-   * part of a surface by up to a voxel; with an interior tolerance points inside stay. With
-   * spacings that differ between the axes angles are worse. Making it takes much longer than the
-   * mesh alone. For isosurfaces an error. Default: off.
+   * Cells for simulations. Making them takes much longer than the mesh alone. Default: off.
+   *
+   * Tetrahedra of an interval volume: vertices that are near to a surface move onto it before
+   * anything is cut, and what is still bad is improved, so that dihedral angles lie between 15 and
+   * 165 degrees wherever possible. Points on surfaces stay where they are, or go; a few, where a
+   * surface nearly touches itself, move by a quarter of their edge at most. Pieces, holes and
+   * tunnels stay, and tetrahedra positive and conforming. By the distance metric the mesh begins at
+   * half of the tolerance and is made as coarse as all of it allows, which holds, measured both
+   * ways, but for cells of full resolution, which move their part of a surface by up to a voxel;
+   * with an interior tolerance points inside stay. With spacings that differ between the axes
+   * angles are worse.
+   *
+   * Triangles of an isosurface: it is simplified as by Simplify, with the same promise, but no new
+   * triangle has an angle below 15 degrees, unless one that it replaces had a smaller one. Where
+   * the tolerance leaves no room some of these stay. A tolerance below a quarter of the smallest
+   * spacing, and so 0, counts as that. Needs the distance metric.
    */
   vtkSetMacro(SimulationQuality, bool);
   vtkGetMacro(SimulationQuality, bool);

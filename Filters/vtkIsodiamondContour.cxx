@@ -80,6 +80,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondContour::GetQuery() const
 {
   vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
   query.Simplify = this->Simplify && !query.IsFull();
+  query.TurnToTriangles();
   return query;
 }
 

@@ -21,6 +21,17 @@
 
 #include <optional>
 
+namespace
+{
+
+/** Whether a query is for an interval volume of a hierarchy. */
+bool IsForVolume(const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::State& state)
+{
+  return query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
+}
+
+}
+
 vtkStandardNewMacro(vtkIsodiamondExtractor);
 
 //------------------------------------------------------------------------------
@@ -254,6 +265,10 @@ int vtkIsodiamondExtractor::RequestData(
       execution->State =
         vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), query);
       this->WarnOfUnusedValues(*execution->State);
+      if (!IsForVolume(query, *execution->State))
+      {
+        query.TurnToTriangles();
+      }
       std::optional<vtkIsodiamond::CountedTolerance> aimed;
       if (this->TargetNumberOfTriangles > 0)
       {
@@ -278,7 +293,7 @@ void vtkIsodiamondExtractor::WarnOfUnusedValues(const vtkIsodiamond::State& stat
 {
   // Values of a user who did not turn them on; what they are at first says nothing.
   const vtkIsodiamond::Choice& own = state.Chosen;
-  const bool isVolume = this->GetQuery().Override(own).Shape == isodiamond::Shape::IntervalVolume;
+  const bool isVolume = IsForVolume(this->GetQuery(), state);
   if (!isVolume && !this->UseIsovalue && this->Isovalue != 0.0 && this->Isovalue != own.Isovalue)
   {
     vtkWarningMacro("Isovalue is " << this->Isovalue
@@ -348,8 +363,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetExtracted(
 {
   if (query.Simplify)
   {
-    const bool isVolume = query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
-    vtkIsodiamond::CheckSimplify(state.Metric, isVolume);
+    vtkIsodiamond::CheckSimplify(query, state.Metric, IsForVolume(query, state));
   }
   return state.Isodiamonds
     ? vtkIsodiamond::HierarchyQuery(query, vtkIsodiamond::Measure(*state.Isodiamonds), state.World)

@@ -25,6 +25,12 @@ namespace
 
 constexpr const char* WallsArray = "IsodiamondWalls";
 
+/** In degrees, of triangles for simulations. */
+constexpr double LeastAngle = 15.0;
+/** The tolerance that these have at the least, as a part of the grid's smallest step: else slivers
+ *  would stay. */
+constexpr double LeastTolerance = 0.25;
+
 /** Lets points tell for a while which walls of the grid they are on. */
 PointDataMaker WithWalls(PointDataMaker others, const isodiamond::Grid& grid)
 {
@@ -75,10 +81,15 @@ isodiamond::AllowedMesh ToCore(
 void SimplifyMesh(const WorldQuery& query, const Measure& measure,
   const isodiamond::GridGeometry& world, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
+  const double least = query.AreTrianglesShaped ? LeastTolerance * world.SmallestStep() : 0.0;
   const auto allowed = [&](double tolerance)
-  { return (1.0 - PartForHierarchy(query, tolerance, world)) * tolerance; };
-  const isodiamond::TriangleMesh simple = isodiamond::Simplify(
-    ToCore(mesh, PlacedTolerance(query, measure, world), allowed), parallelFor);
+  {
+    const double used = std::max(tolerance, least);
+    return (1.0 - PartForHierarchy(query, used, world)) * used;
+  };
+  isodiamond::AllowedMesh original = ToCore(mesh, PlacedTolerance(query, measure, world), allowed);
+  original.LeastAngle = query.AreTrianglesShaped ? LeastAngle : 0.0;
+  const isodiamond::TriangleMesh simple = isodiamond::Simplify(original, parallelFor);
   mesh.PointData->RemoveArray(WallsArray);
   const UsedPoints used(simple.Triangles, simple.Positions.size(), parallelFor);
   const std::vector<vtkIdType> ids = used.Ids();
@@ -90,7 +101,7 @@ void SimplifyMesh(const WorldQuery& query, const Measure& measure,
 
 }
 
-void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume)
+void CheckSimplify(const WorldQuery& query, isodiamond::ErrorMetric metric, bool isVolume)
 {
   if (isVolume)
   {
@@ -98,7 +109,9 @@ void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume)
   }
   if (metric != isodiamond::ErrorMetric::Distance)
   {
-    throw std::invalid_argument("Simplify needs the distance metric.");
+    throw std::invalid_argument(query.AreTrianglesShaped
+        ? "SimulationQuality of isosurfaces needs the distance metric."
+        : "Simplify needs the distance metric.");
   }
 }
 
@@ -130,7 +143,7 @@ Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const Worl
   const Measure measure(hierarchy);
   if (query.Simplify)
   {
-    CheckSimplify(measure.Metric, hierarchy.Region().IsVolume());
+    CheckSimplify(query, measure.Metric, hierarchy.Region().IsVolume());
   }
   const WorldQuery extracted = HierarchyQuery(query, measure, options.World);
   task.Begin("Refining", 0.0, 0.3);

@@ -13,7 +13,7 @@ namespace vtkIsodiamond
 {
 
 /** Makes sure that a query can be simplified. @throws std::invalid_argument saying why not */
-void CheckSimplify(isodiamond::ErrorMetric metric, bool isVolume);
+void CheckSimplify(const WorldQuery& query, isodiamond::ErrorMetric metric, bool isVolume);
 
 /**
  * The mesh that a query asks for, or the share of it that the options want: for simulations,

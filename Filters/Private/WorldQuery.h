@@ -43,14 +43,23 @@ struct WorldQuery
   std::optional<isodiamond::Shape> Shape;
   std::optional<double> Isovalue;
   std::optional<std::array<double, 2>> Isorange;
-  bool PreserveTopology = false;  ///< of an HD
-  bool Simplify = false;          ///< see Simplify.h
-  bool SimulationQuality = false; ///< see Stuff.h
+  bool PreserveTopology = false;   ///< of an HD
+  bool Simplify = false;           ///< see Simplify.h
+  bool SimulationQuality = false;  ///< of tetrahedra, see Stuff.h
+  bool AreTrianglesShaped = false; ///< whether Simplify sees to the shape of what it makes
 
   /** Whether it is for full resolution, whatever errors are. */
   bool IsFull() const
   {
     return this->ErrorTolerance == 0.0 && !this->HasTarget && !this->Region && !this->View;
+  }
+
+  /** Asks for triangles for simulations where tetrahedra were asked for: simplified ones. */
+  void TurnToTriangles()
+  {
+    this->Simplify = this->Simplify || this->SimulationQuality;
+    this->AreTrianglesShaped = this->SimulationQuality;
+    this->SimulationQuality = false;
   }
 
   /** The hierarchy's own choice, overridden by the query's. */

@@ -61,6 +61,23 @@ test::SurfaceTriangles TrianglesOf(const TriangleMesh& mesh)
   return triangles;
 }
 
+/** Of some triangles, in degrees, by cosines. */
+double SmallestAngle(const TriangleMesh& mesh, std::size_t first, std::size_t last = SIZE_MAX)
+{
+  double smallest = 180.0;
+  for (std::size_t i = first; i < std::min(last, mesh.Triangles.size()); ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vector a = mesh.Corner(i, (k + 1) % 3) - mesh.Corner(i, k);
+      const Vector b = mesh.Corner(i, (k + 2) % 3) - mesh.Corner(i, k);
+      const double cosine = Dot(a, b) / std::sqrt(Dot(a, a) * Dot(b, b));
+      smallest = std::min(smallest, DegreesOfRadian * std::acos(std::clamp(cosine, -1.0, 1.0)));
+    }
+  }
+  return smallest;
+}
+
 /** Every sample of each mesh near to the other. */
 std::string FaultBetween(const TriangleMesh& a, const TriangleMesh& b, double allowed)
 {
@@ -281,6 +298,59 @@ TEST(Simplification, SavesMostTriangles)
   // Hardly more where the borders of parts were, as the second pass cuts elsewhere.
   const TriangleMesh inParts = Simplify(before, SerialFor, 2000);
   EXPECT_LT(8 * inParts.Triangles.size(), before.Mesh.Triangles.size());
+}
+
+TEST(Simplification, MakesNoSmallAnglesIfItShallNot)
+{
+  // A bumpy sheet of triangles of 45 degrees.
+  AllowedMesh sheet;
+  constexpr std::uint32_t n = 40;
+  for (std::uint32_t i = 0; i < n * n; ++i)
+  {
+    const double x = i % n;
+    const double y = i / n;
+    sheet.Mesh.Positions.push_back({ x, y, std::sin(0.3 * x) * std::cos(0.2 * y) });
+  }
+  for (std::uint32_t i = 0; i < n * (n - 1); ++i)
+  {
+    if (i % n + 1 < n)
+    {
+      sheet.Mesh.Triangles.push_back({ i, i + 1, i + n });
+      sheet.Mesh.Triangles.push_back({ i + 1, i + n + 1, i + n });
+    }
+  }
+  sheet.Allowances.assign(sheet.Mesh.Triangles.size(), 0.1);
+  const TriangleMesh any = Simplify(sheet, SerialFor);
+  EXPECT_LT(SmallestAngle(any, 0), 5.0);
+  for (const double angle : { 9.0, 15.0, 18.0 })
+  {
+    sheet.LeastAngle = angle;
+    const TriangleMesh shaped = Simplify(sheet, SerialFor);
+    EXPECT_GE(SmallestAngle(shaped, 0), angle);
+    EXPECT_LT(SmallestAngle(shaped, 0), angle + 2.0); // and makes use of it
+    EXPECT_GT(shaped.Triangles.size(), any.Triangles.size());
+    EXPECT_LT(shaped.Triangles.size(), sheet.Mesh.Triangles.size() / 4);
+    EXPECT_EQ(FaultBetween(sheet.Mesh, shaped, 0.1), "");
+  }
+}
+
+TEST(Simplification, LosesMostSmallAngles)
+{
+  AllowedMesh mesh = MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 0.2);
+  const auto small = [](const TriangleMesh& triangles)
+  {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < triangles.Triangles.size(); ++i)
+    {
+      count += SmallestAngle(triangles, i, i + 1) < 15.0 ? 1 : 0;
+    }
+    return static_cast<double>(count) / static_cast<double>(triangles.Triangles.size());
+  };
+  EXPECT_GT(small(mesh.Mesh), 0.15);
+  mesh.LeastAngle = 15.0;
+  const TriangleMesh shaped = Simplify(mesh, SerialFor);
+  EXPECT_LT(small(shaped), 0.02);
+  EXPECT_EQ(FaultBetween(mesh.Mesh, shaped, 0.2), "");
 }
 
 TEST(Simplification, GoesAlongTheWalls)

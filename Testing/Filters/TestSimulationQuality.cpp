@@ -157,6 +157,33 @@ vtkSmartPointer<vtkPolyData> SamplesOf(vtkPolyData* surface)
   return samples;
 }
 
+/** Of triangles with an angle below 15 degrees. */
+double ShareOfSmallAngles(vtkPolyData* surface)
+{
+  vtkIdType small = 0;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i)
+  {
+    surface->GetCellPoints(i, ids);
+    double smallest = 180.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      double at[3];
+      double sides[2][3];
+      surface->GetPoint(ids->GetId(k), at);
+      for (int side = 0; side < 2; ++side)
+      {
+        surface->GetPoint(ids->GetId((k + 1 + side) % 3), sides[side]);
+        vtkMath::Subtract(sides[side], at, sides[side]);
+      }
+      smallest = std::min(
+        smallest, vtkMath::DegreesFromRadians(vtkMath::AngleBetweenVectors(sides[0], sides[1])));
+    }
+    small += smallest < 15.0 ? 1 : 0;
+  }
+  return static_cast<double>(small) / static_cast<double>(surface->GetNumberOfCells());
+}
+
 double Told(vtkUnstructuredGrid* mesh, const char* name)
 {
   return mesh->GetFieldData()->GetArray(name)->GetComponent(0, 0);
@@ -394,17 +421,71 @@ TEST(SimulationQuality, WorksInRegionsViewsAndOtherWorlds)
   EXPECT_GT(volume->GetSmallestDihedralAngle(), 0.0);
 }
 
-TEST(SimulationQuality, IsNotForSurfaces)
+TEST(SimulationQuality, OfSurfacesLeavesFewSmallAngles)
 {
+  const auto image = test::BallImage({ 21, 21, 21 });
   vtkNew<vtkIsodiamondContour> contour;
-  contour->SetInputData(test::BallImage({ 9, 9, 9 }));
+  contour->SetInputData(image);
   contour->SetValue(0, 0.0);
-  contour->SimulationQualityOn();
-  const auto messages = test::Watch(contour);
+  contour->SetErrorMetricToDistance();
   contour->Update();
-  EXPECT_EQ(messages->ErrorCount, 1);
-  EXPECT_NE(messages->Errors.find("SimulationQuality is for interval volumes"), std::string::npos);
-  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+  vtkNew<vtkPolyData> full;
+  full->ShallowCopy(contour->GetOutput());
+  EXPECT_GT(ShareOfSmallAngles(full), 0.15);
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(image);
+  builder->SetIsovalue(0.0);
+  builder->SetErrorMetricToDistance();
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(builder->GetOutputPort());
+  extractor->SetOutputTypeToPolyData();
+  double withSimplifyAlone = 0.0;
+  for (const double tolerance : { 0.0, 0.1, 1.0 })
+  {
+    contour->SetErrorTolerance(tolerance);
+    contour->SimulationQualityOff();
+    contour->Update();
+    const vtkIdType plain = contour->GetOutput()->GetNumberOfCells();
+    contour->SimulationQualityOn();
+    contour->Update();
+    vtkPolyData* shaped = contour->GetOutput();
+    EXPECT_LT(shaped->GetNumberOfCells(), plain / 2);
+    EXPECT_LT(ShareOfSmallAngles(shaped), 0.05);
+    const double promised = std::max(tolerance, 0.25);
+    EXPECT_LE(test::LargestDistance(SamplesOf(shaped), full), promised);
+    EXPECT_LE(test::LargestDistance(SamplesOf(full), shaped), promised);
+    // With Simplify it is the same; an extractor makes it of a hierarchy.
+    extractor->SetErrorTolerance(tolerance);
+    extractor->SimplifyOn();
+    extractor->SimulationQualityOn();
+    extractor->Update();
+    EXPECT_EQ(extractor->GetPolyDataOutput()->GetNumberOfCells(), shaped->GetNumberOfCells());
+    extractor->SimulationQualityOff();
+    extractor->Update();
+    withSimplifyAlone =
+      std::max(withSimplifyAlone, ShareOfSmallAngles(extractor->GetPolyDataOutput()));
+  }
+  EXPECT_GT(withSimplifyAlone, 0.1);
+  EXPECT_EQ(contour->GetSmallestDihedralAngle(), 0.0);
+}
+
+TEST(SimulationQuality, OfSurfacesNeedsTheDistanceMetric)
+{
+  for (const double tolerance : { 0.0, 0.5 })
+  {
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputData(test::BallImage({ 9, 9, 9 }));
+    contour->SetValue(0, 0.0);
+    contour->SetErrorMetricToField();
+    contour->SetErrorTolerance(tolerance);
+    contour->SimulationQualityOn();
+    const auto messages = test::Watch(contour);
+    contour->Update();
+    EXPECT_EQ(messages->ErrorCount, 1);
+    EXPECT_NE(messages->Errors.find("SimulationQuality of isosurfaces needs the distance metric"),
+      std::string::npos);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+  }
 }
 
 TEST(SimulationQuality, OfNothingIsEmpty)

@@ -7,6 +7,8 @@
 namespace isodiamond
 {
 
+constexpr double DegreesOfRadian = 57.29577951308232;
+
 /** A vector or position of real coordinates. */
 using Vector = std::array<double, 3>;
 

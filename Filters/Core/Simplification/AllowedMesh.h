@@ -16,6 +16,8 @@ struct AllowedMesh
   TriangleMesh Mesh;
   std::vector<double> Allowances;     ///< by triangle; at least 0
   std::vector<Walls::Type> OnWalls{}; ///< by point; none where nothing is known of walls
+  /** In degrees, below 60: no new triangle has a smaller angle, unless one that it replaces has. */
+  double LeastAngle = 0.0;
 };
 
 }

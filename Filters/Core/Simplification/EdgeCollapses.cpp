@@ -7,9 +7,23 @@
 
 namespace isodiamond
 {
+namespace
+{
+
+/** The sine of a triangle's smallest angle, opposite to its shortest side. */
+double SmallestSine(const Vector& a, const Vector& b, const Vector& c)
+{
+  const Vector across = Cross(b - a, c - a);
+  std::array<double, 3> sides = { Dot(b - a, b - a), Dot(c - b, c - b), Dot(a - c, a - c) };
+  std::sort(sides.begin(), sides.end()); // squared
+  return sides[1] > 0.0 ? std::sqrt(Dot(across, across) / (sides[1] * sides[2])) : 0.0;
+}
+
+}
 
 EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuard* guard)
   : Guard(guard)
+  , LeastSine(part.LeastSine)
   , Positions(part.Positions)
   , Links(part.Simple)
   , Triangles(this->Links.Triangles)
@@ -214,6 +228,30 @@ bool EdgeCollapses::IsNear(
   return true;
 }
 
+/** Whether no triangle that would fill a hole has a smaller angle than wanted, or than one of those
+ *  that it replaces. */
+bool EdgeCollapses::KeepsShape(std::uint32_t vertex, const Hole& hole) const
+{
+  const auto sineOf = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c)
+  { return SmallestSine(this->Positions[a], this->Positions[b], this->Positions[c]); };
+  double needed = this->LeastSine;
+  for (int i = 0; i < hole.Count && needed > 0.0; ++i)
+  {
+    if (hole.Triangles[i] != None)
+    {
+      needed = std::min(needed, sineOf(vertex, hole.Points[i], hole.Points[(i + 1) % hole.Count]));
+    }
+  }
+  for (int i = 1; i + 1 < hole.Count && needed > 0.0; ++i)
+  {
+    if (sineOf(hole.Points[0], hole.Points[i], hole.Points[i + 1]) < needed)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /** Fills a hole by triangles from its first point: the i-th one has the points 0, i and i + 1.
  *  @return whether all samples over it are near enough */
 bool EdgeCollapses::Fill(std::uint32_t vertex, const Hole& hole)
@@ -397,7 +435,8 @@ std::vector<bool> EdgeCollapses::Run()
       this->Offer(at.Vertex, -HUGE_VAL, 0);
     }
     else if (this->FindHole(at.Vertex, at.Target, hole) && this->KeepsTopology(hole) &&
-      hole.SeeFromAbove(this->Positions, this->Normals, at.Vertex) && this->Fill(at.Vertex, hole) &&
+      hole.SeeFromAbove(this->Positions, this->Normals, at.Vertex) &&
+      this->KeepsShape(at.Vertex, hole) && this->Fill(at.Vertex, hole) &&
       (this->Guard == nullptr || this->Guard->Allows(at.Vertex, at.Target)))
     {
       if (this->Guard != nullptr)

@@ -123,6 +123,7 @@ private:
 
   bool FindHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
   bool KeepsTopology(const Hole& hole);
+  bool KeepsShape(std::uint32_t vertex, const Hole& hole) const;
   bool Fill(std::uint32_t vertex, const Hole& hole);
   bool MayGo(std::uint32_t vertex) const
   {
@@ -146,6 +147,7 @@ private:
   void ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const;
 
   CollapseGuard* Guard;          ///< or null
+  double LeastSine;              ///< of new triangles
   std::vector<Vector> Positions; ///< from the first one
   LinkedTriangles Links;
   std::vector<Triangle>& Triangles;       ///< of these

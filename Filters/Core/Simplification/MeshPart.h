@@ -32,6 +32,7 @@ struct MeshPart
   std::vector<Walls::Type> OnWalls;   ///< by point
   std::vector<SurfaceSample> Samples; ///< first the points, then the original's middles
   NearLists Near{ 0 };                ///< by triangle of the original
+  double LeastSine = 0.0;             ///< of angles that new triangles may have
 };
 
 }

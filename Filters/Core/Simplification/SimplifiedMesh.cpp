@@ -218,6 +218,7 @@ MeshPart SimplifiedMesh::Take(
       part.Near.Add(i, division.Number[near]);
     }
   }
+  part.LeastSine = std::sin(this->Original.LeastAngle / DegreesOfRadian);
   this->AddPoints(division, number, numbers, ids, part);
   return part;
 }

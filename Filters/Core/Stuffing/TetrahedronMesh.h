@@ -13,8 +13,6 @@
 namespace isodiamond
 {
 
-constexpr double DegreesOfRadian = 57.29577951308232;
-
 /** A tetrahedron by the ids of its points. */
 using Corners = std::array<std::uint32_t, 4>;
 using Face = std::array<std::uint32_t, 3>;
