@@ -101,7 +101,7 @@ Topology TopologyOf(const Volume& volume, AnyMesh mesh)
 
 bool IsFar(const TetrahedronMesh& plain, const TetrahedronMesh& mesh, double allowance)
 {
-  MeasuredSurfaces surfaces(plain, mesh, { allowance });
+  MeasuredSurfaces surfaces(plain, mesh, { allowance }, SerialFor);
   EXPECT_TRUE(surfaces.AreSound);
   const std::vector<bool> all(surfaces.Part.Simple.Triangles.size(), true);
   return PartDistance(surfaces.Part).Find(surfaces.Part.Simple, surfaces.Homes(), all).Any();

@@ -283,7 +283,7 @@ TEST(MovedVertices, LeavePositiveTetrahedraAndTheTopology)
     test::Stuffed cut = stuffed;
     for (const bool isMoved : { false, true })
     {
-      cut.Mesh = moved.Cut();
+      cut.Mesh = moved.Cut(SerialFor);
       EXPECT_EQ(test::FindFault(cut.AsVolume(), field.Dims), "") << seed << " " << isMoved;
       EXPECT_EQ(test::TopologyOf(cut.AsVolume(), plain), test::Topology(plain));
       moved.MoveAll(SerialFor);

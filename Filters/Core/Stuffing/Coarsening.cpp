@@ -49,7 +49,7 @@ std::vector<std::uint32_t> FarLeaves(const MeasuredSurfaces& surfaces,
 std::vector<std::uint32_t> Coarsen(
   TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor)
 {
-  MeasuredSurfaces surfaces(input.Plain, mesh, input.Allowances);
+  MeasuredSurfaces surfaces(input.Plain, mesh, input.Allowances, parallelFor);
   MeshPart& part = surfaces.Part;
   if (!surfaces.AreSound)
   {
@@ -67,7 +67,8 @@ std::vector<std::uint32_t> Coarsen(
   EdgeCollapses edges(part, input.UsedPart, &tetrahedra);
   std::vector<bool> isTouched;
   std::size_t before = 0;
-  for (int pass = 0; pass < CollapsePasses && (pass == 0 || tetrahedra.Count() > 1.01 * before); ++pass)
+  for (int pass = 0; pass < CollapsePasses && (pass == 0 || tetrahedra.Count() > 1.01 * before);
+       ++pass)
   {
     before = tetrahedra.Count();
     if (!input.KeepsInside)

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stuffing/Improvement.h"
 
-#include "Stuffing/BestPlace.h"
+#include "Stuffing/BestChange.h"
 #include "Stuffing/LocalMesh.h"
-#include "Stuffing/RingFilling.h"
-#include "Stuffing/SurfaceChanges.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <unordered_map>
@@ -26,37 +23,9 @@ constexpr std::size_t MostTries(std::size_t bad)
 {
   return 1000 + 4 * bad;
 }
-/** Less of what a tetrahedron lacks is no improvement. */
-constexpr double LeastGain = 0.01;
-/** Tetrahedra with less than this part of the wanted sine are all equally bad. */
-constexpr double WorstPart = 0.01;
 
-/** Tries between two looks at whether to go on: some milliseconds. */
-constexpr std::size_t TriesOfStep = 16;
-
-/** A change that has been tried. */
-struct Change
-{
-  enum Kinds
-  {
-    None,
-    Move,     ///< of Point to Place
-    Collapse, ///< of the edge from Point to Other into Other
-    Replace,  ///< of Old by Fresh
-    Split,    ///< as Replace, with Fresh around a new point, written as NewPoint, at Place
-    Shift     ///< of Point, on a surface, which a new point at Place replaces
-  };
-  static constexpr std::uint32_t NewPoint = LocalMesh::None;
-
-  Kinds Kind = None;
-  double Gain = 0.0; ///< see Improver::Shortfall
-  std::uint32_t Point = 0;
-  std::uint32_t Other = 0;
-  Vector Place{};
-  Walls::Type OnWalls = 0;
-  std::vector<std::uint32_t> Old;
-  std::vector<Corners> Fresh;
-};
+/** Changes that are looked for at the same time: few of them touch each other. */
+constexpr std::size_t TriesAtOnce = 64;
 
 class Improver
 {
@@ -64,7 +33,7 @@ public:
   Improver(TetrahedronMesh mesh, const ImprovementOptions& options)
     : Mesh(std::move(mesh))
     , Options(options)
-    , Wanted(std::sin(options.WantedAngle / DegreesOfRadian))
+    , Wanted(WantedSine(options))
   {
   }
 
@@ -83,17 +52,11 @@ public:
       }
       triesLeft -= bad.size();
       std::vector<std::uint32_t> changed;
-      InSteps(parallelFor, bad.size(), TriesOfStep,
-        [&](std::size_t i)
-        {
-          const std::uint32_t tetrahedron = bad[i];
-          if (this->IsBad(tetrahedron) && this->IsWorthATry(tetrahedron))
-          {
-            const std::size_t before = changed.size();
-            this->ImproveAt(tetrahedron, changed);
-            this->NoteChange(tetrahedron, changed.data() + before, changed.data() + changed.size());
-          }
-        });
+      for (std::size_t first = 0; first < bad.size(); first += TriesAtOnce)
+      {
+        const std::size_t count = std::min(TriesAtOnce, bad.size() - first);
+        this->Improve(bad.data() + first, count, parallelFor, changed);
+      }
       if (changed.empty())
       {
         return;
@@ -110,6 +73,13 @@ private:
     return this->Mesh.IsAlive(tetrahedron) && this->Mesh.SineOf(tetrahedron) < this->Wanted;
   }
 
+  /** Whether a point has been touched after so many changes. */
+  bool IsTouched(std::uint32_t point, int changes) const
+  {
+    const auto touched = this->Touched.find(point);
+    return touched != this->Touched.end() && touched->second > changes;
+  }
+
   /** Whether anything has changed around a tetrahedron since it was tried. */
   bool IsWorthATry(std::uint32_t tetrahedron) const
   {
@@ -117,25 +87,83 @@ private:
     const Corners& corners = this->Mesh.CornersOf(tetrahedron);
     return tried == this->Tried.end() ||
       std::any_of(corners.begin(), corners.end(),
-        [&](std::uint32_t point)
-        {
-          const auto touched = this->Touched.find(point);
-          return touched != this->Touched.end() && touched->second > tried->second;
-        });
+        [&](std::uint32_t point) { return this->IsTouched(point, tried->second); });
   }
 
-  void NoteChange(std::uint32_t tetrahedron, const std::uint32_t* first, const std::uint32_t* last)
+  /** Whether anything that BestChange() reads has changed after so many changes. */
+  bool IsTouchedAround(std::uint32_t tetrahedron, int changes) const
+  {
+    const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+    return std::any_of(corners.begin(), corners.end(),
+      [&](std::uint32_t corner)
+      {
+        const LocalMesh::Star star = this->Mesh.StarOf(corner);
+        return std::any_of(star.begin(), star.end(),
+          [&](std::uint32_t beside)
+          {
+            const Corners& points = this->Mesh.CornersOf(beside);
+            return std::any_of(points.begin(), points.end(),
+              [&](std::uint32_t point) { return this->IsTouched(point, changes); });
+          });
+      });
+  }
+
+  /** Finds the best changes for some tetrahedra at once, and does them one after the other. A
+   *  change that is found by what another one has changed is found again: so all are as if each
+   *  had been found when it was its turn. */
+  void Improve(const std::uint32_t* tetrahedra, std::size_t count, const ParallelFor& parallelFor,
+    std::vector<std::uint32_t>& changed)
+  {
+    const auto isToBeTried = [&](std::size_t i)
+    { return this->IsBad(tetrahedra[i]) && this->IsWorthATry(tetrahedra[i]); };
+    const int before = this->Changes;
+    std::vector<Change> changes(count);
+    ForEachIndex(parallelFor, count, 1,
+      [&](std::int64_t i)
+      {
+        if (isToBeTried(i))
+        {
+          changes[i] = BestChange(this->Mesh, this->Options, tetrahedra[i]);
+        }
+      });
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (isToBeTried(i))
+      {
+        if (this->IsTouchedAround(tetrahedra[i], before))
+        {
+          changes[i] = BestChange(this->Mesh, this->Options, tetrahedra[i]);
+        }
+        this->DoAndNote(tetrahedra[i], changes[i], changed);
+      }
+    }
+  }
+
+  void DoAndNote(
+    std::uint32_t tetrahedron, const Change& change, std::vector<std::uint32_t>& changed)
   {
     this->Tried[tetrahedron] = this->Changes;
-    if (first != last)
+    if (change.Kind == Change::None)
     {
-      ++this->Changes;
-      for (; first != last; ++first)
+      return;
+    }
+    ++this->Changes;
+    if (change.Kind == Change::Collapse)
+    {
+      this->Touch(this->Mesh.StarOf(change.Point)); // some of it has nothing in its place
+    }
+    const std::size_t first = changed.size();
+    this->Do(change, changed);
+    this->Touch({ changed.data() + first, changed.data() + changed.size() });
+  }
+
+  void Touch(const LocalMesh::Star& tetrahedra)
+  {
+    for (const std::uint32_t tetrahedron : tetrahedra)
+    {
+      for (const std::uint32_t point : this->Mesh.CornersOf(tetrahedron))
       {
-        for (const std::uint32_t point : this->Mesh.CornersOf(*first))
-        {
-          this->Touched[point] = this->Changes;
-        }
+        this->Touched[point] = this->Changes;
       }
     }
   }
@@ -151,54 +179,6 @@ private:
       [&](std::uint32_t a, std::uint32_t b)
       { return this->Mesh.SineOf(a) < this->Mesh.SineOf(b); });
     return bad;
-  }
-
-  /** Does the best change that there is. */
-  void ImproveAt(std::uint32_t tetrahedron, std::vector<std::uint32_t>& changed)
-  {
-    const Corners corners = this->Mesh.CornersOf(tetrahedron);
-    this->Best = Change();
-    this->Best.Gain = LeastGain * this->Shortfall(this->Mesh.SineOf(tetrahedron));
-    for (const std::uint32_t point : corners)
-    {
-      this->TryToMove(point);
-    }
-    this->ForEachEdge(corners,
-      [&](std::uint32_t a, std::uint32_t b)
-      {
-        this->TryToCollapse(a, b);
-        this->TryToCollapse(b, a);
-      });
-    this->ForEachEdge(
-      corners, [&](std::uint32_t a, std::uint32_t b) { this->TryToRemoveEdge(a, b); });
-    for (const std::uint32_t point : corners)
-    {
-      this->TryToRemoveFace(tetrahedron, point);
-    }
-    if (this->Best.Kind == Change::None)
-    {
-      this->ForEachEdge(corners, [&](std::uint32_t a, std::uint32_t b) { this->TryToSplit(a, b); });
-    }
-    for (const std::uint32_t point : corners)
-    {
-      if (this->Best.Kind == Change::None || this->Best.Kind == Change::Shift)
-      {
-        this->TryToShift(point);
-      }
-    }
-    this->Do(this->Best, changed);
-  }
-
-  template <typename Body>
-  static void ForEachEdge(const Corners& corners, Body&& body)
-  {
-    for (int i = 0; i < 4; ++i)
-    {
-      for (int j = i + 1; j < 4; ++j)
-      {
-        body(corners[i], corners[j]);
-      }
-    }
   }
 
   void Do(const Change& change, std::vector<std::uint32_t>& changed)
@@ -257,275 +237,9 @@ private:
     }
   }
 
-  /** What a tetrahedron lacks: of several bad ones each counts, the worst most. */
-  double Shortfall(double sine) const
-  {
-    const double missing =
-      std::max(0.0, this->Wanted / std::max(sine, WorstPart * this->Wanted) - 1.0);
-    return missing * missing;
-  }
-
-  /** Of some tetrahedra. */
-  struct Shape
-  {
-    double Worst = 1.0; ///< the smallest sine
-    double Shortfall = 0.0;
-  };
-  void Add(double sine, Shape& shape) const
-  {
-    shape.Worst = std::min(shape.Worst, sine);
-    shape.Shortfall += this->Shortfall(sine);
-  }
-  template <typename Tetrahedra>
-  Shape ShapeOf(const Tetrahedra& tetrahedra) const
-  {
-    Shape shape;
-    for (const auto& tetrahedron : tetrahedra)
-    {
-      this->Add(this->Mesh.SineOf(tetrahedron), shape);
-    }
-    return shape;
-  }
-
-  /** Whether a change would be the best one so far: the worst gets no worse, and all together
-   *  better. */
-  bool IsBetter(const Shape& before, const Shape& after) const
-  {
-    return after.Worst >= before.Worst && before.Shortfall - after.Shortfall > this->Best.Gain;
-  }
-  /** Begins the best change so far. */
-  Change& Take(Change::Kinds kind, const Shape& before, const Shape& after)
-  {
-    this->Best = Change();
-    this->Best.Kind = kind;
-    this->Best.Gain = before.Shortfall - after.Shortfall;
-    return this->Best;
-  }
-
-  //--- Moves ------------------------------------------------------------------
-
-  void TryToMove(std::uint32_t point)
-  {
-    if (this->Mesh.Mesh().Surfaces[point] != 0)
-    {
-      return;
-    }
-    PointStar star;
-    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
-    {
-      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
-    }
-    const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
-    const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
-      this->Options.Axes, this->Wanted);
-    Shape after;
-    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
-    if (this->IsBetter(before, after))
-    {
-      Change& move = this->Take(Change::Move, before, after);
-      move.Point = point;
-      move.Place = best.Place;
-    }
-  }
-
-  //--- Edges that shrink ------------------------------------------------------
-
-  void TryToCollapse(std::uint32_t from, std::uint32_t to)
-  {
-    const Shape before = this->ShapeOf(this->Mesh.StarOf(from));
-    Shape after;
-    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(from))
-    {
-      Corners corners = this->Mesh.CornersOf(tetrahedron);
-      if (!Has(corners, to))
-      {
-        std::replace(corners.begin(), corners.end(), from, to);
-        this->Add(this->Mesh.SineOf(corners), after);
-        if (!this->IsBetter(before, after))
-        {
-          return;
-        }
-      }
-    }
-    if (this->IsBetter(before, after) && this->Mesh.CanCollapse(from, to) &&
-      StaysNear(this->Mesh, from, to, this->Options.SurfaceMove))
-    {
-      Change& collapse = this->Take(Change::Collapse, before, after);
-      collapse.Point = from;
-      collapse.Other = to;
-    }
-  }
-
-  //--- Edges and faces that go ------------------------------------------------
-
-  void TryToRemoveEdge(std::uint32_t a, std::uint32_t b)
-  {
-    LocalMesh::Ring ring;
-    if (!this->Mesh.FindRing(a, b, MostAround, ring) || ring.Points.size() < 3 ||
-      (!ring.IsClosed && !CanTurn(this->Mesh, a, b, ring, this->Options.SurfaceMove)))
-    {
-      return;
-    }
-    const Shape before = this->ShapeOf(ring.Tetrahedra);
-    std::vector<Corners> fresh;
-    FillRing(this->Mesh, a, b, ring.Points, fresh);
-    const Shape after = this->ShapeOf(fresh);
-    if (this->IsBetter(before, after) && this->AreNew(ring, fresh))
-    {
-      Change& replace = this->Take(Change::Replace, before, after);
-      replace.Old = ring.Tetrahedra;
-      replace.Fresh = std::move(fresh);
-    }
-  }
-
-  /** Whether edges, and a lone triangle, between points around an edge are not in the mesh yet, and
-   *  everybody can tell what is on a surface. */
-  bool AreNew(const LocalMesh::Ring& ring, const std::vector<Corners>& fresh) const
-  {
-    const std::vector<std::uint32_t>& points = ring.Points;
-    if (std::any_of(fresh.begin(), fresh.end(),
-          [&](const Corners& corners) { return this->Mesh.IsAmbiguous(corners); }))
-    {
-      return false;
-    }
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      for (std::size_t j = i + 2; j < points.size(); ++j)
-      {
-        const bool isSide = ring.IsClosed && i == 0 && j + 1 == points.size();
-        const bool isUsed = std::any_of(fresh.begin(), fresh.end(),
-          [&](const Corners& corners)
-          { return Has(corners, points[i]) && Has(corners, points[j]); });
-        if (!isSide && isUsed && this->Mesh.HasEdge(points[i], points[j]))
-        {
-          return false;
-        }
-      }
-    }
-    return points.size() > 3 || this->Mesh.CountAt(points[0], points[1], points[2]) == 0;
-  }
-
-  /** Two tetrahedra on both sides of the face opposite to a point become three. */
-  void TryToRemoveFace(std::uint32_t tetrahedron, std::uint32_t apex)
-  {
-    const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-    Face face = Without(corners, apex);
-    const LocalMesh::Star star = this->Mesh.StarOf(face[0]);
-    const auto other = std::find_if(star.begin(), star.end(),
-      [&](std::uint32_t candidate)
-      {
-        const Corners& points = this->Mesh.CornersOf(candidate);
-        return candidate != tetrahedron && Has(points, face[1]) && Has(points, face[2]);
-      });
-    if (other == star.end())
-    {
-      return;
-    }
-    const Corners& beyond = this->Mesh.CornersOf(*other);
-    const std::uint32_t far = *std::find_if(beyond.begin(), beyond.end(),
-      [&](std::uint32_t corner)
-      { return std::find(face.begin(), face.end(), corner) == face.end(); });
-    if (SixVolumes(this->Mesh.At(face[0]), this->Mesh.At(face[1]), this->Mesh.At(face[2]),
-          this->Mesh.At(apex)) < 0.0)
-    {
-      std::swap(face[1], face[2]);
-    }
-    std::vector<Corners> fresh = { { far, apex, face[0], face[1] }, { far, apex, face[1], face[2] },
-      { far, apex, face[2], face[0] } };
-    std::vector<std::uint32_t> old = { tetrahedron, *other };
-    const Shape before = this->ShapeOf(old);
-    const Shape after = this->ShapeOf(fresh);
-    if (this->IsBetter(before, after) && !this->Mesh.HasEdge(apex, far))
-    {
-      Change& replace = this->Take(Change::Replace, before, after);
-      replace.Old = std::move(old);
-      replace.Fresh = std::move(fresh);
-    }
-  }
-
-  //--- New points -------------------------------------------------------------
-
-  /** Puts a point into the middle of an edge, inside or in a wall, and moves it. */
-  void TryToSplit(std::uint32_t a, std::uint32_t b)
-  {
-    LocalMesh::Ring ring;
-    if (!this->Mesh.FindRing(a, b, MostAround, ring))
-    {
-      return;
-    }
-    int place = 0;
-    if (!ring.IsClosed)
-    {
-      place = this->Mesh.PlaceOfFace(a, b, ring.Points.front());
-      if (place == 0 || place >= Walls::Fixed ||
-        place != this->Mesh.PlaceOfFace(a, b, ring.Points.back()))
-      {
-        return;
-      }
-    }
-    PointStar star;
-    std::vector<Corners> fresh;
-    for (const std::uint32_t tetrahedron : ring.Tetrahedra)
-    {
-      for (const std::uint32_t end : { a, b })
-      {
-        Corners corners = this->Mesh.CornersOf(tetrahedron);
-        star.Add(this->Mesh.Mesh(), corners, end);
-        std::replace(corners.begin(), corners.end(), end, Change::NewPoint);
-        fresh.push_back(corners);
-      }
-    }
-    const auto walls = static_cast<Walls::Type>(place);
-    const PlacedPoint best = BestPlace(
-      star, 0.5 * (this->Mesh.At(a) + this->Mesh.At(b)), walls, this->Options.Axes, this->Wanted);
-    const Shape before = this->ShapeOf(ring.Tetrahedra);
-    Shape after;
-    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
-    if (this->IsBetter(before, after))
-    {
-      Change& split = this->Take(Change::Split, before, after);
-      split.Point = a;
-      split.Other = b;
-      split.Place = best.Place;
-      split.OnWalls = walls;
-      split.Old = ring.Tetrahedra;
-      split.Fresh = std::move(fresh);
-    }
-  }
-
-  //--- Points on surfaces -----------------------------------------------------
-
-  void TryToShift(std::uint32_t point)
-  {
-    const std::uint32_t source = this->Mesh.SourceOf(point); // where the surface is
-    if (this->Mesh.Mesh().Surfaces[point] == 0 || source >= this->Options.Beyond.size())
-    {
-      return;
-    }
-    const CutEdgeEnd& beyond = this->Options.Beyond[source];
-    PointStar star;
-    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
-    {
-      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
-    }
-    const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
-    const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
-      this->Options.Axes, this->Wanted,
-      { this->Mesh.At(source), std::min(this->Options.SurfaceMove, 0.5 * beyond.Half) });
-    Shape after;
-    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
-    if (this->IsBetter(before, after) && CanShift(this->Mesh, point, best.Place, beyond))
-    {
-      Change& shift = this->Take(Change::Shift, before, after);
-      shift.Point = point;
-      shift.Place = best.Place;
-    }
-  }
-
   LocalMesh Mesh;
   const ImprovementOptions& Options;
   double Wanted; ///< sine
-  Change Best;
   int Changes = 0;
   /** How many changes there were when a tetrahedron was tried last, and a point touched. */
   std::unordered_map<std::uint32_t, int> Tried, Touched;

@@ -21,6 +21,39 @@ struct OwnedTriangle
   std::uint32_t Owner = 0;
 };
 
+/** Walks over a mesh to what is nearest. */
+class Walker
+{
+public:
+  Walker(const std::vector<Vector>& positions, const Connectivity& mesh)
+    : Mesh(mesh)
+    , Cover(positions, mesh.Linked())
+  {
+  }
+
+  /** The nearest triangle, as long as one around is nearer. */
+  std::uint32_t NearestTo(const Vector& position, std::uint32_t start)
+  {
+    for (std::uint32_t at = None; at != start;)
+    {
+      at = start;
+      this->Around = { start };
+      for (const std::uint32_t point : this->Mesh.Linked().Triangles[start])
+      {
+        const IdRange there = this->Mesh.At(point);
+        this->Around.insert(this->Around.end(), there.begin(), there.end());
+      }
+      start = this->Cover.NearestOf(this->Around, position);
+    }
+    return start;
+  }
+
+private:
+  const Connectivity& Mesh;
+  Covering Cover;
+  std::vector<std::uint32_t> Around;
+};
+
 /** Puts samples over the triangles of the simpler mesh. */
 class SampleHomes
 {
@@ -28,72 +61,101 @@ public:
   SampleHomes(MeshPart& part, const Connectivity& simple)
     : Part(part)
     , Simple(simple)
-    , Cover(part.Positions, simple.Linked())
   {
   }
 
-  /** From points that both meshes have on, over the original. */
-  void Find()
+  /** First of triangles with a point that both meshes have; the rest from what is beside it. */
+  void Find(const ParallelFor& parallelFor)
   {
-    std::vector<std::uint32_t> waiting;
-    for (std::uint32_t i = 0; i < this->Part.Original.Triangles.size(); ++i)
+    const std::vector<Triangle>& originals = this->Part.Original.Triangles;
+    this->Walk(
+      parallelFor, originals.size(), [&](std::size_t i) -> SurfaceSample& { return MiddleOf(i); },
+      [&](std::size_t i) { return this->StartOf(i); });
+    this->FindFromNeighbours();
+    std::vector<std::uint32_t> anyAt(this->Part.Positions.size(), None);
+    for (std::uint32_t i = 0; i < originals.size(); ++i)
     {
-      for (const std::uint32_t point : this->Part.Original.Triangles[i])
+      for (const std::uint32_t point : originals[i])
       {
-        if (this->MiddleOf(i).Home == None && this->Simple.IsUsed(point))
+        anyAt[point] = this->MiddleOf(i).Home != None ? i : anyAt[point];
+      }
+    }
+    this->Walk(
+      parallelFor, anyAt.size(),
+      [&](std::size_t i) -> SurfaceSample& { return this->Part.Samples[i]; },
+      [&](std::size_t i)
+      {
+        const bool isGone = !this->Simple.IsUsed(static_cast<std::uint32_t>(i));
+        return isGone && anyAt[i] != None ? this->MiddleOf(anyAt[i]).Home : None;
+      });
+  }
+
+private:
+  SurfaceSample& MiddleOf(std::size_t triangle)
+  {
+    return this->Part.Samples[this->Part.Positions.size() + triangle];
+  }
+
+  std::uint32_t StartOf(std::size_t original) const
+  {
+    for (const std::uint32_t point : this->Part.Original.Triangles[original])
+    {
+      if (this->Simple.IsUsed(point))
+      {
+        return *this->Simple.At(point).begin();
+      }
+    }
+    return None;
+  }
+
+  template <typename SampleAt, typename Start>
+  void Walk(
+    const ParallelFor& parallelFor, std::size_t count, const SampleAt& at, const Start& startOf)
+  {
+    constexpr std::int64_t grain = 1024;
+    parallelFor(static_cast<std::int64_t>(count), grain,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        Walker walker(this->Part.Positions, this->Simple);
+        for (std::int64_t i = begin; i < end; ++i)
         {
-          this->WalkTo(this->MiddleOf(i), this->Simple.At(point)[0]);
-          waiting.push_back(i);
+          const std::uint32_t start = startOf(i);
+          if (start != None)
+          {
+            at(i).Home = walker.NearestTo(at(i).Position, start);
+          }
         }
+      });
+  }
+
+  void FindFromNeighbours()
+  {
+    const LinkedTriangles& original = this->Part.Original;
+    Walker walker(this->Part.Positions, this->Simple);
+    std::vector<std::uint32_t> waiting;
+    for (std::uint32_t i = 0; i < original.Triangles.size(); ++i)
+    {
+      if (this->MiddleOf(i).Home != None)
+      {
+        waiting.push_back(i);
       }
     }
     for (std::size_t at = 0; at < waiting.size(); ++at)
     {
-      const std::uint32_t home = this->MiddleOf(waiting[at]).Home;
-      for (const std::uint32_t point : this->Part.Original.Triangles[waiting[at]])
-      {
-        if (!this->Simple.IsUsed(point) && this->Part.Samples[point].Home == None)
-        {
-          this->WalkTo(this->Part.Samples[point], home);
-        }
-      }
-      for (const std::uint32_t neighbour : this->Part.Original.Neighbours[waiting[at]])
+      for (const std::uint32_t neighbour : original.Neighbours[waiting[at]])
       {
         if (neighbour != None && this->MiddleOf(neighbour).Home == None)
         {
-          this->WalkTo(this->MiddleOf(neighbour), home);
+          SurfaceSample& sample = this->MiddleOf(neighbour);
+          sample.Home = walker.NearestTo(sample.Position, this->MiddleOf(waiting[at]).Home);
           waiting.push_back(neighbour);
         }
       }
     }
   }
 
-private:
-  SurfaceSample& MiddleOf(std::uint32_t triangle)
-  {
-    return this->Part.Samples[this->Part.Positions.size() + triangle];
-  }
-
-  /** To the nearest triangle, as long as one around is nearer. */
-  void WalkTo(SurfaceSample& sample, std::uint32_t start)
-  {
-    std::vector<std::uint32_t> around;
-    for (sample.Home = None; sample.Home != start;)
-    {
-      sample.Home = start;
-      around = { start };
-      for (const std::uint32_t point : this->Simple.Linked().Triangles[start])
-      {
-        const IdRange there = this->Simple.At(point);
-        around.insert(around.end(), there.begin(), there.end());
-      }
-      start = this->Cover.NearestOf(around, sample.Position);
-    }
-  }
-
   MeshPart& Part;
   const Connectivity& Simple;
-  Covering Cover;
 };
 
 /** Points, and then the middles of the original's triangles. */
@@ -151,7 +213,7 @@ Surfaces SurfacesOf(const TetrahedronMesh& mesh)
 }
 
 MeasuredSurfaces::MeasuredSurfaces(const TetrahedronMesh& plain, const TetrahedronMesh& stuffed,
-  const std::vector<double>& allowances)
+  const std::vector<double>& allowances, const ParallelFor& parallelFor)
 {
   const std::size_t points = stuffed.Positions.size();
   Surfaces before = SurfacesOf(plain);
@@ -177,7 +239,7 @@ MeasuredSurfaces::MeasuredSurfaces(const TetrahedronMesh& plain, const Tetrahedr
     part.Allowances.push_back(allowances[origin]);
   }
   AddSamples(part.Allowances, part);
-  SampleHomes(part, simple).Find();
+  SampleHomes(part, simple).Find(parallelFor);
 }
 
 std::vector<std::uint32_t> MeasuredSurfaces::Homes() const

@@ -2,6 +2,7 @@
 #ifndef isodiamond_MeasuredSurfaces_h
 #define isodiamond_MeasuredSurfaces_h
 
+#include "Field/Parallel.h"
 #include "Simplification/MeshPart.h"
 #include "Stuffing/TetrahedronMesh.h"
 
@@ -27,7 +28,7 @@ struct MeasuredSurfaces
   /** @param allowances by origin: how far from its triangles of the first mesh the second one may
    * be */
   MeasuredSurfaces(const TetrahedronMesh& plain, const TetrahedronMesh& stuffed,
-    const std::vector<double>& allowances);
+    const std::vector<double>& allowances, const ParallelFor& parallelFor);
 
   /** By sample: the triangle of the second mesh that it lies over. */
   std::vector<std::uint32_t> Homes() const;

@@ -16,6 +16,9 @@ constexpr double NearPart = 0.25;
 /** Moves between two looks at whether to go on. */
 constexpr std::size_t MovesOfStep = 1024;
 
+/** Leaves that are worth a thread. */
+constexpr std::int64_t LeavesOfRange = 2048;
+
 /** The least sine of a dihedral angle that a move may leave in a whole tetrahedron. */
 constexpr double LeastSine = 0.1;
 
@@ -43,14 +46,13 @@ MovedVertices::MovedVertices(const Background& background)
 
 void MovedVertices::MoveAll(const ParallelFor& parallelFor)
 {
-  std::vector<Goal> goals;
-  for (std::uint32_t vertex = 0; vertex < this->Mesh.VertexCount(); ++vertex)
-  {
-    if (const Goal goal = this->NearestTo(vertex); goal.Distance < NearPart)
-    {
-      goals.push_back(goal);
-    }
-  }
+  std::vector<Goal> goals(this->Mesh.VertexCount());
+  ForEachIndex(parallelFor, goals.size(), LeavesOfRange,
+    [&](std::int64_t vertex)
+    { goals[vertex] = this->NearestTo(static_cast<std::uint32_t>(vertex)); });
+  goals.erase(std::remove_if(goals.begin(), goals.end(),
+                [](const Goal& goal) { return !(goal.Distance < NearPart); }),
+    goals.end());
   std::sort(goals.begin(), goals.end(),
     [](const Goal& a, const Goal& b)
     { return a.Distance != b.Distance ? a.Distance < b.Distance : a.Vertex < b.Vertex; });
@@ -223,7 +225,33 @@ Corners MovedVertices::CornersOf(std::uint32_t tetrahedron, const PatchTetrahedr
     this->PointOf(tetrahedron, piece[flip ? 2 : 3]) };
 }
 
-TetrahedronMesh MovedVertices::Cut() const
+/** Of several ways to cut a leaf the one whose worst piece is best. */
+std::uint8_t MovedVertices::BestPatch(std::uint32_t tetrahedron) const
+{
+  const std::vector<std::vector<PatchTetrahedron>>& patches = this->PatchesOf(tetrahedron);
+  double best = -HUGE_VAL;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < patches.size() && patches.size() > 1; ++i)
+  {
+    double worst = HUGE_VAL;
+    for (const PatchTetrahedron& piece : patches[i])
+    {
+      const Corners points = this->CornersOf(tetrahedron, piece);
+      worst = std::min(worst,
+        SmallestSine(this->Mesh.PointAt(points[0]), this->Mesh.PointAt(points[1]),
+          this->Mesh.PointAt(points[2]), this->Mesh.PointAt(points[3])));
+    }
+    if (worst > best)
+    {
+      best = worst;
+      found = i;
+    }
+  }
+  return static_cast<std::uint8_t>(found);
+}
+
+/** All points, and the surfaces and walls that they are on. */
+TetrahedronMesh MovedVertices::PlacedPoints() const
 {
   TetrahedronMesh mesh;
   mesh.Positions = this->Mesh.AllPoints();
@@ -237,10 +265,8 @@ TetrahedronMesh MovedVertices::Cut() const
       mesh.OnWalls[point] = this->Mesh.WallsOf(vertex);
     }
   }
-  const auto count = static_cast<std::uint32_t>(this->Mesh.Leaves().Tetrahedra.size());
-  for (std::uint32_t i = 0; i < count; ++i)
+  for (const CutMesh::Tetrahedron& leaf : this->Mesh.Leaves().Tetrahedra)
   {
-    const CutMesh::Tetrahedron& leaf = this->Mesh.Leaves().Tetrahedra[i];
     for (int younger = 0; younger < 3; ++younger)
     {
       for (int older = younger + 1; older < 4; ++older)
@@ -257,26 +283,28 @@ TetrahedronMesh MovedVertices::Cut() const
         }
       }
     }
-    // Of several ways to cut it the one whose worst piece is best.
-    double best = -HUGE_VAL;
-    std::vector<Corners> pieces;
-    for (const std::vector<PatchTetrahedron>& patch : this->PatchesOf(i))
+  }
+  return mesh;
+}
+
+TetrahedronMesh MovedVertices::Cut(const ParallelFor& parallelFor) const
+{
+  TetrahedronMesh mesh = this->PlacedPoints();
+  const auto count = static_cast<std::uint32_t>(this->Mesh.Leaves().Tetrahedra.size());
+  std::vector<std::uint8_t> best(count);
+  ForEachIndex(parallelFor, count, LeavesOfRange,
+    [&](std::int64_t i) { best[i] = this->BestPatch(static_cast<std::uint32_t>(i)); });
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const std::vector<std::vector<PatchTetrahedron>>& patches = this->PatchesOf(i);
+    if (!patches.empty())
     {
-      double worst = HUGE_VAL;
-      std::vector<Corners> tried;
-      for (const PatchTetrahedron& piece : patch)
+      for (const PatchTetrahedron& piece : patches[best[i]])
       {
-        tried.push_back(this->CornersOf(i, piece));
-        worst = std::min(worst, SmallestSine(mesh, tried.back()));
-      }
-      if (worst > best)
-      {
-        best = worst;
-        pieces = std::move(tried);
+        mesh.Tetrahedra.push_back(this->CornersOf(i, piece));
+        mesh.Origins.push_back(i);
       }
     }
-    mesh.Tetrahedra.insert(mesh.Tetrahedra.end(), pieces.begin(), pieces.end());
-    mesh.Origins.insert(mesh.Origins.end(), pieces.size(), i);
   }
   return mesh;
 }

@@ -29,7 +29,7 @@ public:
   void MoveAll(const ParallelFor& parallelFor);
 
   /** What is in range, as tetrahedra of points. */
-  TetrahedronMesh Cut() const;
+  TetrahedronMesh Cut(const ParallelFor& parallelFor) const;
 
 private:
   /** An isovertex that a vertex could move to. */
@@ -42,6 +42,8 @@ private:
     isodiamond::Walls::Type OnWalls = 0; ///< that the isovertex is on
   };
 
+  TetrahedronMesh PlacedPoints() const;
+  std::uint8_t BestPatch(std::uint32_t tetrahedron) const;
   Goal NearestTo(std::uint32_t vertex) const;
   bool TryToMove(const Goal& goal);
   bool AreAllRound(std::uint32_t vertex) const;

@@ -91,10 +91,11 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   options.Axes = AxesOf(input.World);
   options.Beyond = EndsBeyond(background);
   MovedVertices vertices(background);
-  const TetrahedronMesh plain = input.Allowances.empty() ? TetrahedronMesh() : vertices.Cut();
+  const TetrahedronMesh plain =
+    input.Allowances.empty() ? TetrahedronMesh() : vertices.Cut(parallelFor);
   vertices.MoveAll(parallelFor);
   StuffedMesh result;
-  result.Mesh = Improve(vertices.Cut(), options, parallelFor);
+  result.Mesh = Improve(vertices.Cut(parallelFor), options, parallelFor);
   if (!input.Allowances.empty())
   {
     result.FarLeaves = Coarsen(

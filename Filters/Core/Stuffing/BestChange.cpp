@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/BestChange.h"
+
+#include "Stuffing/BestPlace.h"
+#include "Stuffing/RingFilling.h"
+#include "Stuffing/SurfaceChanges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** Less of what a tetrahedron lacks is no improvement. */
+constexpr double LeastGain = 0.01;
+/** Tetrahedra with less than this part of the wanted sine are all equally bad. */
+constexpr double WorstPart = 0.01;
+class ChangeSearch
+{
+public:
+  ChangeSearch(const LocalMesh& mesh, const ImprovementOptions& options)
+    : Mesh(mesh)
+    , Options(options)
+    , Wanted(WantedSine(options))
+  {
+  }
+
+  Change Find(std::uint32_t tetrahedron)
+  {
+    const Corners corners = this->Mesh.CornersOf(tetrahedron);
+    this->Best = Change();
+    this->Best.Gain = LeastGain * this->Shortfall(this->Mesh.SineOf(tetrahedron));
+    for (const std::uint32_t point : corners)
+    {
+      this->TryToMove(point);
+    }
+    this->ForEachEdge(corners,
+      [&](std::uint32_t a, std::uint32_t b)
+      {
+        this->TryToCollapse(a, b);
+        this->TryToCollapse(b, a);
+      });
+    this->ForEachEdge(
+      corners, [&](std::uint32_t a, std::uint32_t b) { this->TryToRemoveEdge(a, b); });
+    for (const std::uint32_t point : corners)
+    {
+      this->TryToRemoveFace(tetrahedron, point);
+    }
+    if (this->Best.Kind == Change::None)
+    {
+      this->ForEachEdge(corners, [&](std::uint32_t a, std::uint32_t b) { this->TryToSplit(a, b); });
+    }
+    for (const std::uint32_t point : corners)
+    {
+      if (this->Best.Kind == Change::None || this->Best.Kind == Change::Shift)
+      {
+        this->TryToShift(point);
+      }
+    }
+    return std::move(this->Best);
+  }
+
+private:
+  template <typename Body>
+  static void ForEachEdge(const Corners& corners, Body&& body)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = i + 1; j < 4; ++j)
+      {
+        body(corners[i], corners[j]);
+      }
+    }
+  }
+
+  /** What a tetrahedron lacks: of several bad ones each counts, the worst most. */
+  double Shortfall(double sine) const
+  {
+    const double missing =
+      std::max(0.0, this->Wanted / std::max(sine, WorstPart * this->Wanted) - 1.0);
+    return missing * missing;
+  }
+
+  /** Of some tetrahedra. */
+  struct Shape
+  {
+    double Worst = 1.0; ///< the smallest sine
+    double Shortfall = 0.0;
+  };
+  void Add(double sine, Shape& shape) const
+  {
+    shape.Worst = std::min(shape.Worst, sine);
+    shape.Shortfall += this->Shortfall(sine);
+  }
+  template <typename Tetrahedra>
+  Shape ShapeOf(const Tetrahedra& tetrahedra) const
+  {
+    Shape shape;
+    for (const auto& tetrahedron : tetrahedra)
+    {
+      this->Add(this->Mesh.SineOf(tetrahedron), shape);
+    }
+    return shape;
+  }
+
+  /** Whether a change would be the best one so far: the worst gets no worse, and all together
+   *  better. */
+  bool IsBetter(const Shape& before, const Shape& after) const
+  {
+    return after.Worst >= before.Worst && before.Shortfall - after.Shortfall > this->Best.Gain;
+  }
+  /** Begins the best change so far. */
+  Change& Take(Change::Kinds kind, const Shape& before, const Shape& after)
+  {
+    this->Best = Change();
+    this->Best.Kind = kind;
+    this->Best.Gain = before.Shortfall - after.Shortfall;
+    return this->Best;
+  }
+
+  //--- Moves ------------------------------------------------------------------
+
+  void TryToMove(std::uint32_t point)
+  {
+    if (this->Mesh.Mesh().Surfaces[point] != 0)
+    {
+      return;
+    }
+    PointStar star;
+    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
+    {
+      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
+    }
+    const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
+    const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
+      this->Options.Axes, this->Wanted);
+    Shape after;
+    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
+    if (this->IsBetter(before, after))
+    {
+      Change& move = this->Take(Change::Move, before, after);
+      move.Point = point;
+      move.Place = best.Place;
+    }
+  }
+
+  //--- Edges that shrink ------------------------------------------------------
+
+  void TryToCollapse(std::uint32_t from, std::uint32_t to)
+  {
+    const Shape before = this->ShapeOf(this->Mesh.StarOf(from));
+    Shape after;
+    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(from))
+    {
+      Corners corners = this->Mesh.CornersOf(tetrahedron);
+      if (!Has(corners, to))
+      {
+        std::replace(corners.begin(), corners.end(), from, to);
+        this->Add(this->Mesh.SineOf(corners), after);
+        if (!this->IsBetter(before, after))
+        {
+          return;
+        }
+      }
+    }
+    if (this->IsBetter(before, after) && this->Mesh.CanCollapse(from, to) &&
+      StaysNear(this->Mesh, from, to, this->Options.SurfaceMove))
+    {
+      Change& collapse = this->Take(Change::Collapse, before, after);
+      collapse.Point = from;
+      collapse.Other = to;
+    }
+  }
+
+  //--- Edges and faces that go ------------------------------------------------
+
+  void TryToRemoveEdge(std::uint32_t a, std::uint32_t b)
+  {
+    LocalMesh::Ring ring;
+    if (!this->Mesh.FindRing(a, b, MostAround, ring) || ring.Points.size() < 3 ||
+      (!ring.IsClosed && !CanTurn(this->Mesh, a, b, ring, this->Options.SurfaceMove)))
+    {
+      return;
+    }
+    const Shape before = this->ShapeOf(ring.Tetrahedra);
+    std::vector<Corners> fresh;
+    FillRing(this->Mesh, a, b, ring.Points, fresh);
+    const Shape after = this->ShapeOf(fresh);
+    if (this->IsBetter(before, after) && this->AreNew(ring, fresh))
+    {
+      Change& replace = this->Take(Change::Replace, before, after);
+      replace.Old = ring.Tetrahedra;
+      replace.Fresh = std::move(fresh);
+    }
+  }
+
+  /** Whether edges, and a lone triangle, between points around an edge are not in the mesh yet, and
+   *  everybody can tell what is on a surface. */
+  bool AreNew(const LocalMesh::Ring& ring, const std::vector<Corners>& fresh) const
+  {
+    const std::vector<std::uint32_t>& points = ring.Points;
+    if (std::any_of(fresh.begin(), fresh.end(),
+          [&](const Corners& corners) { return this->Mesh.IsAmbiguous(corners); }))
+    {
+      return false;
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      for (std::size_t j = i + 2; j < points.size(); ++j)
+      {
+        const bool isSide = ring.IsClosed && i == 0 && j + 1 == points.size();
+        const bool isUsed = std::any_of(fresh.begin(), fresh.end(),
+          [&](const Corners& corners)
+          { return Has(corners, points[i]) && Has(corners, points[j]); });
+        if (!isSide && isUsed && this->Mesh.HasEdge(points[i], points[j]))
+        {
+          return false;
+        }
+      }
+    }
+    return points.size() > 3 || this->Mesh.CountAt(points[0], points[1], points[2]) == 0;
+  }
+
+  /** Two tetrahedra on both sides of the face opposite to a point become three. */
+  void TryToRemoveFace(std::uint32_t tetrahedron, std::uint32_t apex)
+  {
+    const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+    Face face = Without(corners, apex);
+    const LocalMesh::Star star = this->Mesh.StarOf(face[0]);
+    const auto other = std::find_if(star.begin(), star.end(),
+      [&](std::uint32_t candidate)
+      {
+        const Corners& points = this->Mesh.CornersOf(candidate);
+        return candidate != tetrahedron && Has(points, face[1]) && Has(points, face[2]);
+      });
+    if (other == star.end())
+    {
+      return;
+    }
+    const Corners& beyond = this->Mesh.CornersOf(*other);
+    const std::uint32_t far = *std::find_if(beyond.begin(), beyond.end(),
+      [&](std::uint32_t corner)
+      { return std::find(face.begin(), face.end(), corner) == face.end(); });
+    if (SixVolumes(this->Mesh.At(face[0]), this->Mesh.At(face[1]), this->Mesh.At(face[2]),
+          this->Mesh.At(apex)) < 0.0)
+    {
+      std::swap(face[1], face[2]);
+    }
+    std::vector<Corners> fresh = { { far, apex, face[0], face[1] }, { far, apex, face[1], face[2] },
+      { far, apex, face[2], face[0] } };
+    std::vector<std::uint32_t> old = { tetrahedron, *other };
+    const Shape before = this->ShapeOf(old);
+    const Shape after = this->ShapeOf(fresh);
+    if (this->IsBetter(before, after) && !this->Mesh.HasEdge(apex, far))
+    {
+      Change& replace = this->Take(Change::Replace, before, after);
+      replace.Old = std::move(old);
+      replace.Fresh = std::move(fresh);
+    }
+  }
+
+  //--- New points -------------------------------------------------------------
+
+  /** Puts a point into the middle of an edge, inside or in a wall, and moves it. */
+  void TryToSplit(std::uint32_t a, std::uint32_t b)
+  {
+    LocalMesh::Ring ring;
+    if (!this->Mesh.FindRing(a, b, MostAround, ring))
+    {
+      return;
+    }
+    int place = 0;
+    if (!ring.IsClosed)
+    {
+      place = this->Mesh.PlaceOfFace(a, b, ring.Points.front());
+      if (place == 0 || place >= Walls::Fixed ||
+        place != this->Mesh.PlaceOfFace(a, b, ring.Points.back()))
+      {
+        return;
+      }
+    }
+    PointStar star;
+    std::vector<Corners> fresh;
+    for (const std::uint32_t tetrahedron : ring.Tetrahedra)
+    {
+      for (const std::uint32_t end : { a, b })
+      {
+        Corners corners = this->Mesh.CornersOf(tetrahedron);
+        star.Add(this->Mesh.Mesh(), corners, end);
+        std::replace(corners.begin(), corners.end(), end, Change::NewPoint);
+        fresh.push_back(corners);
+      }
+    }
+    const auto walls = static_cast<Walls::Type>(place);
+    const PlacedPoint best = BestPlace(
+      star, 0.5 * (this->Mesh.At(a) + this->Mesh.At(b)), walls, this->Options.Axes, this->Wanted);
+    const Shape before = this->ShapeOf(ring.Tetrahedra);
+    Shape after;
+    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
+    if (this->IsBetter(before, after))
+    {
+      Change& split = this->Take(Change::Split, before, after);
+      split.Point = a;
+      split.Other = b;
+      split.Place = best.Place;
+      split.OnWalls = walls;
+      split.Old = ring.Tetrahedra;
+      split.Fresh = std::move(fresh);
+    }
+  }
+
+  //--- Points on surfaces -----------------------------------------------------
+
+  void TryToShift(std::uint32_t point)
+  {
+    const std::uint32_t source = this->Mesh.SourceOf(point); // where the surface is
+    if (this->Mesh.Mesh().Surfaces[point] == 0 || source >= this->Options.Beyond.size())
+    {
+      return;
+    }
+    const CutEdgeEnd& beyond = this->Options.Beyond[source];
+    PointStar star;
+    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
+    {
+      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
+    }
+    const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
+    const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
+      this->Options.Axes, this->Wanted,
+      { this->Mesh.At(source), std::min(this->Options.SurfaceMove, 0.5 * beyond.Half) });
+    Shape after;
+    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
+    if (this->IsBetter(before, after) && CanShift(this->Mesh, point, best.Place, beyond))
+    {
+      Change& shift = this->Take(Change::Shift, before, after);
+      shift.Point = point;
+      shift.Place = best.Place;
+    }
+  }
+
+  const LocalMesh& Mesh;
+  const ImprovementOptions& Options;
+  double Wanted; ///< sine
+  Change Best;
+};
+
+}
+
+double WantedSine(const ImprovementOptions& options)
+{
+  return std::sin(options.WantedAngle / DegreesOfRadian);
+}
+
+Change BestChange(
+  const LocalMesh& mesh, const ImprovementOptions& options, std::uint32_t tetrahedron)
+{
+  return ChangeSearch(mesh, options).Find(tetrahedron);
+}
+
+}
