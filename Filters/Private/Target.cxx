@@ -135,6 +135,14 @@ CountedTolerance LeastToleranceBelow(
     above /= step;
     tried = at(above);
   }
+  if (tried.Cells <= target)
+  {
+    tried = at(0.0); // triangles for simulations do not get more from some tolerance on
+    if (tried.Cells <= target)
+    {
+      return tried;
+    }
+  }
   for (int i = 0; i < bisections; ++i)
   {
     tried = at(std::sqrt(above * below.Tolerance));

@@ -18,7 +18,7 @@ namespace test
 {
 
 Stuffed::Stuffed(const IsodiamondHierarchy& hierarchy, const Query& query,
-  const GridGeometry& world, const HiddenCells* hidden)
+  const GridGeometry& world, const HiddenCells* hidden, const ParallelFor& parallelFor)
   : Plain(ExtractVolume(hierarchy, query))
 {
   const RefinedSet refined(hierarchy, query, SerialFor);
@@ -32,9 +32,9 @@ Stuffed::Stuffed(const IsodiamondHierarchy& hierarchy, const Query& query,
   const std::vector<Vector> vertices = VerticesInWorld(leaves, world);
   this->SurfaceMove = std::max(0.25 * world.SmallestStep(), 0.5 * query.Tolerance);
   this->LeafCount = leaves.Tetrahedra.size();
-  this->Mesh =
-    Stuff({ leaves, vertices, points, world, hierarchy.SampleGrid(), this->SurfaceMove }, SerialFor)
-      .Mesh;
+  this->Mesh = Stuff(
+    { leaves, vertices, points, world, hierarchy.SampleGrid(), this->SurfaceMove }, parallelFor)
+                 .Mesh;
 }
 
 TetrahedronMesh Stuffed::PlainMesh() const

@@ -28,7 +28,8 @@ struct Stuffed
 
   Stuffed(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond::Query& query,
     const isodiamond::GridGeometry& world = isodiamond::AffineMap(),
-    const isodiamond::HiddenCells* hidden = nullptr);
+    const isodiamond::HiddenCells* hidden = nullptr,
+    const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
 
   /** The volume's mesh of the same points; all tetrahedra are of the first leaf, so that one
    *  allowance goes for all. */

@@ -79,6 +79,11 @@ TEST(Stuffing, KeepsConformityTopologyAndPointsOfRandomFields)
         for (std::size_t j = 0; j < volume.Points.size(); ++j)
         {
           EXPECT_TRUE(volume.Surfaces[j] == 0 || points.count(volume.Points[j]) == 1);
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            EXPECT_GE(volume.Points[j][axis], -1e-9);
+            EXPECT_LE(volume.Points[j][axis], samples.Dimensions[axis] - 1 + 1e-9);
+          }
         }
         moved += stuffed.Mesh.Tetrahedra.size() < stuffed.Plain.Tetrahedra.size() ? 1 : 0;
         blended += stuffed.Mesh.Blended.size();
@@ -118,6 +123,12 @@ namespace
 double Length(const Vector& way)
 {
   return std::sqrt(Dot(way, way));
+}
+
+/** In degrees. */
+double AngleBetween(const Vector& a, const Vector& b)
+{
+  return DegreesOfRadian * std::acos(std::min(1.0, Dot(a, b) / (Length(a) * Length(b))));
 }
 
 /** The ends of the edge of full resolution that a point is on: below and above. */
@@ -161,15 +172,17 @@ TEST(Stuffing, LeavesFewBadTetrahedraInNoise)
     const test::Stuffed stuffed(*built.Hierarchy, Query{});
     bad += stuffed.CountBad();
     all += stuffed.Mesh.Tetrahedra.size();
-    // Away from the end below of the edge, or as far as its middle.
+    // Beside its edge, away from the end below or as far as the middle.
     for (const BlendedPoint& point : stuffed.Shifted())
     {
       ++shifts;
       const Vector from = stuffed.Plain.Points[point.Shares.at(0).Point];
-      const std::array<Vector, 2> ends = EdgeAt(field, from);
+      const auto [below, above] = EdgeAt(field, from);
       const Vector& to = stuffed.Mesh.Positions[point.Point];
-      EXPECT_GE(Length(to - ends[0]),
-        std::min(Length(from - ends[0]), 0.5 * Length(ends[1] - ends[0])) - 1e-9);
+      const double way = Dot(to - below, above - below) / Length(above - below);
+      EXPECT_GE(way, std::min(Length(from - below), 0.5 * Length(above - below)) - 1e-9);
+      EXPECT_LE(AngleBetween(to - below, above - below), 17.0);
+      EXPECT_LE(AngleBetween(to - above, below - above), 17.0);
     }
   }
   EXPECT_GT(shifts, 100U); // 187: only where nothing else helps
@@ -238,6 +251,17 @@ TEST(Stuffing, BlendsAttributesAsPositions)
       EXPECT_NEAR(sum[axis], stuffed.Mesh.Positions[blended.Point][axis], near);
     }
   }
+}
+
+// In noise there is much to be improved.
+TEST(Improvement, DoesNotDependOnThreads)
+{
+  const test::Built built = test::BuildVolume(test::NoiseField({ 9, 9, 9 }, 5), { 3.7, HUGE_VAL });
+  const test::Stuffed one(*built.Hierarchy, Query{});
+  const test::Stuffed three(*built.Hierarchy, Query{}, AffineMap(), nullptr, test::ThreadedFor(3));
+  EXPECT_TRUE(one.Mesh.Tetrahedra == three.Mesh.Tetrahedra);
+  EXPECT_TRUE(one.Mesh.Positions == three.Mesh.Positions);
+  EXPECT_FALSE(one.Mesh.Blended.empty());
 }
 
 // Where the surface hugs a wall the nearest isovertex is off the wall, but another one is on it.

@@ -278,11 +278,12 @@ TEST(BestPlace, StaysWithinReach)
     const TetrahedronMesh mesh = Octahedron(random);
     PointStar star = StarOf(mesh, 0);
     const Vector from = mesh.Positions[0];
-    const Reach reach{ from + Vector{ 0.03, 0.0, 0.0 }, 0.1 };
+    const auto length = [&](const Vector& place)
+    { return std::sqrt(Dot(place - from, place - from)); };
+    const Reach reach{ 0.05, [&](const Vector& place) { return length(place) <= 0.1; } };
     const PlacedPoint best = BestPlace(star, from, 0, UnitAxes, 1.0, reach);
-    const Vector way = best.Place - reach.Centre;
-    EXPECT_LE(std::sqrt(Dot(way, way)), 0.1);
-    farthest = std::max(farthest, std::sqrt(Dot(way, way)));
+    EXPECT_LE(length(best.Place), 0.1);
+    farthest = std::max(farthest, length(best.Place));
   }
   EXPECT_GT(farthest, 0.09);
 }
@@ -313,20 +314,31 @@ TEST(SurfaceChanges, StayNearByTheHeightOfWhatGoes)
   }
 }
 
-TEST(SurfaceChanges, ShiftPointsAwayFromWhatIsBeyondOrToTheMiddle)
+TEST(SurfaceChanges, ShiftPointsInASpindleAwayFromWhatIsBeyondOrToTheMiddle)
+{
+  const CutSide edge{ { 1.0, 2.0, 0.0 }, { 1.0, 2.0, 2.0 } };
+  const auto canBe = [&](double before, double aside, double after) {
+    return IsBeside(edge, { 1.0, 2.0, before }, { 1.0 + aside, 2.0, after });
+  };
+  EXPECT_TRUE(canBe(0.1, 0.0, 0.99)); // near to the end inside: to the middle
+  EXPECT_FALSE(canBe(0.1, 0.0, 1.01));
+  EXPECT_FALSE(canBe(0.1, 0.0, -0.01));
+  EXPECT_TRUE(canBe(1.9, 0.0, 1.85)); // near to the end beyond: away from there
+  EXPECT_FALSE(canBe(1.9, 0.0, 1.91));
+  EXPECT_FALSE(canBe(2.0, 0.0, 2.01));
+  EXPECT_TRUE(canBe(1.0, 0.29, 1.0)); // to the side, by 0.3 of the nearer end's distance
+  EXPECT_FALSE(canBe(1.0, 0.31, 1.0));
+  EXPECT_TRUE(canBe(0.5, 0.14, 0.5));
+  EXPECT_FALSE(canBe(0.5, 0.16, 0.5));
+  EXPECT_FALSE(canBe(1.9, 0.04, 1.9));
+}
+
+// To the side as far as no triangle is folded.
+TEST(SurfaceChanges, ShiftNoPointOverTheRim)
 {
   const LocalMesh tent(Tent(0.1));
-  const auto canBe = [&](double z, double end, double half) {
-    return CanShift(tent, 0, { 0.0, 0.0, z }, { { 0.0, 0.0, end }, half });
-  };
-  EXPECT_TRUE(canBe(2.45, 5.0, 2.5)); // of an edge from 0 to 5 near to the end inside
-  EXPECT_FALSE(canBe(2.55, 5.0, 2.5));
-  EXPECT_TRUE(canBe(0.05, 0.3, 1.0)); // near to the end beyond
-  EXPECT_FALSE(canBe(0.11, 0.3, 1.0));
-  // To the side as far as no triangle is folded.
-  const CutEdgeEnd above{ { 0.0, 0.0, 5.0 }, 2.5 };
-  EXPECT_TRUE(CanShift(tent, 0, { 0.5, 0.0, 0.1 }, above));
-  EXPECT_FALSE(CanShift(tent, 0, { 1.2, 0.0, 0.1 }, above));
+  EXPECT_TRUE(CanShift(tent, 0, { 0.5, 0.0, 0.1 }));
+  EXPECT_FALSE(CanShift(tent, 0, { 1.2, 0.0, 0.1 }));
 }
 
 // A corner of the rim is pulled in: from beside it a triangle would be turned over.
@@ -461,14 +473,14 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
   flat.Surfaces[0] = 1;
   ImprovementOptions options;
   options.Axes = UnitAxes;
-  const auto improve = [&](double move, const CutEdgeEnd& beyond)
+  const auto improve = [&](double move, const CutSide& edge)
   {
     options.SurfaceMove = move;
-    options.Beyond = { beyond, {}, {}, {} };
+    options.CutEdges = { edge, {}, {}, {} };
     return Improve(flat, options, SerialFor);
   };
-  const CutEdgeEnd below{ { 0.0, 0.0, -0.2 }, 0.5 };
-  const TetrahedronMesh round = improve(0.2, below);
+  const CutSide rising{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+  const TetrahedronMesh round = improve(0.2, rising);
   EXPECT_GE(DihedralAngles(round)[0], options.WantedAngle);
   ASSERT_EQ(round.Blended.size(), 1U);
   EXPECT_EQ(round.Blended[0].Point, 4U);
@@ -477,16 +489,17 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
   EXPECT_EQ(round.Positions[0], flat.Positions[0]); // where the surface was
   EXPECT_TRUE(Has(round.Tetrahedra.at(0), 4) && !Has(round.Tetrahedra[0], 0));
 
-  // No farther than it may, at once or in steps, nor than half of what half of its edge is.
-  for (const auto& [move, half] : { std::pair(0.04, 0.5), std::pair(0.2, 0.08) })
+  // No farther than it may, at once or in steps, nor than a quarter of its edge.
+  for (const auto& [move, length] : { std::pair(0.04, 1.0), std::pair(0.2, 0.16) })
   {
-    const TetrahedronMesh better = improve(move, { below.Position, half });
+    const TetrahedronMesh better =
+      improve(move, { { 0.0, 0.0, 0.04 }, { 0.0, 0.0, 0.04 + length } });
     EXPECT_GT(DihedralAngles(better)[0], DihedralAngles(flat)[0]);
     EXPECT_LE(better.Positions.back()[2], 0.09 + 1e-12);
   }
   // Not towards what is beyond, and not where nobody knows.
-  EXPECT_EQ(improve(0.2, { { 0.0, 0.0, 0.3 }, 0.5 }).Positions.size(), 4U);
-  options.Beyond.clear();
+  EXPECT_EQ(improve(0.2, { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.06 } }).Positions.size(), 4U);
+  options.CutEdges.clear();
   EXPECT_EQ(Improve(flat, options, SerialFor).Positions.size(), 4U);
 }
 

@@ -466,6 +466,14 @@ TEST(SimulationQuality, OfSurfacesLeavesFewSmallAngles)
       std::max(withSimplifyAlone, ShareOfSmallAngles(extractor->GetPolyDataOutput()));
   }
   EXPECT_GT(withSimplifyAlone, 0.1);
+  // A target that the mesh of tolerance 0 meets.
+  contour->SetErrorTolerance(0.0);
+  contour->Update();
+  const vtkIdType finest = contour->GetOutput()->GetNumberOfCells();
+  contour->SetTargetNumberOfTriangles(2 * finest);
+  contour->Update();
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), finest);
+  EXPECT_EQ(contour->GetAchievedTolerance(), 0.0);
   EXPECT_EQ(contour->GetSmallestDihedralAngle(), 0.0);
 }
 

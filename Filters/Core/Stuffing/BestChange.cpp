@@ -18,6 +18,8 @@ namespace
 constexpr double LeastGain = 0.01;
 /** Tetrahedra with less than this part of the wanted sine are all equally bad. */
 constexpr double WorstPart = 0.01;
+/** How far a point on a surface may move, as a part of its edge. */
+constexpr double MostOfEdge = 0.25;
 class ChangeSearch
 {
 public:
@@ -317,11 +319,18 @@ private:
   void TryToShift(std::uint32_t point)
   {
     const std::uint32_t source = this->Mesh.SourceOf(point); // where the surface is
-    if (this->Mesh.Mesh().Surfaces[point] == 0 || source >= this->Options.Beyond.size())
+    if (this->Mesh.Mesh().Surfaces[point] == 0 || source >= this->Options.CutEdges.size())
     {
       return;
     }
-    const CutEdgeEnd& beyond = this->Options.Beyond[source];
+    const CutSide& edge = this->Options.CutEdges[source];
+    const Vector& from = this->Mesh.At(source);
+    const Vector along = edge.Beyond - edge.Inside;
+    const double most =
+      std::min(this->Options.SurfaceMove, MostOfEdge * std::sqrt(Dot(along, along)));
+    const Reach reach{ 0.5 * most,
+      [&](const Vector& place)
+      { return Dot(place - from, place - from) <= most * most && IsBeside(edge, from, place); } };
     PointStar star;
     for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
     {
@@ -329,11 +338,10 @@ private:
     }
     const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
-      this->Options.Axes, this->Wanted,
-      { this->Mesh.At(source), std::min(this->Options.SurfaceMove, 0.5 * beyond.Half) });
+      this->Options.Axes, this->Wanted, reach);
     Shape after;
     star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
-    if (this->IsBetter(before, after) && CanShift(this->Mesh, point, best.Place, beyond))
+    if (this->IsBetter(before, after) && CanShift(this->Mesh, point, best.Place))
     {
       Change& shift = this->Take(Change::Shift, before, after);
       shift.Point = point;

@@ -42,8 +42,7 @@ PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
   PlacedPoint best{ from, star.WorstAt(from, -1.0) };
   const auto tryAt = [&](const Vector& place)
   {
-    const Vector way = place - reach.Centre;
-    if (Dot(way, way) > reach.Radius * reach.Radius)
+    if (reach.Allows && !reach.Allows(place))
     {
       return false;
     }
@@ -60,7 +59,7 @@ PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
     tryAt(star.Mean());
   }
   const std::vector<Vector> directions = Directions(walls, axes);
-  double step = std::isfinite(reach.Radius) ? 0.5 * reach.Radius : FirstStep * star.Radius(from);
+  double step = reach.FirstStep > 0.0 ? reach.FirstStep : FirstStep * star.Radius(from);
   for (int size = 0; size < StepSizes && best.Sine < wanted; ++size, step *= 0.5)
   {
     bool goesOn = true;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace isodiamond
@@ -88,16 +89,16 @@ struct PlacedPoint
   double Sine = 0.0;
 };
 
-/** A ball. */
+/** Where a place may be. */
 struct Reach
 {
-  Vector Centre{};
-  double Radius = HUGE_VAL;
+  double FirstStep = 0.0; ///< 0: by the distance to the nearest point
+  std::function<bool(const Vector& place)> Allows = nullptr; ///< null for all
 };
 
 /** Looks for a better place for a point, until all around it is as wanted: first in the middle of
  *  its star, then in steps that get smaller.
- *  @param walls that it stays on @param reach where it may be */
+ *  @param walls that it stays on */
 PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
   const std::array<Vector, 3>& axes, double wanted, const Reach& reach = {});
 

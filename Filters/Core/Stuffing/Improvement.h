@@ -19,7 +19,7 @@ struct ImprovementOptions
   double SurfaceMove = 0.0;
   /** By point: of the edge that a surface cuts there. Points on surfaces move only if these are
    *  known. */
-  std::vector<CutEdgeEnd> Beyond = {};
+  std::vector<CutSide> CutEdges = {};
   /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
   std::array<Vector, 3> Axes{};
 };

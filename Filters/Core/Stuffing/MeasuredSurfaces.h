@@ -20,8 +20,8 @@ Surfaces SurfacesOf(const TetrahedronMesh& mesh);
 /**
  * The surfaces of a volume's mesh, and of what was made of it, to be compared.
  *
- * The second one has some points of the first; samples of the first are over the triangle of the
- * second that is nearest, as far as walking over the surface tells.
+ * The second one has some points of the first, and a few of its own; samples of the first are over
+ * the triangle of the second that is nearest, as far as walking over the surface tells.
  */
 struct MeasuredSurfaces
 {

@@ -44,9 +44,9 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
 }
 
 /** By point, of isovertices. */
-std::vector<CutEdgeEnd> EndsBeyond(const Background& background)
+std::vector<CutSide> CutEdgesOf(const Background& background)
 {
-  std::vector<CutEdgeEnd> ends(background.AllPoints().size());
+  std::vector<CutSide> edges(background.AllPoints().size());
   for (std::uint32_t i = 0; i < background.Leaves().Tetrahedra.size(); ++i)
   {
     const CutMesh::Tetrahedron& leaf = background.Leaves().Tetrahedra[i];
@@ -63,14 +63,14 @@ std::vector<CutEdgeEnd> EndsBeyond(const Background& background)
           {
             const Vector& young = background.PositionOf(leaf.Vertices[younger]);
             const Vector& old = background.PositionOf(leaf.Vertices[older]);
-            ends[cuts[surface]] = { isRising == (surface == 0) ? young : old,
-              0.5 * std::sqrt(Dot(young - old, young - old)) };
+            edges[cuts[surface]] =
+              isRising == (surface == 0) ? CutSide{ old, young } : CutSide{ young, old };
           }
         }
       }
     }
   }
-  return ends;
+  return edges;
 }
 
 }
@@ -89,7 +89,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;
   options.Axes = AxesOf(input.World);
-  options.Beyond = EndsBeyond(background);
+  options.CutEdges = CutEdgesOf(background);
   MovedVertices vertices(background);
   const TetrahedronMesh plain =
     input.Allowances.empty() ? TetrahedronMesh() : vertices.Cut(parallelFor);

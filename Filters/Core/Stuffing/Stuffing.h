@@ -33,10 +33,10 @@ struct StuffingInput
  *
  * Vertices that are near to a surface move onto it before the leaves are cut (MovedVertices.h);
  * then the few tetrahedra that are still bad are improved one by one (Improvement.h). Points are
- * some of those that the volume's mesh has otherwise, all that are on a surface where they were; a
- * few inside are moved or added. Tetrahedra are positive and conform; surfaces have the topology
- * that they had. What is wanted of the angles, 15 to 165 degrees, is no promise: where a surface
- * nearly touches itself some are left that are worse.
+ * some of those that the volume's mesh has otherwise; a few inside are moved or added, and fewer
+ * still on surfaces move off these, by a quarter of their edge at most. Tetrahedra are positive and
+ * conform; surfaces have the topology that they had. What is wanted of the angles, 15 to 165
+ * degrees, is no promise: where a surface nearly touches itself some are left that are worse.
  *
  * If there are allowances the surfaces are measured; it is for the caller to refine where they are
  * too far away. If they are not, the mesh is made coarser, as far as allowed (Coarsening.h).

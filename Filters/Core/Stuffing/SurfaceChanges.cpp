@@ -14,6 +14,10 @@ namespace
 /** The least cosine between the normals of a surface's triangles whose common edge is turned. */
 constexpr double LeastCosine = 0.5;
 
+/** Two edges at a vertex of the lattice have at least 35.26 degrees between them; the tangent of
+ *  less than half of that. */
+constexpr double SpindleSlope = 0.3;
+
 Vector NormalOf(const std::array<Vector, 3>& corners)
 {
   return Cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -93,15 +97,20 @@ bool CanTurn(const LocalMesh& mesh, std::uint32_t a, std::uint32_t b, const Loca
     Dot(first, second) > LeastCosine * std::sqrt(Dot(first, first) * Dot(second, second));
 }
 
-bool CanShift(
-  const LocalMesh& mesh, std::uint32_t point, const Vector& to, const CutEdgeEnd& beyond)
+bool IsBeside(const CutSide& edge, const Vector& from, const Vector& to)
 {
-  const Vector before = mesh.At(point) - beyond.Position;
-  const Vector after = to - beyond.Position;
-  if (Dot(after, after) < std::min(Dot(before, before), beyond.Half * beyond.Half))
-  {
-    return false;
-  }
+  const Vector along = edge.Beyond - edge.Inside;
+  const double squared = Dot(along, along);
+  const double before = Dot(from - edge.Inside, along) / squared;
+  const double after = Dot(to - edge.Inside, along) / squared;
+  const Vector aside = to - edge.Inside - after * along;
+  const double widest = SpindleSlope * std::min(after, 1.0 - after);
+  return widest >= 0.0 && after <= std::max(before, 0.5) &&
+    Dot(aside, aside) <= widest * widest * squared;
+}
+
+bool CanShift(const LocalMesh& mesh, std::uint32_t point, const Vector& to)
+{
   for (const std::uint32_t tetrahedron : mesh.StarOf(point))
   {
     const Face others = Without(mesh.CornersOf(tetrahedron), point);

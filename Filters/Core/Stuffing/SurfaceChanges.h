@@ -18,18 +18,22 @@ bool StaysNear(const LocalMesh& mesh, std::uint32_t from, std::uint32_t to, doub
 bool CanTurn(const LocalMesh& mesh, std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring,
   double distance);
 
-/** The end beyond the surface of an edge that it cuts. */
-struct CutEdgeEnd
+/** An edge that a surface cuts. */
+struct CutSide
 {
-  Vector Position{};
-  double Half = 0.0; ///< of the edge's length
+  Vector Inside{}; ///< the end on the volume's side
+  Vector Beyond{};
 };
 
-/** Whether a point on a surface can be elsewhere: no triangle of the boundary around it is folded,
- *  and it comes no nearer to the end of its edge than it is, or than half of the edge: another
- * sheet might come as near from beyond. */
-bool CanShift(
-  const LocalMesh& mesh, std::uint32_t point, const Vector& to, const CutEdgeEnd& beyond);
+/** Where an isovertex may be beside its place on an edge: in a spindle around that, which meets
+ *  those of the lattice's other edges, and the grid's boundary, at its ends only, so that sheets
+ *  keep apart; and no nearer to the end beyond than it is, or than the middle. Where spacings
+ *  differ spindles may overlap. */
+bool IsBeside(const CutSide& edge, const Vector& from, const Vector& to);
+
+/** Whether a point on a surface can be elsewhere: no triangle of the boundary around it is folded.
+ */
+bool CanShift(const LocalMesh& mesh, std::uint32_t point, const Vector& to);
 
 }
 
