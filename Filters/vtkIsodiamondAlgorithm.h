@@ -74,9 +74,8 @@ public:
    *
    * Triangles of an isosurface: it is simplified as by Simplify, with the same promise, but no new
    * triangle has an angle below 15 degrees, unless one that it replaces had a smaller one. Where
-   * the tolerance leaves no room some of these stay. What is
-   * simplified may always get a quarter of the smallest spacing away, even if the tolerance is
-   * less, or 0. Needs the distance metric.
+   * the tolerance leaves no room some of these stay. The mesh may always get a quarter of the
+   * smallest spacing away, even if the tolerance is less, or 0. Needs the distance metric.
    */
   vtkSetMacro(SimulationQuality, bool);
   vtkGetMacro(SimulationQuality, bool);

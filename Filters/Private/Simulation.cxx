@@ -20,10 +20,6 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   const MeshOptions& options, Task& task)
 {
   const isodiamond::IsodiamondHierarchy& hierarchy = refined.Hierarchy();
-  if (!hierarchy.Region().IsVolume())
-  {
-    throw std::invalid_argument("SimulationQuality is for interval volumes, not for isosurfaces.");
-  }
   const Measure measure(hierarchy);
   MeshOptions asked = options;
   asked.ForSimulation = true;

@@ -18,7 +18,6 @@ namespace vtkIsodiamond
  * again; cells of full resolution stay as they are.
  *
  * @param query that the refined set is of
- * @throws std::invalid_argument of an isosurface
  */
 Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuery& query,
   const MeshOptions& options, Task& task);

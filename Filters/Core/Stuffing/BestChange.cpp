@@ -20,6 +20,8 @@ constexpr double LeastGain = 0.01;
 constexpr double WorstPart = 0.01;
 /** How far a point on a surface may move, as a part of its edge. */
 constexpr double MostOfEdge = 0.25;
+
+/** Tries all changes around one tetrahedron after the other. */
 class ChangeSearch
 {
 public:
@@ -108,6 +110,23 @@ private:
     return shape;
   }
 
+  /** Of the tetrahedra of a star with its point at a place. */
+  Shape ShapeAt(const PointStar& star, const Vector& place) const
+  {
+    Shape shape;
+    star.ForEachSine(place, [&](double sine) { this->Add(sine, shape); });
+    return shape;
+  }
+  PointStar FacesAround(std::uint32_t point) const
+  {
+    PointStar star;
+    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
+    {
+      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
+    }
+    return star;
+  }
+
   /** Whether a change would be the best one so far: the worst gets no worse, and all together
    *  better. */
   bool IsBetter(const Shape& before, const Shape& after) const
@@ -131,16 +150,11 @@ private:
     {
       return;
     }
-    PointStar star;
-    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
-    {
-      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
-    }
+    PointStar star = this->FacesAround(point);
     const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Wanted);
-    Shape after;
-    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
+    const Shape after = this->ShapeAt(star, best.Place);
     if (this->IsBetter(before, after))
     {
       Change& move = this->Take(Change::Move, before, after);
@@ -300,8 +314,7 @@ private:
     const PlacedPoint best = BestPlace(
       star, 0.5 * (this->Mesh.At(a) + this->Mesh.At(b)), walls, this->Options.Axes, this->Wanted);
     const Shape before = this->ShapeOf(ring.Tetrahedra);
-    Shape after;
-    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
+    const Shape after = this->ShapeAt(star, best.Place);
     if (this->IsBetter(before, after))
     {
       Change& split = this->Take(Change::Split, before, after);
@@ -331,16 +344,11 @@ private:
     const Reach reach{ 0.5 * most,
       [&](const Vector& place)
       { return Dot(place - from, place - from) <= most * most && IsBeside(edge, from, place); } };
-    PointStar star;
-    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
-    {
-      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
-    }
+    PointStar star = this->FacesAround(point);
     const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Wanted, reach);
-    Shape after;
-    star.ForEachSine(best.Place, [&](double sine) { this->Add(sine, after); });
+    const Shape after = this->ShapeAt(star, best.Place);
     if (this->IsBetter(before, after) && CanShift(this->Mesh, point, best.Place))
     {
       Change& shift = this->Take(Change::Shift, before, after);

@@ -16,8 +16,8 @@ constexpr double NearPart = 0.25;
 /** Moves between two looks at whether to go on. */
 constexpr std::size_t MovesOfStep = 1024;
 
-/** Leaves that are worth a thread. */
-constexpr std::int64_t LeavesOfRange = 2048;
+/** So many vertices, or leaves, are worth a thread. */
+constexpr std::int64_t LeastRange = 2048;
 
 /** The least sine of a dihedral angle that a move may leave in a whole tetrahedron. */
 constexpr double LeastSine = 0.1;
@@ -47,7 +47,7 @@ MovedVertices::MovedVertices(const Background& background)
 void MovedVertices::MoveAll(const ParallelFor& parallelFor)
 {
   std::vector<Goal> goals(this->Mesh.VertexCount());
-  ForEachIndex(parallelFor, goals.size(), LeavesOfRange,
+  ForEachIndex(parallelFor, goals.size(), LeastRange,
     [&](std::int64_t vertex)
     { goals[vertex] = this->NearestTo(static_cast<std::uint32_t>(vertex)); });
   goals.erase(std::remove_if(goals.begin(), goals.end(),
@@ -292,7 +292,7 @@ TetrahedronMesh MovedVertices::Cut(const ParallelFor& parallelFor) const
   TetrahedronMesh mesh = this->PlacedPoints();
   const auto count = static_cast<std::uint32_t>(this->Mesh.Leaves().Tetrahedra.size());
   std::vector<std::uint8_t> best(count);
-  ForEachIndex(parallelFor, count, LeavesOfRange,
+  ForEachIndex(parallelFor, count, LeastRange,
     [&](std::int64_t i) { best[i] = this->BestPatch(static_cast<std::uint32_t>(i)); });
   for (std::uint32_t i = 0; i < count; ++i)
   {
