@@ -171,7 +171,7 @@ int vtkIsodiamondBuilder::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  return vtkIsodiamond::Execute(this, output,
+  return this->Plan->Execute(this, outputVector->GetInformationObject(0),
     [&](vtkIsodiamond::Task& task)
     {
       vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
@@ -191,9 +191,10 @@ void vtkIsodiamondBuilder::Build(
   vtkInformation* information = this->GetInputInformation(0, 0);
   const std::unique_ptr<vtkIsodiamond::Slabs> slabs =
     this->Plan->Open(information, [this](vtkDataSet* part) { return this->FindInputArray(part); });
+  const vtkSmartPointer<vtkDataObject> whole = this->Plan->TakeWhole(information);
   if (!slabs)
   {
-    vtkIsodiamond::CheckWhole(input, information, this->Piece);
+    vtkIsodiamond::CheckWhole(whole, information, this->Piece);
   }
   const bool isKnown = this->Built && this->BuiltOf == input && this->BuiltAt > input->GetMTime() &&
     this->BuiltAt > this->GetMTime();
@@ -221,7 +222,7 @@ void vtkIsodiamondBuilder::Build(
                       "parts of them do, for relevant and minimal hierarchies by the distance "
                       "metric, without a refined interior and without closing the boundary.");
     }
-    this->BuildFromImage(vtkImageData::SafeDownCast(input), task, output);
+    this->BuildFromImage(vtkImageData::SafeDownCast(whole), task, output);
   }
   this->Built = vtkSmartPointer<vtkIsodiamondHierarchy>::New();
   this->Built->ShallowCopy(output);

@@ -106,7 +106,7 @@ double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
 {
   double largest = 0.0;
   vtkSmartPointer<vtkDataObject> input = this->GetInput();
-  if (this->Plan->NumberOfSlabs() > 1)
+  if (this->Plan->IsAPart())
   {
     input = vtkIsodiamond::WholeImage(this->GetInputInformation(0, 0));
   }
@@ -173,13 +173,14 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
 {
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
   this->AchievedTolerance = 0.0;
-  return vtkIsodiamond::Execute(this, output,
+  return this->Plan->Execute(this, outputVector->GetInformationObject(0),
     [&](vtkIsodiamond::Task& task)
     {
       vtkIsodiamond::WorldQuery query = this->GetQuery();
       vtkIsodiamond::CheckTolerances(query);
       vtkInformation* input = inputVector[0]->GetInformationObject(0);
       vtkIsodiamond::InputArray array;
+      vtkSmartPointer<vtkDataObject> whole; // if it is there at once
       const std::unique_ptr<vtkIsodiamond::Slabs> slabs =
         this->Plan->Open(input, [this](vtkDataSet* part) { return this->FindInputArray(part); });
       vtkIsodiamond::Volume volume;
@@ -195,7 +196,8 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
                           "make parts of them do, by the distance metric, without an interior "
                           "tolerance and without closing the boundary.");
         }
-        vtkDataSet* grid = vtkDataSet::GetData(inputVector[0]);
+        whole = this->Plan->TakeWhole(input);
+        vtkDataSet* grid = vtkDataSet::SafeDownCast(whole);
         vtkIsodiamond::CheckWhole(grid, input, this->Piece);
         array = this->FindInputArray(grid);
         volume = vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
@@ -211,7 +213,8 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
           // Trimmed after an abortion or an error, too, or runs of these would fill the memory.
           const vtkIsodiamond::CacheTrimmer trimmer{ *this->Hierarchies,
             std::int64_t{ this->CacheSize } << 20 };
-          this->Hierarchies->Prepare(array.Array, volume, options);
+          isodiamond::InStep(slabs ? slabs->Together() : nullptr,
+            [&] { this->Hierarchies->Prepare(array.Array, volume, options); });
           double built = 0.0;
           if (slabs && slabs->Together())
           {

@@ -21,6 +21,9 @@ public:
 
   ControllerPeers();
 
+  /** For exchanges of arrays. */
+  vtkMultiProcessController* Processes() const { return this->Controller; }
+
   int Count() const override;
   int Rank() const override;
   void Or(std::uint8_t* bytes, std::int64_t count) override;

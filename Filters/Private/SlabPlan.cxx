@@ -5,6 +5,7 @@
 #include "Private/Piece.h"
 #include "Private/SlabRequest.h"
 #include "Private/Slabs.h"
+#include "Private/Task.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataArray.h"
@@ -53,23 +54,24 @@ double FreeMemory()
   return kibibyte * static_cast<double>(system.GetHostMemoryTotal() - system.GetHostMemoryUsed());
 }
 
-/** Into how many slabs the input is cut. @param peers how many processes share them, each at least
- *  one */
-int CountSlabs(vtkInformation* input, int asked, int peers)
+/** Slabs share slices: there is no point in thinner ones. */
+int MostSlabs(vtkInformation* input)
 {
-  const bool canBeCut = input && vtkImageData::GetData(input) &&
-    input->Has(Pipeline::WHOLE_EXTENT()) && MakesParts(input);
-  if (!canBeCut || asked == 1)
-  {
-    return 1;
-  }
-  // Slabs share slices: there is no point in thinner ones.
   constexpr int thinnest = 8;
-  const int most = std::max(WholeDimensionsOf(input)[2] / thinnest, 1);
-  if (peers > 1 && peers <= most)
-  {
-    return std::clamp(asked, peers, most); // free memory is another in each of them
-  }
+  return std::max(WholeDimensionsOf(input)[2] / thinnest, 1);
+}
+
+/** Into how many slabs the input of peers is cut: at least one for each, or none at all. */
+int CountShared(vtkInformation* input, int asked, int peers)
+{
+  const int most = MostSlabs(input);
+  // Free memory is another in each of them.
+  return asked != 1 && peers <= most ? std::clamp(asked, peers, most) : 1;
+}
+
+/** Into how many slabs the input of one process is cut. */
+int CountAlone(vtkInformation* input, int asked)
+{
   int count = asked;
   if (asked == 0)
   {
@@ -82,50 +84,94 @@ int CountSlabs(vtkInformation* input, int asked, int peers)
       ? 1
       : static_cast<int>(std::min(bytes / (partForSlab * std::max(memory, 1.0)), 1e6)) + 1;
   }
-  return std::clamp(count, 1, most);
+  return std::clamp(count, 1, MostSlabs(input));
 }
 
 }
 
 void SlabPlan::Request(vtkInformation* input, vtkInformation* output, bool canBeCut, int blocks)
 {
-  const int peers = ControllerPeers::CountOf(output);
-  this->Count = canBeCut ? CountSlabs(input, blocks, peers) : 1;
+  const bool isImage =
+    input && vtkImageData::GetData(input) && input->Has(Pipeline::WHOLE_EXTENT());
+  const int peers = isImage ? ControllerPeers::CountOf(output) : 1;
+  this->Peers.reset();
+  if (peers > 1)
+  {
+    this->Peers.emplace();
+  }
+  this->CanBeCut = canBeCut;
+  this->Blocks = blocks;
+  this->IsPeerWithout = false;
+  this->AreParts = false;
+  this->Gathered = nullptr;
+  this->Count = 1;
+  if (isImage && canBeCut && MakesParts(input))
+  {
+    this->Count = CountShared(input, blocks, peers);
+    if (this->Count < peers || peers == 1)
+    {
+      this->Count = CountAlone(input, blocks);
+    }
+  }
   this->IsShared = peers > 1 && this->Count >= peers;
   if (this->Count == 1)
   {
     RequestWhole(input);
     return;
   }
-  const ControllerPeers others;
-  RequestSlab(input, SlabAtHand(input, this->Count, this->IsShared ? &others : nullptr));
+  RequestSlab(input, SlabAtHand(input, this->Count, this->IsShared ? &*this->Peers : nullptr));
 }
 
 void SlabPlan::Note(vtkAlgorithm* filter, vtkInformation* request, int when)
 {
-  if (this->IsShared && when == vtkExecutive::AfterForward &&
+  if (this->Peers && when == vtkExecutive::AfterForward &&
     request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
-    this->IsPeerWithout = ControllerPeers().Any(!IsGiven(filter->GetInputInformation(0, 0)));
+    vtkInformation* input = filter->GetInputInformation(0, 0);
+    this->IsPeerWithout =
+      this->Peers->Any(vtkImageData::GetData(input)->GetNumberOfPoints() == 0);
+    this->AreParts = this->Peers->Any(!IsGiven(input));
   }
+}
+
+int SlabPlan::Execute(
+  vtkAlgorithm* filter, vtkInformation* output, const std::function<void(Task&)>& work)
+{
+  vtkDataObject* data = vtkDataObject::GetData(output);
+  const bool isDone = Succeeds(filter, data,
+    [&](Task& task)
+    {
+      if (this->IsPeerWithout)
+      {
+        throw std::runtime_error("Another process has got no part of the volume.");
+      }
+      isodiamond::InStep(this->Peers ? &*this->Peers : nullptr, [&] { work(task); });
+    });
+  if (this->Peers && !isDone)
+  {
+    data->ReleaseData();
+    output->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
+  }
+  return 1;
+}
+
+vtkSmartPointer<vtkDataObject> SlabPlan::TakeWhole(vtkInformation* input)
+{
+  vtkSmartPointer<vtkDataObject> whole = std::move(this->Gathered);
+  return whole ? whole : vtkSmartPointer<vtkDataObject>(vtkDataObject::GetData(input));
 }
 
 std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArray)
 {
+  if (this->AreParts)
+  {
+    return this->OpenParts(input, std::move(findArray));
+  }
   if (this->Count == 1)
   {
     return nullptr;
   }
-  std::optional<ControllerPeers> peers;
-  if (this->IsShared)
-  {
-    if (this->IsPeerWithout)
-    {
-      throw std::runtime_error("Another process has got no part of the volume.");
-    }
-    peers.emplace();
-  }
-  isodiamond::Peers* const others = peers ? &*peers : nullptr;
+  isodiamond::Peers* const others = this->IsShared ? &*this->Peers : nullptr;
   bool isHidden = false;
   isodiamond::InStep(
     others, [&] { isHidden = HiddenCellsOf(vtkImageData::GetData(input), 0).Any(); });
@@ -141,7 +187,34 @@ std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArr
   }
   std::unique_ptr<Slabs> slabs;
   isodiamond::InStep(others,
-    [&] { slabs = std::make_unique<Slabs>(input, this->Count, std::move(findArray), peers); });
+    [&]
+    {
+      slabs = std::make_unique<Slabs>(input, this->Count, std::move(findArray),
+        this->IsShared ? this->Peers : std::nullopt);
+    });
+  return slabs;
+}
+
+std::unique_ptr<Slabs> SlabPlan::OpenParts(vtkInformation* input, ArrayFinder findArray)
+{
+  auto parts = std::make_unique<Parts>(input, *this->Peers);
+  this->Count = this->CanBeCut && !parts->HaveBlanks()
+    ? CountShared(input, this->Blocks, this->Peers->Count())
+    : 1;
+  this->IsShared = this->Count > 1;
+  if (!this->IsShared)
+  {
+    const int slices = WholeDimensionsOf(input)[2];
+    this->Gathered = parts->Gather(0, slices - 1, nullptr, Parts::Everyone);
+    return nullptr;
+  }
+  std::unique_ptr<Slabs> slabs;
+  isodiamond::InStep(&*this->Peers,
+    [&]
+    {
+      slabs = std::make_unique<Slabs>(
+        input, this->Count, std::move(findArray), this->Peers, std::move(parts));
+    });
   return slabs;
 }
 

@@ -2,24 +2,32 @@
 #ifndef vtkIsodiamond_SlabPlan_h
 #define vtkIsodiamond_SlabPlan_h
 
+#include "Private/ControllerPeers.h"
 #include "Private/Input.h"
+
+#include "vtkSmartPointer.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 class vtkAlgorithm;
+class vtkDataObject;
+class vtkImageData;
 class vtkInformation;
 
 namespace vtkIsodiamond
 {
 
 class Slabs;
+class Task;
 
 /** Finds the array to process. */
 using ArrayFinder = std::function<InputArray(vtkDataSet*)>;
 
 /** How the input of a filter comes: at once, or in slabs, to it alone or to peers of other
- * processes, each of which has its share of them. Decided before it is read. */
+ * processes, each of which has its share of them. Decided before it is read; where upstream gives
+ * each process another part than it was asked for, as a simulation may, when that is seen. */
 class SlabPlan
 {
 public:
@@ -33,20 +41,41 @@ public:
   void Request(vtkInformation* input, vtkInformation* output, bool canBeCut, int blocks);
 
   /** For ModifyRequest: who gets nothing from upstream is not executed, and tells its peers, who
-   *  would wait for it. */
+   *  would wait for it; who gets another part, too. */
   void Note(vtkAlgorithm* filter, vtkInformation* request, int when);
+
+  /**
+   * Runs work(task) of RequestData: if it fails for one of the peers it fails for all. Then the
+   * output counts as not made, so that the next update executes all of them again, or none: of who
+   * got nothing from upstream, or stopped it, VTK executes the filter whatever has changed.
+   */
+  int Execute(vtkAlgorithm* filter, vtkInformation* output, const std::function<void(Task&)>& work);
 
   int NumberOfSlabs() const { return this->Count; }
 
+  /** Whether the input is a part of the whole: a slab, or what a peer has. */
+  bool IsAPart() const { return this->Count > 1 || this->AreParts; }
+
   /** For RequestData.
-   *  @return null if the input is there at once; as it is where cells turn out to be hidden
+   *  @return null if the input is there at once: TakeWhole(); as where cells turn out to be hidden
    *  @throws std::exception if it cannot be had, here or by a peer */
   std::unique_ptr<Slabs> Open(vtkInformation* input, ArrayFinder findArray);
 
+  /** The input that is there at once: as upstream gave it, or put together of what peers have, once
+   *  only. */
+  vtkSmartPointer<vtkDataObject> TakeWhole(vtkInformation* input);
+
 private:
+  std::unique_ptr<Slabs> OpenParts(vtkInformation* input, ArrayFinder findArray);
+
+  std::optional<ControllerPeers> Peers; ///< who execute the filter together, on images
+  bool CanBeCut = false;
+  int Blocks = 0; ///< how many are asked for
   int Count = 1;
   bool IsShared = false;
-  bool IsPeerWithout = false; ///< whether one of the peers has not got what it asked for
+  bool IsPeerWithout = false; ///< whether one of the peers has got nothing
+  bool AreParts = false;      ///< whether one of them has got another part than it asked for
+  vtkSmartPointer<vtkImageData> Gathered;
 };
 
 }

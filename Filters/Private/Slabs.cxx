@@ -36,17 +36,23 @@ isodiamond::AnySamples SlicesOf(const isodiamond::AnySamples& samples, int first
 }
 
 Slabs::Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
-  const std::optional<ControllerPeers>& peers)
+  const std::optional<ControllerPeers>& peers, std::unique_ptr<Parts> parts)
   : Input(inputInformation)
   , FindArray(std::move(findArray))
+  , OfPeers(std::move(parts))
   , WholeExtent(WholeExtentOf(inputInformation))
   , Cut(isodiamond::StreamedBuild::Cut(WholeDimensionsOf(this->Input), count))
   , Whole(WholeImage(inputInformation))
   , Others(peers)
 {
-  const Slab atHand = this->Read(SlabAtHand(this->Input, count, this->Together()));
-  this->ArrayName = atHand.Given.ArrayName;
-  this->OtherArrays = atHand.Given.Grid->GetPointData()->GetNumberOfArrays() > 1;
+  vtkImageData* image = vtkImageData::GetData(this->Input);
+  if (!this->OfPeers)
+  {
+    this->Read(image, SlabAtHand(this->Input, count, this->Together()));
+  }
+  vtkDataArray* array = this->FindArray(image).Array;
+  this->ArrayName = array && array->GetName() ? array->GetName() : "";
+  this->OtherArrays = image->GetPointData()->GetNumberOfArrays() > 1;
 
   auto* upstream =
     vtkDemandDrivenPipeline::SafeDownCast(vtkExecutive::PRODUCER()->GetExecutive(this->Input));
@@ -77,12 +83,11 @@ Slab Slabs::Get(const Slices& slices) const
   {
     throw std::runtime_error("A part of the volume cannot be had from upstream.");
   }
-  return this->Read(slices);
+  return this->Read(vtkImageData::GetData(this->Input), slices);
 }
 
-Slab Slabs::Read(const Slices& slices) const
+Slab Slabs::Read(vtkImageData* image, const Slices& slices) const
 {
-  vtkImageData* image = vtkImageData::GetData(this->Input);
   const int* extent = image->GetExtent();
   const std::array<int, 6>& whole = this->WholeExtent;
   if (!std::equal(extent, extent + 4, whole.begin()) || extent[4] > whole[4] + slices.First ||
@@ -105,7 +110,7 @@ Slab Slabs::Read(const Slices& slices) const
   return slab;
 }
 
-void Slabs::ForEach(Task& task, const char* phase, double begin, double end, bool shared,
+void Slabs::ForEach(Task& task, const char* phase, double begin, double end, Reading reading,
   const std::function<void(const Slab&)>& body,
   const std::function<void(const Slices&)>& ofOthers) const
 {
@@ -113,22 +118,40 @@ void Slabs::ForEach(Task& task, const char* phase, double begin, double end, boo
   {
     throw std::logic_error("A volume in slabs is read after its readers have dispersed.");
   }
+  isodiamond::Peers* const peers = this->Together();
   const auto count = static_cast<double>(this->Cut.size());
   for (std::size_t i = 0; i < this->Cut.size(); ++i)
   {
-    const isodiamond::Peers* peers = this->Together();
-    if (peers &&
-      OwnerOf(static_cast<int>(i), static_cast<int>(this->Cut.size()), *peers) != peers->Rank())
+    const Slices slices = reading == Reading::Signs ? Alone(this->Cut[i]) : this->Cut[i];
+    const int owner =
+      peers ? OwnerOf(static_cast<int>(i), static_cast<int>(this->Cut.size()), *peers) : 0;
+    const auto visit = [&](const std::function<Slab()>& read)
     {
-      if (ofOthers)
+      if (!peers || owner == peers->Rank())
+      {
+        const auto at = [&](double part) { return begin + (end - begin) * part / count; };
+        task.Begin(phase, at(i), at(i + 1));
+        body(read());
+      }
+      else if (ofOthers)
       {
         ofOthers(this->Cut[i]);
       }
-      continue;
+    };
+    if (this->OfPeers)
+    {
+      vtkDataArray* const only = reading == Reading::AllArrays
+        ? nullptr
+        : this->FindArray(vtkImageData::GetData(this->Input)).Array;
+      const vtkSmartPointer<vtkImageData> image =
+        this->OfPeers->Gather(slices.First, slices.Last, only, owner);
+      // Who fails here must not leave the others with the next slab.
+      isodiamond::InStep(peers, [&] { visit([&] { return this->Read(image, slices); }); });
     }
-    const auto at = [&](double part) { return begin + (end - begin) * part / count; };
-    task.Begin(phase, at(i), at(i + 1));
-    body(this->Get(shared ? this->Cut[i] : Alone(this->Cut[i])));
+    else
+    {
+      visit([&] { return this->Get(slices); });
+    }
   }
 }
 
@@ -138,10 +161,11 @@ isodiamond::StagedBuild BuildInSlabs(const Slabs& slabs, const isodiamond::Isore
   std::optional<isodiamond::StreamedBuild> build;
   isodiamond::Peers* const peers = options.Together;
   isodiamond::InStep(peers,
+    [&] { build.emplace(slabs.WholeVolume().Dimensions, region, task.For(), options); });
+  isodiamond::InStep(peers,
     [&]
     {
-      build.emplace(slabs.WholeVolume().Dimensions, region, task.For(), options);
-      slabs.ForEach(task, "Reading signs", 0.0, 0.1, false,
+      slabs.ForEach(task, "Reading signs", 0.0, 0.1, Reading::Signs,
         [&](const Slab& slab) { build->AddSigns(slab.Samples); });
     });
   build->Classify();
@@ -149,7 +173,7 @@ isodiamond::StagedBuild BuildInSlabs(const Slabs& slabs, const isodiamond::Isore
     [&]
     {
       slabs.ForEach(
-        task, "Placing isovertices", 0.2, 0.25, true,
+        task, "Placing isovertices", 0.2, 0.25, Reading::Values,
         [&](const Slab& slab) { build->AddValues(slab.Samples, slab.Slices); },
         [&](const Slices& slices) { build->SkipValues(slices); });
     });

@@ -6,6 +6,7 @@
 #include "Private/ContentHash.h"
 #include "Private/ControllerPeers.h"
 #include "Private/Input.h"
+#include "Private/Parts.h"
 #include "Private/PointData.h"
 #include "Private/SlabPlan.h"
 #include "Private/SlabRequest.h"
@@ -40,15 +41,25 @@ struct Slab
   int First = 0;
 };
 
+/** What slabs are read for: samples, samples with the slices that are shared with neighbours, or all
+ *  arrays of these. */
+enum class Reading
+{
+  Signs,
+  Values,
+  AllArrays
+};
+
 /** The slabs of an image. Within a filter's RequestData, whose input it is. */
 class Slabs
 {
 public:
   /** @param count of them, as of a plan, whose request has been answered
    *  @param peers who have their share of the slabs, if there are any
+   *  @param parts where slabs come from, if not from upstream: peers have parts of another shape
    *  @throws std::exception if a slab cannot be had */
   Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
-    const std::optional<ControllerPeers>& peers);
+    const std::optional<ControllerPeers>& peers, std::unique_ptr<Parts> parts = nullptr);
 
   /** Peers, until everything is built: nobody waits for another from then on, and slabs cannot be
    *  read. Null for nobody. */
@@ -70,18 +81,18 @@ public:
 
   /** Calls body(slab) for all of them, from the first to the last; of peers for its share.
    *  @param phase in words, a part of the task from begin until end
-   *  @param ofOthers called with the slices of the others' slabs, in their place
-   *  @param shared whether a slab is to have the slices, too, that it shares with its neighbours */
-  void ForEach(Task& task, const char* phase, double begin, double end, bool shared,
+   *  @param ofOthers called with the slices of the others' slabs, in their place */
+  void ForEach(Task& task, const char* phase, double begin, double end, Reading reading,
     const std::function<void(const Slab&)>& body,
     const std::function<void(const Slices&)>& ofOthers = nullptr) const;
 
 private:
   Slab Get(const Slices& slices) const;
-  Slab Read(const Slices& slices) const;
+  Slab Read(vtkImageData* image, const Slices& slices) const;
 
   vtkInformation* Input;
   ArrayFinder FindArray;
+  std::unique_ptr<Parts> OfPeers;
   std::array<int, 6> WholeExtent{};
   std::vector<Slices> Cut;
   vtkSmartPointer<vtkImageData> Whole;

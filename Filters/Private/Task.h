@@ -10,6 +10,7 @@
 #include <chrono>
 #include <exception>
 #include <new>
+#include <utility>
 
 namespace vtkIsodiamond
 {
@@ -61,21 +62,30 @@ private:
  *  it. */
 void ReportException(vtkAlgorithm* filter) noexcept;
 
-/** Runs work(task) of a filter's execution. @return what RequestData does: a failed execution is
- *  one with an error and an empty output */
+/** Runs work(task) of a filter's execution. @return false after an error, whose output is empty */
 template <typename Work>
-int Execute(vtkAlgorithm* filter, vtkDataObject* output, Work&& work)
+bool Succeeds(vtkAlgorithm* filter, vtkDataObject* output, Work&& work)
 {
   try
   {
     Task task(filter);
     work(task);
+    return true;
   }
   catch (...)
   {
     output->Initialize();
     ReportException(filter);
+    return false;
   }
+}
+
+/** The same. @return what RequestData does: a failed execution is one with an error and an empty
+ *  output */
+template <typename Work>
+int Execute(vtkAlgorithm* filter, vtkDataObject* output, Work&& work)
+{
+  Succeeds(filter, output, std::forward<Work>(work));
   return 1;
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests in pvbatch with any number of processes share: meshes of all of them on the first one, as
+"""What tests in pvbatch with any number of processes share: an image's source, meshes of all of them on the first one, as
 rows of numbers, and an end for all if one fails."""
 import os
 import sys
@@ -7,9 +7,14 @@ import traceback
 
 import numpy
 from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.numpy_interface import dataset_adapter
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 controller = vtkMultiProcessController.GetGlobalController()
+SIZE = (35, 30, 75)
 rank = controller.GetLocalProcessId()
 ranks = controller.GetNumberOfProcesses()
 
@@ -46,6 +51,99 @@ def cells(mesh, by_name=False):
 
 def lexsorted(rows):
     return rows[numpy.lexsort(rows.T[::-1])]
+
+
+def rows(mesh):
+    return cells(mesh, by_name=True)
+
+
+def together(filter):
+    """The cells that a filter has in all processes, on the first one."""
+    filter.UpdatePiece(rank, ranks, 0)
+    pieces = [rows(mesh) for mesh in gathered(filter.GetOutputDataObject(0))]
+    return numpy.concatenate([piece for piece in pieces if len(piece)]) if rank == 0 else None
+
+
+def new(filter, source, **properties):
+    filter.SetInputConnection(source.GetOutputPort())
+    for name, value in properties.items():
+        getattr(filter, "Set" + name)(*value if isinstance(value, tuple) else (value,))
+    return filter
+
+
+def abort_at(filter, phase):
+    filter.AddObserver(
+        "ProgressEvent", lambda *_: filter.SetAbortExecute(1) if filter.GetProgressText() == phase else None)
+
+
+class Source(VTKPythonAlgorithmBase):
+    """Makes the part of an image that it is asked for, and keeps count; or has a part, whatever it is
+    asked for: see have()."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
+        self.slices = []
+        self.fails_at = None
+        self.has_nan = False
+        self.part = None
+        self.blanks = False
+        self.origin = (0, 0, 0)
+
+    def have(self, part, ghosts=0):
+        """An extent, or None for nothing, with layers of ghost cells around it where there are cells."""
+        self.part, self.ghosts = part, ghosts
+
+    def RequestInformation(self, request, inputs, outputs):
+        info = outputs.GetInformationObject(0)
+        whole = [bound for length in SIZE for bound in (0, length - 1)]
+        info.Set(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT(), whole, 6)
+        if not self.part:
+            info.Set(vtkAlgorithm.CAN_PRODUCE_SUB_EXTENT(), 1)
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        extent = [0] * 6
+        outputs.GetInformationObject(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_EXTENT(), extent)
+        self.slices.append((extent[4], extent[5]))
+        if len(self.slices) == self.fails_at:
+            return 0
+        if self.part:
+            extent = [min(max(bound + self.ghosts * (2 * (i % 2) - 1), 0), SIZE[i // 2] - 1)
+                      for i, bound in enumerate(self.part)]
+        x, y, z = (numpy.arange(extent[2 * i], extent[2 * i + 1] + 1, dtype=float) for i in range(3))
+        x, y, z = x[None, None, :], y[None, :, None], z[:, None, None]
+        values = 13 - numpy.sqrt((x - 17) ** 2 + (y - 15) ** 2 + (0.4 * (z - 37)) ** 2)
+        values = values + numpy.sin(0.9 * x) * numpy.cos(0.7 * y) * numpy.sin(0.5 * z)
+        if self.has_nan:
+            values[numpy.broadcast_to((x == 20) & (y == 3 + z % 20), values.shape)] = numpy.nan
+        image = dataset_adapter.WrapDataObject(vtkImageData.GetData(outputs))
+        image.VTKObject.SetExtent(extent)
+        image.VTKObject.SetOrigin(self.origin)
+        image.PointData.append(values.ravel(), "values")
+        image.PointData.append((3 * x + 5 * y + 7 * z).ravel(), "other")
+        image.PointData.SetActiveScalars("values")
+        self.mark(image, extent)
+        return 1
+
+    def mark(self, image, extent):
+        """What is blanked, and which cells are another process's, where values are not to be trusted."""
+        x, y, z = (numpy.arange(extent[2 * i], extent[2 * i + 1]) for i in range(3))
+        x, y, z = x[None, None, :], y[None, :, None], z[:, None, None]
+        marks = numpy.zeros((len(z), y.size, x.size), numpy.uint8)
+        if self.blanks:
+            marks |= numpy.where((x - 17) ** 2 + (y - 8) ** 2 + (z - 30) ** 2 < 30, 32, 0).astype(numpy.uint8)
+        if self.part and self.ghosts:
+            own = [(low <= at) & (at < high) for at, low, high in zip((x, y, z), self.part[::2], self.part[1::2])]
+            is_own = own[0] & own[1] & own[2]
+            marks |= numpy.where(is_own, 0, 1).astype(numpy.uint8)
+            values = image.PointData["values"].reshape(len(z) + 1, y.size + 1, x.size + 1)
+            inside = tuple(slice(low - first, high - first + 1) for low, high, first in
+                           zip(self.part[4::-2], self.part[5::-2], extent[4::-2]))
+            trusted = values[inside].copy()
+            values[...] = -1e9
+            values[inside] = trusted
+        if marks.any():
+            image.CellData.append(marks.ravel(), "vtkGhostType")
 
 
 def run(main):

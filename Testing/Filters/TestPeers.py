@@ -4,68 +4,9 @@ more: each asks for its share of the volume, and together they have the mesh tha
 to the bit. Whoever fails does not let the others wait."""
 import numpy
 from vtkmodules.numpy_interface import dataset_adapter
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
 
 import isodiamonds
-from ParallelTestTools import cells, gathered, lexsorted, rank, ranks, run
-
-SIZE = (35, 30, 75)
-
-
-class Source(VTKPythonAlgorithmBase):
-    """Makes the part of an image that it is asked for, and keeps count."""
-
-    def __init__(self):
-        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
-        self.slices = []
-        self.fails_at = None
-        self.has_nan = False
-
-    def RequestInformation(self, request, inputs, outputs):
-        info = outputs.GetInformationObject(0)
-        whole = [bound for length in SIZE for bound in (0, length - 1)]
-        info.Set(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT(), whole, 6)
-        info.Set(vtkAlgorithm.CAN_PRODUCE_SUB_EXTENT(), 1)
-        return 1
-
-    def RequestData(self, request, inputs, outputs):
-        extent = [0] * 6
-        outputs.GetInformationObject(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_EXTENT(), extent)
-        self.slices.append((extent[4], extent[5]))
-        if len(self.slices) == self.fails_at:
-            return 0
-        x, y, z = (numpy.arange(extent[2 * i], extent[2 * i + 1] + 1, dtype=float) for i in range(3))
-        x, y, z = x[None, None, :], y[None, :, None], z[:, None, None]
-        values = 13 - numpy.sqrt((x - 17) ** 2 + (y - 15) ** 2 + (0.4 * (z - 37)) ** 2)
-        values = values + numpy.sin(0.9 * x) * numpy.cos(0.7 * y) * numpy.sin(0.5 * z)
-        if self.has_nan:
-            values[numpy.broadcast_to((x == 20) & (y == 3 + z % 20), values.shape)] = numpy.nan
-        image = dataset_adapter.WrapDataObject(vtkImageData.GetData(outputs))
-        image.VTKObject.SetExtent(extent)
-        image.PointData.append(values.ravel(), "values")
-        image.PointData.append((3 * x + 5 * y + 7 * z).ravel(), "other")
-        image.PointData.SetActiveScalars("values")
-        return 1
-
-
-def rows(mesh):
-    return cells(mesh, by_name=True)
-
-
-def together(filter):
-    """The cells that a filter has in all processes, on the first one."""
-    filter.UpdatePiece(rank, ranks, 0)
-    pieces = [rows(mesh) for mesh in gathered(filter.GetOutputDataObject(0))]
-    return numpy.concatenate([piece for piece in pieces if len(piece)]) if rank == 0 else None
-
-
-def new(filter, source, **properties):
-    filter.SetInputConnection(source.GetOutputPort())
-    for name, value in properties.items():
-        getattr(filter, "Set" + name)(*value if isinstance(value, tuple) else (value,))
-    return filter
+from ParallelTestTools import SIZE, Source, abort_at, lexsorted, new, rank, ranks, rows, run, together
 
 
 def check(name, make, settings, has_nan=False, blocks=0):
@@ -138,6 +79,7 @@ def check_failure(name, fail):
     assert contour.GetOutput().GetNumberOfPoints() == 0, name
     # Who aborts it knows without being told.
     assert errors or (rank == ranks - 1 and name.startswith("aborted")), name
+    contour.UpdatePiece(rank, ranks, 0)  # executed again by all of them or by none
     source.fails_at = None
     contour.RemoveObservers("ProgressEvent")
     contour.SetAbortExecute(0)
@@ -147,14 +89,6 @@ def check_failure(name, fail):
     assert rank > 0 or len(found) > 100, name
     if rank == 0:
         print(f"{ranks} processes, {name}: all fail, none waits", flush=True)
-
-
-def abort_at(phase):
-    def fail(source, contour):
-        contour.AddObserver(
-            "ProgressEvent",
-            lambda *_: contour.SetAbortExecute(1) if contour.GetProgressText() == phase else None)
-    return fail
 
 
 def main():
@@ -178,8 +112,8 @@ def main():
         for request in (1, 2, 3, 4):
             check_failure(f"no part {request}", lambda source, _: setattr(source, "fails_at", request))
         for phase in ("Reading signs", "Classifying diamonds", "Placing isovertices", "Measuring errors",
-                      "Finding thresholds", "Reading point data"):
-            check_failure(f"aborted while {phase}", abort_at(phase))
+                      "Finding thresholds", "Reading point data", "Extracting the mesh"):
+            check_failure(f"aborted while {phase}", lambda _, contour: abort_at(contour, phase))
 
 
 run(main)

@@ -57,7 +57,8 @@ public:
     return any > 0.0;
   }
 
-  /** Does a piece of work, in which no peer is asked. @throws if it throws at any of them */
+  /** Does a piece of work, in which peers are asked in such pieces only, by all of them the same.
+   *  @throws if it throws at any of them */
   template <typename Work>
   void Together(Work&& work)
   {
