@@ -87,6 +87,6 @@ void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
       });
   AddArray("Level", mesh.Levels, output);
   AddArray("Class", mesh.Classes, output);
-  vtkIsodiamond::KeepShare(this->Piece, output);
+  vtkIsodiamond::KeepShare(this->GetShare(), output);
   output.Give(vtkUnstructuredGrid::SafeDownCast(data), true);
 }

@@ -50,6 +50,7 @@ void vtkIsodiamondAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ViewHeight: " << this->ViewHeight << "\n";
   os << indent << "PixelTolerance: " << this->PixelTolerance << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "GenerateGlobalIds: " << (this->GenerateGlobalIds ? "On" : "Off") << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
 
@@ -111,6 +112,17 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
         2.0 * std::tan(0.5 * angle) * this->PixelTolerance / this->ViewHeight };
   }
   return query;
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamond::Share vtkIsodiamondAlgorithm::GetShare() const
+{
+  vtkIsodiamond::Share share{ { this->Piece[0], this->Piece[1] }, this->Piece[2], {} };
+  if (this->GenerateGlobalIds)
+  {
+    share.FirstIds = { 0, 0 };
+  }
+  return share;
 }
 
 //------------------------------------------------------------------------------

@@ -21,6 +21,7 @@ namespace vtkIsodiamond
 {
 struct CountedTolerance;
 struct Mesh;
+struct Share;
 struct WorldQuery;
 }
 
@@ -168,6 +169,17 @@ public:
 
   ///@{
   /**
+   * Whether points and cells have global ids, "GlobalPointIds" and "GlobalCellIds": their numbers
+   * in the mesh that one process would make, of all isovalues; so the shares of several processes
+   * can be put together. Of composite inputs each block counts for itself. Default: off.
+   */
+  vtkSetMacro(GenerateGlobalIds, bool);
+  vtkGetMacro(GenerateGlobalIds, bool);
+  vtkBooleanMacro(GenerateGlobalIds, bool);
+  ///@}
+
+  ///@{
+  /**
    * Threads to use; 0 for all cores. The result does not depend on it. Default: 0.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
@@ -214,7 +226,11 @@ protected:
   /** Puts the angles of a mesh for simulations where users can see them. */
   void NoteDihedralAngles(const vtkIsodiamond::Mesh& mesh, vtkDataObject* output);
 
+  /** The share of a mesh that is asked for. */
+  vtkIsodiamond::Share GetShare() const;
+
   double ErrorTolerance = 0.0;
+  bool GenerateGlobalIds = false;
   bool SimulationQuality = false;
   double SmallestDihedralAngle = 0.0;
   double LargestDihedralAngle = 0.0;
@@ -231,7 +247,7 @@ protected:
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
   double AchievedTolerance = 0.0;
-  int Piece[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
+  int Piece[3] = { 0, 1, 0 }; ///< that the output is asked for, number of pieces, ghost levels
 
 private:
   vtkIsodiamondAlgorithm(const vtkIsodiamondAlgorithm&) = delete;

@@ -112,6 +112,7 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   options.WithValues = this->ComputeScalars != 0;
   options.PointsPrecision = this->OutputPointsPrecision;
   options.Hidden = &volume.Hidden;
+  options.Wanted = this->GetShare();
   const std::vector<isodiamond::Isoregion> regions = this->GetRegions();
   const auto count = static_cast<double>(regions.size());
   vtkNew<vtkAppendPolyData> append;
@@ -121,7 +122,14 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   {
     vtkIsodiamond::Task part = task.Part(i / count, (i + 1) / count);
     vtkNew<vtkPolyData> contour;
-    this->ExtractMesh(volume, regions[i], query, options, part).Give(contour);
+    const vtkIsodiamond::Mesh mesh = this->ExtractMesh(volume, regions[i], query, options, part);
+    mesh.Give(contour);
+    if (options.Wanted.FirstIds)
+    {
+      auto& [firstPoint, firstCell] = *options.Wanted.FirstIds;
+      firstPoint += mesh.WholeSize[0];
+      firstCell += mesh.WholeSize[1];
+    }
     append->AddInputData(contour);
     kibibytes += contour->GetActualMemorySize();
   }

@@ -344,7 +344,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
       [&](const isodiamond::RefinedSet& refined)
       {
         cells = getsCoarser
-          ? this->MakeMesh(state, tried, refined, { 0, 1 }, counting).Cells->GetNumberOfCells()
+          ? this->MakeMesh(state, tried, refined, {}, counting).Cells->GetNumberOfCells()
           : isodiamond::CountCells(refined, parallelFor);
       });
     return cells;
@@ -373,7 +373,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetExtracted(
 //------------------------------------------------------------------------------
 vtkIsodiamond::Mesh vtkIsodiamondExtractor::MakeMesh(const vtkIsodiamond::State& state,
   const vtkIsodiamond::WorldQuery& query, const isodiamond::RefinedSet& refined,
-  const std::array<int, 2>& piece, vtkIsodiamond::Task& task) const
+  const vtkIsodiamond::Share& share, vtkIsodiamond::Task& task) const
 {
   const isodiamond::GridGeometry world = state.World;
   vtkIsodiamond::MeshOptions options{ world, state.ArrayName };
@@ -384,7 +384,7 @@ vtkIsodiamond::Mesh vtkIsodiamondExtractor::MakeMesh(const vtkIsodiamond::State&
   {
     options.MorePointData = vtkIsodiamond::FromHierarchy(*state.Isodiamonds, state.PointArrays);
   }
-  options.Piece = piece;
+  options.Wanted = share;
   return vtkIsodiamond::ExtractAsAsked(refined, query, options, task);
 }
 
@@ -400,8 +400,7 @@ void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
     throw std::invalid_argument("Tetrahedra of an interval volume need an unstructured grid: poly "
                                 "data are for isosurfaces.");
   }
-  const vtkIsodiamond::Mesh mesh =
-    this->MakeMesh(state, query, refined, { this->Piece[0], this->Piece[1] }, task);
+  const vtkIsodiamond::Mesh mesh = this->MakeMesh(state, query, refined, this->GetShare(), task);
   this->NoteDihedralAngles(mesh, output);
   if (surface)
   {

@@ -219,7 +219,7 @@ private:
     const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task);
   vtkIsodiamond::Mesh MakeMesh(const vtkIsodiamond::State& state,
     const vtkIsodiamond::WorldQuery& query, const isodiamond::RefinedSet& refined,
-    const std::array<int, 2>& piece, vtkIsodiamond::Task& task) const;
+    const vtkIsodiamond::Share& share, vtkIsodiamond::Task& task) const;
   vtkIsodiamond::WorldQuery GetExtracted(
     const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query) const;
   void WarnOfUnusedValues(const vtkIsodiamond::State& state);

@@ -107,6 +107,7 @@ void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   vtkIsodiamond::MeshOptions options{ volume.Placement.World, volume.ArrayName };
   options.PointsPrecision = this->OutputPointsPrecision;
   options.Hidden = &volume.Hidden;
+  options.Wanted = this->GetShare();
   const vtkIsodiamond::Mesh mesh =
     this->ExtractMesh(volume, this->GetRegions().front(), query, options, task);
   mesh.Give(vtkUnstructuredGrid::SafeDownCast(output), true);

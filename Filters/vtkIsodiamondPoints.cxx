@@ -77,7 +77,7 @@ void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
   mesh.PointData->AddArray(classes);
   mesh.PointData->AddArray(levels);
   mesh.PointData->AddArray(errors);
-  vtkIsodiamond::KeepShare(piece, mesh);
+  vtkIsodiamond::KeepShare({ { piece[0], piece[1] }, 0, {} }, mesh);
   output->SetPoints(mesh.Points);
   output->SetVerts(mesh.Cells);
   output->GetPointData()->ShallowCopy(mesh.PointData);

@@ -37,7 +37,7 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Piece[2] = { 0, 1 }; ///< piece of the output that is asked for, and number of pieces
+  int Piece[3] = { 0, 1, 0 }; ///< that the output is asked for, number of pieces, ghost levels
 
 private:
   vtkIsodiamondPoints(const vtkIsodiamondPoints&) = delete;

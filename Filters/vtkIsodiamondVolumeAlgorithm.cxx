@@ -387,7 +387,6 @@ vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamon
     ? vtkIsodiamond::FromHierarchy(
         hierarchy, this->Hierarchies->StoredPointData(volume, region, need, wanted, building))
     : vtkIsodiamond::FromVolume(volume, wanted);
-  options.Piece = { this->Piece[0], this->Piece[1] };
   this->RemovedFromBlock += hierarchy.Header().RemovedPieces;
   vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
   return vtkIsodiamond::ExtractAsAsked(hierarchy, query, options, extracting);

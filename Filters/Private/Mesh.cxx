@@ -5,6 +5,7 @@
 #include "Mesh/SurfaceExtraction.h"
 #include "Private/Arrays.h"
 #include "Private/Cells.h"
+#include "Private/Ghosts.h"
 #include "Private/Piece.h"
 #include "Private/Stuff.h"
 #include "Private/Tuples.h"
@@ -68,27 +69,41 @@ bool AreCellsChanged(const MeshOptions& options)
 isodiamond::CellRange CellsWanted(std::int64_t count, const MeshOptions& options)
 {
   return AreCellsChanged(options) ? isodiamond::CellRange{ 0, count }
-                                  : ShareOf(count, options.Piece.data());
+                                  : ShareOf(count, options.Wanted.Piece.data());
 }
 
-/** Adds a range of an extraction's cells, to which its points are limited.
- *  @param write (ids, levels) */
+/** Adds an extraction's cells that are wanted, to which its points are limited.
+ *  @param write (range, ids, levels) */
 template <typename Extraction, typename Write>
-void AddCells(Extraction& extraction, const isodiamond::CellRange& cells, int size,
-  const MeshOptions& options, const isodiamond::ParallelFor& parallelFor, Mesh& mesh,
-  const Write& write)
+void AddCells(Extraction& extraction, std::int64_t wholeCount, int size, const MeshOptions& options,
+  const isodiamond::ParallelFor& parallelFor, Mesh& mesh, const Write& write)
 {
-  const auto levels = NewArray<vtkSignedCharArray>("Level", cells.Count());
-  mesh.Cells = WriteCells(cells.Count(), size, parallelFor,
+  const isodiamond::CellRange cells = CellsWanted(wholeCount, options);
+  const bool isShare = !AreCellsChanged(options);
+  mesh.WholeSize = { extraction.PointCount(), wholeCount };
+  const Ghosts ghosts = isShare && options.Wanted.HasGhosts()
+    ? FindGhosts(
+        { wholeCount, extraction.PointCount(), size, write }, cells, options.Wanted.GhostLevels)
+    : Ghosts{};
+  const std::int64_t count = cells.Count() + static_cast<std::int64_t>(ghosts.Cells.size());
+  const auto levels = NewArray<vtkSignedCharArray>("Level", count);
+  mesh.Cells = WriteCells(count, size, parallelFor,
     [&](auto* connectivity)
     {
-      write(connectivity, levels->GetPointer(0));
-      if (options.Piece[1] > 1 && !AreCellsChanged(options))
+      write(cells, connectivity, levels->GetPointer(0));
+      std::copy(ghosts.Corners.begin(), ghosts.Corners.end(), connectivity + size * cells.Count());
+      if (isShare && options.Wanted.Piece[1] > 1)
       {
-        extraction.KeepPointsOf(connectivity, size * cells.Count());
+        extraction.KeepPointsOf(connectivity, size * count);
       }
     });
+  std::copy(ghosts.Levels.begin(), ghosts.Levels.end(), levels->GetPointer(0) + cells.Count());
   mesh.CellData->AddArray(levels);
+  if (isShare && (options.Wanted.HasGhosts() || options.Wanted.FirstIds))
+  {
+    const std::vector<std::int64_t> ids = extraction.PointIds();
+    AddOrigins(options.Wanted, { ids.begin(), ids.end() }, cells, ghosts, mesh);
+  }
 }
 
 template <typename Extraction>
@@ -213,9 +228,8 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
   isodiamond::IntervalExtraction extraction(refined, parallelFor);
-  const isodiamond::CellRange cells = CellsWanted(extraction.TetrahedronCount(), options);
-  AddCells(extraction, cells, 4, options, parallelFor, mesh,
-    [&](auto* connectivity, std::int8_t* levels)
+  AddCells(extraction, extraction.TetrahedronCount(), 4, options, parallelFor, mesh,
+    [&](const isodiamond::CellRange& cells, auto* connectivity, std::int8_t* levels)
     { extraction.WriteTetrahedra(cells, options.World.Mirrors(), connectivity, levels); });
   AddPoints(extraction, options, true, mesh);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
@@ -239,9 +253,8 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& op
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
   isodiamond::SurfaceExtraction extraction(refined, parallelFor);
-  const isodiamond::CellRange cells = CellsWanted(extraction.TriangleCount(), options);
-  AddCells(extraction, cells, 3, options, parallelFor, mesh,
-    [&](auto* connectivity, std::int8_t* levels)
+  AddCells(extraction, extraction.TriangleCount(), 3, options, parallelFor, mesh,
+    [&](const isodiamond::CellRange& cells, auto* connectivity, std::int8_t* levels)
     { extraction.WriteTriangles(cells, options.World.Mirrors(), connectivity, levels); });
   AddPoints(extraction, options, false, mesh);
   if (options.WithValues)
@@ -289,7 +302,8 @@ Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& optio
   }
   if (AreCellsChanged(options))
   {
-    KeepShare(options.Piece.data(), mesh);
+    mesh.WholeSize = { mesh.Points->GetNumberOfPoints(), mesh.Cells->GetNumberOfCells() };
+    KeepShare(options.Wanted, mesh);
   }
   return mesh;
 }

@@ -2,6 +2,7 @@
 #ifndef vtkIsodiamond_Mesh_h
 #define vtkIsodiamond_Mesh_h
 
+#include "Private/Piece.h"
 #include "Private/PointData.h"
 #include "Private/Task.h"
 #include "Refinement/RefinedSet.h"
@@ -31,6 +32,8 @@ struct Mesh
   vtkSmartPointer<vtkPoints> Points;   ///< world positions
   vtkSmartPointer<vtkCellArray> Cells; ///< 32-bit storage where ids fit and all are kept
   vtkSmartPointer<vtkPointData> PointData = vtkSmartPointer<vtkPointData>::New();
+  std::array<vtkIdType, 2>
+    WholeSize{}; ///< points and cells of the whole, of which this may be a share
   /** "Level". */
   vtkSmartPointer<vtkCellData> CellData = vtkSmartPointer<vtkCellData>::New();
   /** The smallest and the largest, in degrees, of tetrahedra for simulations. */
@@ -56,8 +59,7 @@ struct MeshOptions
   int PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;
   PointDataMaker MorePointData = nullptr;
   const isodiamond::HiddenCells* Hidden = nullptr; ///< what lies in them is left out
-  /** The share that is wanted, and the number of shares: see Piece.h. */
-  std::array<int, 2> Piece = { 0, 1 };
+  Share Wanted = {};
   bool ForSimulation = false;     ///< see Stuff.h; of an interval volume
   double DistanceTolerance = 0.0; ///< the least that it may be away from full resolution
   /** The same in a triangle or tetrahedron, by its corners in the world; none to not measure. */

@@ -63,7 +63,8 @@ void ForEachRow(const Extent& rows, const Extent& ofArray, Body&& body)
   {
     for (int y = rows[2]; y <= rows[3]; ++y)
     {
-      const vtkIdType row = vtkIdType{ z - ofArray[4] } * (ofArray[3] - ofArray[2] + 1) + y - ofArray[2];
+      const vtkIdType row =
+        vtkIdType{ z - ofArray[4] } * (ofArray[3] - ofArray[2] + 1) + y - ofArray[2];
       body(y, z, row * RowLength(ofArray) + rows[0] - ofArray[0]);
     }
   }
@@ -99,8 +100,7 @@ vtkSmartPointer<vtkDataArray> NewLike(vtkDataArray* other, vtkIdType tuples)
 vtkSmartPointer<vtkUnsignedCharArray> BlanksOf(
   vtkUnsignedCharArray* ghosts, vtkIdType tuples, int blank)
 {
-  const auto blanks =
-    NewArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), tuples);
+  auto blanks = NewArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), tuples);
   for (vtkIdType i = 0; i < tuples; ++i)
   {
     blanks->SetValue(i, ghosts ? ghosts->GetValue(i) & blank : 0);
@@ -238,8 +238,8 @@ Parts::Parts(vtkInformation* input, const ControllerPeers& peers)
       kinds[peers.Rank()] = KindOf(this->Own, this->Whole);
       Extent all;
       this->Own->GetExtent(all.data());
-      this->BlankPoints = BlanksOf(
-        this->Own->GetPointGhostArray(), TuplesOf(all), vtkDataSetAttributes::HIDDENPOINT);
+      this->BlankPoints =
+        BlanksOf(this->Own->GetPointGhostArray(), TuplesOf(all), vtkDataSetAttributes::HIDDENPOINT);
       this->BlankCells = BlanksOf(this->Own->GetCellGhostArray(), TuplesOf(CellsOf(all)),
         vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL);
     });
@@ -298,8 +298,10 @@ vtkSmartPointer<vtkImageData> Parts::Gather(
   const int rank = this->Others.Rank();
   const int target = owner == Everyone ? 0 : owner;
   std::vector<Located> arrays; // all that is wanted, or what the target gets from here
-  this->Others.Together([&]
-    { arrays = this->ArraysIn(rank == target ? slices : Shared(this->Extents[rank], slices), only); });
+  this->Others.Together(
+    [&] {
+      arrays = this->ArraysIn(rank == target ? slices : Shared(this->Extents[rank], slices), only);
+    });
   this->Exchange(slices, target, arrays);
   if (owner == Everyone)
   {

@@ -3,6 +3,8 @@
 
 #include "Mesh/ExtractionPasses.h"
 #include "Private/Arrays.h"
+#include "Private/Cells.h"
+#include "Private/Ghosts.h"
 #include "Private/Mesh.h"
 #include "Private/Tuples.h"
 
@@ -10,7 +12,9 @@
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkExecutive.h"
+#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
@@ -18,6 +22,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,32 +36,53 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-/** Leaves a range of cells. @return the points that these have, whose ids become those among them,
- *  in the same order */
+/** The corners of a cell, of cells that are all alike. */
+int SizeOf(vtkCellArray* cells)
+{
+  return cells->GetNumberOfCells() > 0 ? static_cast<int>(cells->GetCellSize(0)) : 3;
+}
+
+MeshCells CellsOf(const Mesh& mesh)
+{
+  vtkCellArray* const cells = mesh.Cells;
+  const auto read = [cells](
+                      const isodiamond::CellRange& range, vtkIdType* corners, std::int8_t* levels)
+  {
+    for (std::int64_t cell = range.First; cell < range.Last; ++cell)
+    {
+      vtkIdType size = 0;
+      const vtkIdType* ids = nullptr;
+      cells->GetCellAtId(cell, size, ids);
+      corners = std::copy_n(ids, size, corners);
+      *levels++ = 0; // nobody asks for it
+    }
+  };
+  return { cells->GetNumberOfCells(), mesh.Points->GetNumberOfPoints(), SizeOf(cells), read };
+}
+
+/** Leaves a range of cells, and ghosts. @return the points that these have, whose ids become those
+ *  among them, in the same order */
 template <typename Array>
-std::vector<vtkIdType> KeepCells(
-  const isodiamond::CellRange& range, vtkIdType pointCount, vtkSmartPointer<vtkCellArray>& cells)
+std::vector<vtkIdType> KeepCells(const isodiamond::CellRange& range, const Ghosts& ghosts,
+  vtkIdType pointCount, vtkSmartPointer<vtkCellArray>& cells)
 {
   using Id = typename Array::ValueType;
-  // As they were given to SetData: none but our own cells come here.
-  auto* offsets = vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetOffsetsArray());
+  // As they were given to SetData: none but our own cells come here, which are all alike.
   auto* connectivity = vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetConnectivityArray());
-  const Id* offset = offsets->GetPointer(0);
-  const Id* begin = connectivity->GetPointer(0) + offset[range.First];
-  const Id* end = connectivity->GetPointer(0) + offset[range.Last];
-
-  const isodiamond::KeptPoints kept(pointCount, begin, end - begin, isodiamond::SerialFor);
-  vtkNew<Array> newOffsets;
-  AllocateTuples(newOffsets, range.Count() + 1);
-  std::transform(offset + range.First, offset + range.Last + 1, newOffsets->GetPointer(0),
-    [first = offset[range.First]](Id value) { return value - first; });
-  vtkNew<Array> newConnectivity;
-  AllocateTuples(newConnectivity, end - begin);
-  std::copy(begin, end, newConnectivity->GetPointer(0));
-  kept.Rename(newConnectivity->GetPointer(0), end - begin, isodiamond::SerialFor);
-  cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(newOffsets, newConnectivity);
-  return kept.Ids<vtkIdType>();
+  const int size = SizeOf(cells);
+  const Id* begin = connectivity->GetPointer(0) + size * range.First;
+  const std::int64_t count = range.Count() + static_cast<std::int64_t>(ghosts.Cells.size());
+  std::vector<vtkIdType> points;
+  cells = WriteCellsAs<Array>(count, size, isodiamond::SerialFor,
+    [&](Id* ids)
+    {
+      Id* next = std::copy_n(begin, size * range.Count(), ids);
+      std::copy(ghosts.Corners.begin(), ghosts.Corners.end(), next);
+      const isodiamond::KeptPoints kept(pointCount, ids, size * count, isodiamond::SerialFor);
+      kept.Rename(ids, size * count, isodiamond::SerialFor);
+      points = kept.Ids<vtkIdType>();
+    });
+  return points;
 }
 
 }
@@ -78,13 +104,14 @@ void RequestWhole(vtkInformation* inputInformation)
   inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }
 
-void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[2])
+void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[3])
 {
   if (when == vtkExecutive::AfterForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     vtkInformation* output = filter->GetOutputInformation(0);
     piece[0] = output->Get(Pipeline::UPDATE_PIECE_NUMBER()); // 0 if there is none
     piece[1] = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
+    piece[2] = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()), 0);
   }
 }
 
@@ -116,22 +143,63 @@ isodiamond::CellRange ShareOf(std::int64_t cells, const int piece[2])
   return { cells * number / piece[1], cells * std::min(number + 1, piece[1]) / piece[1] };
 }
 
-void KeepShare(const int piece[2], Mesh& mesh)
+void KeepShare(const Share& share, Mesh& mesh)
 {
-  if (piece[0] == 0 && piece[1] == 1)
-  {
-    return;
-  }
-  const isodiamond::CellRange range = ShareOf(mesh.Cells->GetNumberOfCells(), piece);
+  const isodiamond::CellRange range = ShareOf(mesh.Cells->GetNumberOfCells(), share.Piece.data());
   const vtkIdType pointCount = mesh.Points->GetNumberOfPoints();
-  const std::vector<vtkIdType> points = mesh.Cells->IsStorage64Bit()
-    ? KeepCells<vtkTypeInt64Array>(range, pointCount, mesh.Cells)
-    : KeepCells<vtkTypeInt32Array>(range, pointCount, mesh.Cells);
-  mesh.Points = PointsOf(mesh.Points, points);
-  KeepTuples(mesh.PointData, points);
-  std::vector<vtkIdType> cellIds(range.Count());
-  std::iota(cellIds.begin(), cellIds.end(), range.First);
-  KeepTuples(mesh.CellData, cellIds);
+  const Ghosts ghosts =
+    share.HasGhosts() ? FindGhosts(CellsOf(mesh), range, share.GhostLevels) : Ghosts{};
+  std::vector<vtkIdType> points(pointCount);
+  std::iota(points.begin(), points.end(), vtkIdType{ 0 });
+  if (share.Piece[1] > 1)
+  {
+    points = mesh.Cells->IsStorage64Bit()
+      ? KeepCells<vtkTypeInt64Array>(range, ghosts, pointCount, mesh.Cells)
+      : KeepCells<vtkTypeInt32Array>(range, ghosts, pointCount, mesh.Cells);
+    mesh.Points = PointsOf(mesh.Points, points);
+    KeepTuples(mesh.PointData, points);
+    std::vector<vtkIdType> cells(range.Count());
+    std::iota(cells.begin(), cells.end(), range.First);
+    cells.insert(cells.end(), ghosts.Cells.begin(), ghosts.Cells.end());
+    KeepTuples(mesh.CellData, cells);
+  }
+  AddOrigins(share, points, range, ghosts, mesh);
+}
+
+void AddOrigins(const Share& share, const std::vector<vtkIdType>& points,
+  const isodiamond::CellRange& own, const Ghosts& ghosts, Mesh& mesh)
+{
+  const auto pointCount = static_cast<vtkIdType>(points.size());
+  const vtkIdType cellCount = own.Count() + static_cast<vtkIdType>(ghosts.Cells.size());
+  if (share.FirstIds)
+  {
+    const auto [firstPoint, firstCell] = *share.FirstIds;
+    const auto pointIds = NewArray<vtkIdTypeArray>("GlobalPointIds", pointCount);
+    std::transform(points.begin(), points.end(), pointIds->GetPointer(0),
+      [first = firstPoint](vtkIdType id) { return first + id; });
+    mesh.PointData->SetGlobalIds(pointIds);
+    const auto cellIds = NewArray<vtkIdTypeArray>("GlobalCellIds", cellCount);
+    vtkIdType* const ids = cellIds->GetPointer(0);
+    std::iota(ids, ids + own.Count(), firstCell + own.First);
+    std::transform(ghosts.Cells.begin(), ghosts.Cells.end(), ids + own.Count(),
+      [first = firstCell](vtkIdType id) { return first + id; });
+    mesh.CellData->SetGlobalIds(cellIds);
+  }
+  if (share.HasGhosts())
+  {
+    const char* name = vtkDataSetAttributes::GhostArrayName();
+    const auto pointMarks = NewArray<vtkUnsignedCharArray>(name, pointCount);
+    std::transform(points.begin(), points.end(), pointMarks->GetPointer(0),
+      [&](vtkIdType id)
+      { return ghosts.ArePointsOwn[id] ? 0 : vtkDataSetAttributes::DUPLICATEPOINT; });
+    mesh.PointData->AddArray(pointMarks);
+    const auto cellMarks = NewArray<vtkUnsignedCharArray>(name, cellCount);
+    unsigned char* const marks = cellMarks->GetPointer(0);
+    std::fill_n(marks, own.Count(), 0);
+    std::fill(marks + own.Count(), marks + cellCount,
+      static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL));
+    mesh.CellData->AddArray(cellMarks);
+  }
 }
 
 }

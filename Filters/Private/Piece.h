@@ -4,7 +4,12 @@
 
 #include "Mesh/ExtractionPasses.h"
 
+#include "vtkType.h"
+
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 class vtkAlgorithm;
 class vtkDataObject;
@@ -18,7 +23,20 @@ class vtkInformation;
 namespace vtkIsodiamond
 {
 
+struct Ghosts;
 struct Mesh;
+
+/** What a process is asked for of a mesh. */
+struct Share
+{
+  std::array<int, 2> Piece = { 0, 1 }; ///< its number, and number of pieces
+  int GhostLevels = 0; ///< of cells of the other pieces around it, that are marked as such
+  /** The ids of the whole mesh's first point and cell among all meshes', if points and cells are to
+   *  have ids that are the same in all processes. */
+  std::optional<std::array<vtkIdType, 2>> FirstIds;
+
+  bool HasGhosts() const { return this->GhostLevels > 0 && this->Piece[1] > 1; }
+};
 
 /** Asks for the whole input: a hierarchy of a part of a volume is another hierarchy, and of a part
  *  of a hierarchy there is no mesh. */
@@ -29,9 +47,9 @@ void RequestWhole(vtkInformation* inputInformation);
  * which has both: composite inputs are iterated over by the pipeline, and for every block of theirs
  * RequestData is asked for piece 0 of 1.
  *
- * @param piece its number, and number of pieces
+ * @param piece its number, number of pieces, and number of ghost levels
  */
-void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[2]);
+void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[3]);
 
 /**
  * Refuses a part of a volume where several processes are to share its mesh: of other parts in other
@@ -49,12 +67,22 @@ isodiamond::CellRange ShareOf(std::int64_t cells, const int piece[2]);
 
 /**
  * Leaves a share of a mesh: its cells, and the points that these use, both in the mesh's order,
- * with all their data. All shares together have each cell once; points between two are in both, the
- * same to the bit.
+ * with all their data; then ghosts. All shares together have each cell once; points between two are
+ * in both, the same to the bit.
  *
  * @throws std::bad_alloc if there is no memory for a copy
  */
-void KeepShare(const int piece[2], Mesh& mesh);
+void KeepShare(const Share& share, Mesh& mesh);
+
+/**
+ * Gives a share's points and cells ids of the whole, and marks what is another share's: a cell of
+ * another one, a point that a share before has, too. Nothing that the share does not ask for.
+ *
+ * @param points ids in the whole mesh, of all that there are
+ * @param own cells; ghosts follow
+ */
+void AddOrigins(const Share& share, const std::vector<vtkIdType>& points,
+  const isodiamond::CellRange& own, const Ghosts& ghosts, Mesh& mesh);
 
 }
 

@@ -129,12 +129,13 @@ Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& que
     return ExtractMesh(refined, options, extracting);
   }
   MeshOptions whole = options;
-  whole.Piece = { 0, 1 };
+  whole.Wanted = {};
   whole.MorePointData = WithWalls(whole.MorePointData, refined.Hierarchy().SampleGrid());
   Mesh mesh = ExtractMesh(refined, whole, extracting);
   task.Begin("Simplifying", 0.3, 1.0);
   SimplifyMesh(query, Measure(refined.Hierarchy()), options.World, task.For(), mesh);
-  KeepShare(options.Piece.data(), mesh);
+  mesh.WholeSize = { mesh.Points->GetNumberOfPoints(), mesh.Cells->GetNumberOfCells() };
+  KeepShare(options.Wanted, mesh);
   return mesh;
 }
 

@@ -128,8 +128,7 @@ void SlabPlan::Note(vtkAlgorithm* filter, vtkInformation* request, int when)
     request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     vtkInformation* input = filter->GetInputInformation(0, 0);
-    this->IsPeerWithout =
-      this->Peers->Any(vtkImageData::GetData(input)->GetNumberOfPoints() == 0);
+    this->IsPeerWithout = this->Peers->Any(vtkImageData::GetData(input)->GetNumberOfPoints() == 0);
     this->AreParts = this->Peers->Any(!IsGiven(input));
   }
 }
@@ -189,8 +188,8 @@ std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArr
   isodiamond::InStep(others,
     [&]
     {
-      slabs = std::make_unique<Slabs>(input, this->Count, std::move(findArray),
-        this->IsShared ? this->Peers : std::nullopt);
+      slabs = std::make_unique<Slabs>(
+        input, this->Count, std::move(findArray), this->IsShared ? this->Peers : std::nullopt);
     });
   return slabs;
 }

@@ -94,8 +94,7 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slab
   if (wanted.Normals || wanted.Gradients || (wanted.Others && slabs.HaveOtherArrays()))
   {
     isodiamond::InStep(
-      peers,
-      [&] { slabs.ForEach(task, "Reading point data", 0.0, 1.0, Reading::AllArrays, add); });
+      peers, [&] { slabs.ForEach(task, "Reading point data", 0.0, 1.0, Reading::AllArrays, add); });
   }
   for (vtkDataArray* array : arrays)
   {

@@ -160,8 +160,8 @@ isodiamond::StagedBuild BuildInSlabs(const Slabs& slabs, const isodiamond::Isore
 {
   std::optional<isodiamond::StreamedBuild> build;
   isodiamond::Peers* const peers = options.Together;
-  isodiamond::InStep(peers,
-    [&] { build.emplace(slabs.WholeVolume().Dimensions, region, task.For(), options); });
+  isodiamond::InStep(
+    peers, [&] { build.emplace(slabs.WholeVolume().Dimensions, region, task.For(), options); });
   isodiamond::InStep(peers,
     [&]
     {

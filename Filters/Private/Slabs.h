@@ -41,8 +41,8 @@ struct Slab
   int First = 0;
 };
 
-/** What slabs are read for: samples, samples with the slices that are shared with neighbours, or all
- *  arrays of these. */
+/** What slabs are read for: samples, samples with the slices that are shared with neighbours, or
+ * all arrays of these. */
 enum class Reading
 {
   Signs,

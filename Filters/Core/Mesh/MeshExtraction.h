@@ -6,7 +6,9 @@
 #include "Mesh/MeshPoints.h"
 
 #include <cstdint>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace isodiamond
 {
@@ -41,6 +43,18 @@ public:
   void KeepPointsOf(Id* ids, std::int64_t size)
   {
     this->Passes.KeepPointsOf(ids, size);
+  }
+
+  /** The ids in the whole mesh of the points that there are. */
+  std::vector<std::int64_t> PointIds() const
+  {
+    if (const KeptPoints* kept = this->Passes.PointsKept())
+    {
+      return kept->Ids<std::int64_t>();
+    }
+    std::vector<std::int64_t> ids(this->PointCount());
+    std::iota(ids.begin(), ids.end(), std::int64_t{ 0 });
+    return ids;
   }
 
 protected:
