@@ -108,7 +108,7 @@ void SlabPlan::Request(vtkInformation* input, vtkInformation* output, bool canBe
   if (isImage && canBeCut && MakesParts(input))
   {
     this->Count = CountShared(input, blocks, peers);
-    if (this->Count < peers || peers == 1)
+    if (this->Count == 1)
     {
       this->Count = CountAlone(input, blocks);
     }

@@ -86,6 +86,7 @@ class Source(VTKPythonAlgorithmBase):
         self.fails_at = None
         self.has_nan = False
         self.part = None
+        self.sign = 1
         self.blanks = False
         self.origin = (0, 0, 0)
 
@@ -114,6 +115,7 @@ class Source(VTKPythonAlgorithmBase):
         x, y, z = x[None, None, :], y[None, :, None], z[:, None, None]
         values = 13 - numpy.sqrt((x - 17) ** 2 + (y - 15) ** 2 + (0.4 * (z - 37)) ** 2)
         values = values + numpy.sin(0.9 * x) * numpy.cos(0.7 * y) * numpy.sin(0.5 * z)
+        values *= self.sign
         if self.has_nan:
             values[numpy.broadcast_to((x == 20) & (y == 3 + z % 20), values.shape)] = numpy.nan
         image = dataset_adapter.WrapDataObject(vtkImageData.GetData(outputs))

@@ -87,6 +87,24 @@ def check_refused(name, part, message, change=lambda source: None):
         print(f"{ranks} processes, {name}: refused", flush=True)
 
 
+def check_change(part):
+    """Of one process's part, while all are asked for another tolerance: all build anew."""
+    source, whole = Source(), Source()
+    source.have(part)
+    contour = new(isodiamonds.vtkIsodiamondContour(), source, Value=(0, 0.0), ErrorTolerance=0.4)
+    contour.UpdatePiece(rank, ranks, 0)
+    if rank == 0:
+        source.sign = -1
+        source.Modified()
+    contour.SetErrorTolerance(0.5)
+    changed = together(contour)
+    assert contour.GetNumberOfBuilds() == 2, contour.GetNumberOfBuilds()
+    if rank == 0:
+        new(alone := isodiamonds.vtkIsodiamondContour(), whole, Value=(0, 0.0), ErrorTolerance=0.5).Update()
+        assert len(changed) != len(rows(alone.GetOutput())), len(changed)
+        print(f"{ranks} processes: all build anew", flush=True)
+
+
 def check_abortion(phase, part, process):
     """By one process: all have an empty mesh, and the whole one afterwards."""
     source = Source()
@@ -127,6 +145,7 @@ def main():
     check_refused("a part that leaves a column out", narrow, "leave some of it out")
     check_refused("another place", slabs_of(2, True), "do not fit",
                   lambda source: setattr(source, "origin", (rank, 0, 0)))
+    check_change(slabs_of(2, True))
     for phase in ("Reading signs", "Placing isovertices", "Reading point data", "Extracting the mesh"):
         check_abortion(phase, slabs_of(2, True), ranks - 1)
     check_abortion("Reading signs", slabs_of(2, True), 0)
