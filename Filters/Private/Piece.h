@@ -53,8 +53,8 @@ void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piec
 
 /**
  * Refuses a part of a volume where several processes are to share its mesh: of other parts in other
- * processes the meshes would not fit. A simulation may have a part in each process, for instance,
- * and ignore what it is asked for.
+ * processes the meshes would not fit. Images of processes that execute together do not come here in
+ * parts: see Parts.h.
  *
  * @throws std::invalid_argument
  */

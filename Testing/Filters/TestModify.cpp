@@ -53,6 +53,7 @@ struct Settings
   double PixelTolerance = 20.0;
   int Precision = vtkAlgorithm::DEFAULT_PRECISION;
   int Threads = 1;
+  bool GlobalIds = false;
   int Metric = vtkIsodiamondHierarchy::DISTANCE;
   bool ExactIsovertices = true;
   bool PreserveFeatures = true;
@@ -314,7 +315,7 @@ private:
 
   void ChangeOutput(Settings& settings)
   {
-    switch (this->Random() % 7)
+    switch (this->Random() % 8)
     {
       case 0:
         settings.Precision = static_cast<int>(this->Random() % 3);
@@ -333,6 +334,9 @@ private:
         break;
       case 5:
         settings.Gradients = !settings.Gradients;
+        break;
+      case 6:
+        settings.GlobalIds = !settings.GlobalIds;
         break;
       default:
         settings.Scalars = !settings.Scalars;
@@ -443,6 +447,7 @@ void ApplyQuery(const Settings& settings, vtkIsodiamondAlgorithm* filter)
   filter->SetPixelTolerance(settings.PixelTolerance);
   filter->SetOutputPointsPrecision(settings.Precision);
   filter->SetNumberOfThreads(settings.Threads);
+  filter->SetGenerateGlobalIds(settings.GlobalIds);
 }
 
 void ApplyInput(const Settings& settings, vtkAlgorithm* filter)
