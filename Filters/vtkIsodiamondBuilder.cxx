@@ -199,7 +199,7 @@ void vtkIsodiamondBuilder::Build(
   const bool isKnown = this->Built && this->BuiltOf == input && this->BuiltAt > input->GetMTime() &&
     this->BuiltAt > this->GetMTime();
   // Peers build together, or nobody does.
-  if (!isodiamond::IsAnywhere(slabs ? slabs->Together() : nullptr, !isKnown))
+  if (!isodiamond::IsAnywhere(this->Plan->Together(), !isKnown))
   {
     output->ShallowCopy(this->Built);
     return;

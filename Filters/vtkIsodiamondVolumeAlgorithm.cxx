@@ -106,7 +106,7 @@ double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
 {
   double largest = 0.0;
   vtkSmartPointer<vtkDataObject> input = this->GetInput();
-  if (this->Plan->IsAPart())
+  if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && this->Plan->IsAPart())
   {
     input = vtkIsodiamond::WholeImage(this->GetInputInformation(0, 0));
   }

@@ -20,7 +20,7 @@ struct Ghosts
   std::vector<vtkIdType> Cells;    ///< their ids in the whole mesh
   std::vector<vtkIdType> Corners;  ///< of each, as ids of points of the whole mesh
   std::vector<std::int8_t> Levels; ///< as they were read, one a cell
-  std::vector<bool> ArePointsOwn;  ///< of the whole mesh: whether no share before has the point
+  std::vector<bool> ArePointsOwn;  ///< of the whole mesh: the share has it, and none before
 };
 
 /** Cells of a mesh, as they are told apart here. */

@@ -101,8 +101,7 @@ void AddCells(Extraction& extraction, std::int64_t wholeCount, int size, const M
   mesh.CellData->AddArray(levels);
   if (isShare && (options.Wanted.HasGhosts() || options.Wanted.FirstIds))
   {
-    const std::vector<std::int64_t> ids = extraction.PointIds();
-    AddOrigins(options.Wanted, { ids.begin(), ids.end() }, cells, ghosts, mesh);
+    AddOrigins(options.Wanted, extraction.template PointIds<vtkIdType>(), cells, ghosts, mesh);
   }
 }
 

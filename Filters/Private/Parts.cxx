@@ -115,7 +115,7 @@ bool IsAnySet(vtkUnsignedCharArray* array)
     begin, begin + array->GetNumberOfTuples(), [](unsigned char value) { return value != 0; });
 }
 
-/** The arrays at the points, but for ghosts. */
+/** The arrays at the points, but for ghosts and what numbers points. */
 std::vector<vtkDataArray*> PointArraysOf(vtkImageData* image)
 {
   vtkPointData* data = image->GetPointData();
@@ -123,7 +123,8 @@ std::vector<vtkDataArray*> PointArraysOf(vtkImageData* image)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = data->GetArray(i);
-    if (array && array != image->GetPointGhostArray())
+    if (array && array != image->GetPointGhostArray() && array != data->GetGlobalIds() &&
+      array != data->GetPedigreeIds() && array->GetDataType() != VTK_BIT)
     {
       arrays.push_back(array);
     }
@@ -137,7 +138,7 @@ Extent OwnExtent(vtkImageData* image)
   Extent all;
   image->GetExtent(all.data());
   vtkUnsignedCharArray* ghosts = image->GetCellGhostArray();
-  if (!ghosts)
+  if (!ghosts || IsEmpty(CellsOf(all)))
   {
     return all;
   }
@@ -175,6 +176,8 @@ std::uint64_t KindOf(vtkImageData* image, const Extent& whole)
     text << (array->GetName() ? array->GetName() : "") << ' ' << array->GetDataType() << ' '
          << array->GetNumberOfComponents() << ' ';
   }
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  text << (scalars && scalars->GetName() ? scalars->GetName() : "");
   return std::hash<std::string>()(text.str());
 }
 
@@ -248,6 +251,11 @@ Parts::Parts(vtkInformation* input, const ControllerPeers& peers)
   others.Or(extents);
   this->Extents = extents;
   this->Blanks = this->Others.Any(IsAnySet(this->BlankPoints) || IsAnySet(this->BlankCells));
+  if (!this->Blanks)
+  {
+    this->BlankPoints = nullptr;
+    this->BlankCells = nullptr;
+  }
   if (std::any_of(kinds.begin(), kinds.end(), [&](std::uint64_t kind) { return kind != kinds[0]; }))
   {
     throw std::invalid_argument("The processes' parts of the volume do not fit: they have another "
@@ -272,7 +280,8 @@ std::vector<Parts::Located> Parts::ArraysIn(const Extent& extent, vtkDataArray* 
       copy->Fill(0.0); // between two parts there may be cells that are in neither of them
     }
     CopyShared(array, ofArray, copy, wanted);
-    arrays.push_back({ copy, wanted, array == this->BlankCells });
+    arrays.push_back({ copy, wanted, array == this->BlankCells,
+      array == this->Own->GetPointData()->GetScalars() });
   };
   for (vtkDataArray* array : PointArraysOf(this->Own))
   {
@@ -352,11 +361,11 @@ vtkSmartPointer<vtkImageData> Parts::ImageOf(
     vtkDataSetAttributes* data = array.IsOfCells
       ? static_cast<vtkDataSetAttributes*>(image->GetCellData())
       : image->GetPointData();
-    data->AddArray(array.Array);
-  }
-  if (vtkDataArray* scalars = this->Own->GetPointData()->GetScalars())
-  {
-    image->GetPointData()->SetActiveScalars(scalars->GetName());
+    const int index = data->AddArray(array.Array);
+    if (array.AreScalars)
+    {
+      data->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
+    }
   }
   return image;
 }

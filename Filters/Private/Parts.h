@@ -62,6 +62,7 @@ private:
     vtkSmartPointer<vtkDataArray> Array;
     Extent Of{};
     bool IsOfCells = false;
+    bool AreScalars = false; ///< the active ones
   };
 
   std::vector<Located> ArraysIn(const Extent& extent, vtkDataArray* only) const;

@@ -145,6 +145,10 @@ isodiamond::CellRange ShareOf(std::int64_t cells, const int piece[2])
 
 void KeepShare(const Share& share, Mesh& mesh)
 {
+  if (share.Piece[1] == 1 && !share.FirstIds)
+  {
+    return;
+  }
   const isodiamond::CellRange range = ShareOf(mesh.Cells->GetNumberOfCells(), share.Piece.data());
   const vtkIdType pointCount = mesh.Points->GetNumberOfPoints();
   const Ghosts ghosts =

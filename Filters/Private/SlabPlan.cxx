@@ -87,6 +87,19 @@ int CountAlone(vtkInformation* input, int asked)
   return std::clamp(count, 1, MostSlabs(input));
 }
 
+/** Whether upstream has not made what it should have: its output is empty, or what it was before.
+ */
+bool HasFailed(vtkInformation* input)
+{
+  vtkImageData* image = vtkImageData::GetData(input);
+  auto* upstream =
+    vtkDemandDrivenPipeline::SafeDownCast(vtkExecutive::PRODUCER()->GetExecutive(input));
+  // What a trivial producer gives it does not make.
+  const bool makes = upstream && !upstream->GetAlgorithm()->IsA("vtkTrivialProducer");
+  return image->GetNumberOfPoints() == 0 ||
+    (makes && image->GetUpdateTime() < upstream->GetPipelineMTime());
+}
+
 }
 
 void SlabPlan::Request(vtkInformation* input, vtkInformation* output, bool canBeCut, int blocks)
@@ -128,7 +141,7 @@ void SlabPlan::Note(vtkAlgorithm* filter, vtkInformation* request, int when)
     request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     vtkInformation* input = filter->GetInputInformation(0, 0);
-    this->IsPeerWithout = this->Peers->Any(vtkImageData::GetData(input)->GetNumberOfPoints() == 0);
+    this->IsPeerWithout = this->Peers->Any(HasFailed(input));
     this->AreParts = this->Peers->Any(!IsGiven(input));
   }
 }

@@ -53,6 +53,12 @@ public:
 
   int NumberOfSlabs() const { return this->Count; }
 
+  /** Who makes one hierarchy together, of parts; null for nobody. */
+  isodiamond::Peers* Together()
+  {
+    return this->AreParts || this->IsShared ? &*this->Peers : nullptr;
+  }
+
   /** Whether the input is a part of the whole: a slab, or what a peer has. */
   bool IsAPart() const { return this->Count > 1 || this->AreParts; }
 

@@ -91,10 +91,12 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slab
     }
   };
   isodiamond::Peers* const peers = slabs.Together();
-  if (wanted.Normals || wanted.Gradients || (wanted.Others && slabs.HaveOtherArrays()))
+  const bool wantsOthers = isodiamond::IsAnywhere(peers, wanted.Others && slabs.HaveOtherArrays());
+  if (wanted.Normals || wanted.Gradients || wantsOthers)
   {
+    const Reading reading = wantsOthers ? Reading::AllArrays : Reading::Values;
     isodiamond::InStep(
-      peers, [&] { slabs.ForEach(task, "Reading point data", 0.0, 1.0, Reading::AllArrays, add); });
+      peers, [&] { slabs.ForEach(task, "Reading point data", 0.0, 1.0, reading, add); });
   }
   for (vtkDataArray* array : arrays)
   {

@@ -4,6 +4,7 @@ more: each asks for its share of the volume, and together they have the mesh tha
 to the bit. Whoever fails does not let the others wait."""
 import numpy
 from vtkmodules.numpy_interface import dataset_adapter
+from vtkmodules.vtkImagingCore import vtkImageShiftScale
 
 import isodiamonds
 from ParallelTestTools import SIZE, Source, abort_at, lexsorted, new, rank, ranks, rows, run, together
@@ -91,6 +92,26 @@ def check_failure(name, fail):
         print(f"{ranks} processes, {name}: all fail, none waits", flush=True)
 
 
+def check_failure_upstream():
+    """Of one process's source, behind a filter, which keeps what it made before."""
+    source, between = Source(), vtkImageShiftScale()
+    between.SetInputConnection(source.GetOutputPort())
+    contour = new(isodiamonds.vtkIsodiamondContour(), between, Value=(0, 0.0), ErrorTolerance=0.4)
+    for teller in (contour, source.GetExecutive(), between.GetExecutive()):
+        teller.AddObserver("ErrorEvent", lambda *_: None)
+    contour.UpdatePiece(rank, ranks, 0)
+    assert contour.GetOutput().GetNumberOfPoints() > 100
+    if rank == ranks - 1:
+        source.fails_at = len(source.slices) + 1
+    source.Modified()
+    contour.UpdatePiece(rank, ranks, 0)
+    assert rank == ranks - 1 or contour.GetOutput().GetNumberOfPoints() == 0
+    contour.UpdatePiece(rank, ranks, 0)
+    assert contour.GetOutput().GetNumberOfPoints() > 100
+    if rank == 0:
+        print(f"{ranks} processes, no part behind a filter: none waits", flush=True)
+
+
 def main():
     contour = isodiamonds.vtkIsodiamondContour
     volume = isodiamonds.vtkIsodiamondIntervalVolume
@@ -109,6 +130,7 @@ def main():
         dict(SimulationQuality=1)])
     check_hierarchy()
     if ranks > 1:
+        check_failure_upstream()
         for request in (1, 2, 3, 4):
             check_failure(f"no part {request}", lambda source, _: setattr(source, "fails_at", request))
         for phase in ("Reading signs", "Classifying diamonds", "Placing isovertices", "Measuring errors",

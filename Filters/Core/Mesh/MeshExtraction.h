@@ -46,14 +46,15 @@ public:
   }
 
   /** The ids in the whole mesh of the points that there are. */
-  std::vector<std::int64_t> PointIds() const
+  template <typename Id>
+  std::vector<Id> PointIds() const
   {
     if (const KeptPoints* kept = this->Passes.PointsKept())
     {
-      return kept->Ids<std::int64_t>();
+      return kept->Ids<Id>();
     }
-    std::vector<std::int64_t> ids(this->PointCount());
-    std::iota(ids.begin(), ids.end(), std::int64_t{ 0 });
+    std::vector<Id> ids(this->PointCount());
+    std::iota(ids.begin(), ids.end(), Id{ 0 });
     return ids;
   }
 
