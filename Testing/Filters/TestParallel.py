@@ -8,6 +8,7 @@ import os
 import sys
 
 import numpy
+from paraview.vtk.util.numpy_support import vtk_to_numpy
 from paraview.simple import *
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
@@ -51,6 +52,14 @@ def pieces(proxy):
     return gathered(output)
 
 
+def own_cells(mesh):
+    """A process's own: ParaView asks for ghosts behind a reader of files."""
+    marks = mesh.GetCellData().GetArray("vtkGhostType")
+    mesh.GetPointData().RemoveArray("vtkGhostType")
+    rows = cells(mesh)
+    return rows if marks is None else rows[vtk_to_numpy(marks) == 0]
+
+
 def compare(name, proxy, filter):
     """The pieces of a filter of ParaView with the mesh of one of VTK."""
     meshes = pieces(proxy)
@@ -58,9 +67,10 @@ def compare(name, proxy, filter):
         return
     filter.Update()
     whole = filter.GetOutputDataObject(0)
-    counts = [mesh.GetNumberOfCells() for mesh in meshes]
+    pieces_of_all = [own_cells(mesh) for mesh in meshes]
+    counts = [len(rows) for rows in pieces_of_all]
     assert len(meshes) == ranks and max(counts) - min(counts) <= 1, (name, counts)
-    together = numpy.concatenate([cells(mesh) for mesh in meshes])
+    together = numpy.concatenate(pieces_of_all)
     expected = cells(whole)
     assert len(expected) > 500, (name, len(expected))
     assert together.shape == expected.shape, (name, together.shape, expected.shape)
