@@ -247,7 +247,7 @@ protected:
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
   double AchievedTolerance = 0.0;
-  int Piece[3] = { 0, 1, 0 }; ///< that the output is asked for, number of pieces, ghost levels
+  int Piece[3] = { 0, 1, 0 }; ///< asked for: its number, how many, ghost levels
 
 private:
   vtkIsodiamondAlgorithm(const vtkIsodiamondAlgorithm&) = delete;

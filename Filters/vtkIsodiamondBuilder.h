@@ -275,7 +275,7 @@ protected:
   bool ComputeNormals = false;
   int NumberOfBlocks = 0;
   int NumberOfThreads = 0;
-  int Piece[3] = { 0, 1, 0 }; ///< that the output is asked for, number of pieces, ghost levels
+  int Piece[3] = { 0, 1, 0 }; ///< asked for: its number, how many, ghost levels
 
 private:
   vtkIsodiamondBuilder(const vtkIsodiamondBuilder&) = delete;

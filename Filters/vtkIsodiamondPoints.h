@@ -37,7 +37,7 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Piece[3] = { 0, 1, 0 }; ///< that the output is asked for, number of pieces, ghost levels
+  int Piece[3] = { 0, 1, 0 }; ///< asked for: its number, how many, ghost levels
 
 private:
   vtkIsodiamondPoints(const vtkIsodiamondPoints&) = delete;

@@ -51,6 +51,18 @@ vtkSmartPointer<Array> NewArray(const char* name, vtkIdType count, int component
   return array;
 }
 
+/** An array of the type, components and name of another, with its values in a row; they are
+ *  arbitrary. @throws std::bad_alloc */
+inline vtkSmartPointer<vtkDataArray> NewLike(vtkDataArray* other, vtkIdType count)
+{
+  auto array =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(other->GetDataType()));
+  array->SetName(other->GetName());
+  array->SetNumberOfComponents(other->GetNumberOfComponents());
+  AllocateTuples(array, count);
+  return array;
+}
+
 /** Adds a number to field data, for who looks at them. */
 template <typename Array>
 void AddNumber(vtkFieldData* fieldData, const char* name, typename Array::ValueType number)

@@ -65,25 +65,17 @@ bool AreCellsChanged(const MeshOptions& options)
   return options.ForSimulation || (options.Hidden != nullptr && options.Hidden->Any());
 }
 
-/** The cells that are to be written. @param count of the whole mesh */
-isodiamond::CellRange CellsWanted(std::int64_t count, const MeshOptions& options)
-{
-  return AreCellsChanged(options) ? isodiamond::CellRange{ 0, count }
-                                  : ShareOf(count, options.Wanted.Piece.data());
-}
-
 /** Adds an extraction's cells that are wanted, to which its points are limited.
  *  @param write (range, ids, levels) */
 template <typename Extraction, typename Write>
 void AddCells(Extraction& extraction, std::int64_t wholeCount, int size, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh, const Write& write)
 {
-  const isodiamond::CellRange cells = CellsWanted(wholeCount, options);
-  const bool isShare = !AreCellsChanged(options);
+  const Share share = AreCellsChanged(options) ? Share{} : options.Wanted;
+  const isodiamond::CellRange cells = ShareOf(wholeCount, share.Piece.data());
   mesh.WholeSize = { extraction.PointCount(), wholeCount };
-  const Ghosts ghosts = isShare && options.Wanted.HasGhosts()
-    ? FindGhosts(
-        { wholeCount, extraction.PointCount(), size, write }, cells, options.Wanted.GhostLevels)
+  const Ghosts ghosts = share.HasGhosts()
+    ? FindGhosts({ wholeCount, extraction.PointCount(), size, write }, cells, share.GhostLevels)
     : Ghosts{};
   const std::int64_t count = cells.Count() + static_cast<std::int64_t>(ghosts.Cells.size());
   const auto levels = NewArray<vtkSignedCharArray>("Level", count);
@@ -92,16 +84,16 @@ void AddCells(Extraction& extraction, std::int64_t wholeCount, int size, const M
     {
       write(cells, connectivity, levels->GetPointer(0));
       std::copy(ghosts.Corners.begin(), ghosts.Corners.end(), connectivity + size * cells.Count());
-      if (isShare && options.Wanted.Piece[1] > 1)
+      if (share.Piece[1] > 1)
       {
         extraction.KeepPointsOf(connectivity, size * count);
       }
     });
   std::copy(ghosts.Levels.begin(), ghosts.Levels.end(), levels->GetPointer(0) + cells.Count());
   mesh.CellData->AddArray(levels);
-  if (isShare && (options.Wanted.HasGhosts() || options.Wanted.FirstIds))
+  if (share.HasGhosts() || share.FirstIds)
   {
-    AddOrigins(options.Wanted, extraction.template PointIds<vtkIdType>(), cells, ghosts, mesh);
+    AddOrigins(share, extraction.template PointIds<vtkIdType>(), cells, ghosts, mesh);
   }
 }
 
@@ -301,7 +293,6 @@ Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& optio
   }
   if (AreCellsChanged(options))
   {
-    mesh.WholeSize = { mesh.Points->GetNumberOfPoints(), mesh.Cells->GetNumberOfCells() };
     KeepShare(options.Wanted, mesh);
   }
   return mesh;

@@ -32,10 +32,10 @@ struct Mesh
   vtkSmartPointer<vtkPoints> Points;   ///< world positions
   vtkSmartPointer<vtkCellArray> Cells; ///< 32-bit storage where ids fit and all are kept
   vtkSmartPointer<vtkPointData> PointData = vtkSmartPointer<vtkPointData>::New();
-  std::array<vtkIdType, 2>
-    WholeSize{}; ///< points and cells of the whole, of which this may be a share
   /** "Level". */
   vtkSmartPointer<vtkCellData> CellData = vtkSmartPointer<vtkCellData>::New();
+  /** Points and cells of the whole mesh, of which this may be a share. */
+  std::array<vtkIdType, 2> WholeSize{};
   /** The smallest and the largest, in degrees, of tetrahedra for simulations. */
   std::optional<std::array<double, 2>> DihedralAngles;
   /** Of such tetrahedra: diamonds that have to be refined, for surfaces are too far away. The mesh
@@ -59,8 +59,8 @@ struct MeshOptions
   int PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;
   PointDataMaker MorePointData = nullptr;
   const isodiamond::HiddenCells* Hidden = nullptr; ///< what lies in them is left out
-  Share Wanted = {};
-  bool ForSimulation = false;     ///< see Stuff.h; of an interval volume
+  Share Wanted = {};                               ///< what of the mesh
+  bool ForSimulation = false;                      ///< see Stuff.h; of an interval volume
   double DistanceTolerance = 0.0; ///< the least that it may be away from full resolution
   /** The same in a triangle or tetrahedron, by its corners in the world; none to not measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;

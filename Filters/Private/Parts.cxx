@@ -31,6 +31,13 @@ bool IsEmpty(const Extent& extent)
   return extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5];
 }
 
+Extent ExtentOf(vtkImageData* image)
+{
+  Extent extent;
+  image->GetExtent(extent.data());
+  return extent;
+}
+
 Extent Shared(const Extent& a, const Extent& b)
 {
   return { std::max(a[0], b[0]), std::min(a[1], b[1]), std::max(a[2], b[2]), std::min(a[3], b[3]),
@@ -85,17 +92,6 @@ void CopyShared(vtkDataArray* from, const Extent& ofFrom, vtkDataArray* to, cons
     [&](int, int, vtkIdType tuple) { to->InsertTuples(tuple, RowLength(shared), *row++, from); });
 }
 
-/** An array of the same kind, with its values in a row. */
-vtkSmartPointer<vtkDataArray> NewLike(vtkDataArray* other, vtkIdType tuples)
-{
-  auto array =
-    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(other->GetDataType()));
-  array->SetName(other->GetName());
-  array->SetNumberOfComponents(other->GetNumberOfComponents());
-  AllocateTuples(array, tuples);
-  return array;
-}
-
 /** Of ghosts, of which there may be none, what is blanked. */
 vtkSmartPointer<vtkUnsignedCharArray> BlanksOf(
   vtkUnsignedCharArray* ghosts, vtkIdType tuples, int blank)
@@ -135,8 +131,7 @@ std::vector<vtkDataArray*> PointArraysOf(vtkImageData* image)
 /** The samples of the cells that are not ghosts of other processes'. */
 Extent OwnExtent(vtkImageData* image)
 {
-  Extent all;
-  image->GetExtent(all.data());
+  const Extent all = ExtentOf(image);
   vtkUnsignedCharArray* ghosts = image->GetCellGhostArray();
   if (!ghosts || IsEmpty(CellsOf(all)))
   {
@@ -215,11 +210,12 @@ bool CoverAlong(int axis, const std::vector<Extent>& parts, const Extent& whole)
     });
 }
 
-}
-
+/** Whether extents cover all samples of a whole. */
 bool Cover(const std::vector<Extent>& parts, const Extent& whole)
 {
   return CoverAlong(2, parts, whole);
+}
+
 }
 
 Parts::Parts(vtkInformation* input, const ControllerPeers& peers)
@@ -239,8 +235,7 @@ Parts::Parts(vtkInformation* input, const ControllerPeers& peers)
       }
       extents[peers.Rank()] = own;
       kinds[peers.Rank()] = KindOf(this->Own, this->Whole);
-      Extent all;
-      this->Own->GetExtent(all.data());
+      const Extent all = ExtentOf(this->Own);
       this->BlankPoints =
         BlanksOf(this->Own->GetPointGhostArray(), TuplesOf(all), vtkDataSetAttributes::HIDDENPOINT);
       this->BlankCells = BlanksOf(this->Own->GetCellGhostArray(), TuplesOf(CellsOf(all)),
@@ -269,8 +264,7 @@ Parts::Parts(vtkInformation* input, const ControllerPeers& peers)
 
 std::vector<Parts::Located> Parts::ArraysIn(const Extent& extent, vtkDataArray* only) const
 {
-  Extent all;
-  this->Own->GetExtent(all.data());
+  const Extent all = ExtentOf(this->Own);
   std::vector<Located> arrays;
   const auto add = [&](vtkDataArray* array, const Extent& ofArray, const Extent& wanted)
   {

@@ -20,9 +20,6 @@ namespace vtkIsodiamond
 /** Bounds of sample indices, as VTK's extents. */
 using Extent = std::array<int, 6>;
 
-/** Whether some extents cover all samples of a whole. */
-bool Cover(const std::vector<Extent>& parts, const Extent& whole);
-
 /**
  * An image of which each process has a part, whatever it is asked for, as those of a simulation
  * have: the parts make the whole together. They may overlap. Ghost cells around a part do not

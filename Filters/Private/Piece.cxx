@@ -145,6 +145,7 @@ isodiamond::CellRange ShareOf(std::int64_t cells, const int piece[2])
 
 void KeepShare(const Share& share, Mesh& mesh)
 {
+  mesh.WholeSize = { mesh.Points->GetNumberOfPoints(), mesh.Cells->GetNumberOfCells() };
   if (share.Piece[1] == 1 && !share.FirstIds)
   {
     return;

@@ -134,7 +134,6 @@ Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& que
   Mesh mesh = ExtractMesh(refined, whole, extracting);
   task.Begin("Simplifying", 0.3, 1.0);
   SimplifyMesh(query, Measure(refined.Hierarchy()), options.World, task.For(), mesh);
-  mesh.WholeSize = { mesh.Points->GetNumberOfPoints(), mesh.Cells->GetNumberOfCells() };
   KeepShare(options.Wanted, mesh);
   return mesh;
 }

@@ -54,10 +54,7 @@ std::int64_t CountBytes(vtkDataArray* array)
 /** An array like another, all 0. */
 vtkSmartPointer<vtkDataArray> ZerosLike(vtkDataArray* other, vtkIdType count)
 {
-  auto array = vtkSmartPointer<vtkDataArray>::Take(other->NewInstance());
-  array->SetName(other->GetName());
-  array->SetNumberOfComponents(other->GetNumberOfComponents());
-  AllocateTuples(array, count);
+  vtkSmartPointer<vtkDataArray> array = NewLike(other, count);
   std::fill_n(Bytes(array), CountBytes(array), std::uint8_t{ 0 });
   return array;
 }

@@ -48,6 +48,7 @@ Slabs::Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
   vtkImageData* image = vtkImageData::GetData(this->Input);
   if (!this->OfPeers)
   {
+    // Throws if it cannot be read.
     this->Read(image, SlabAtHand(this->Input, count, this->Together()));
   }
   vtkDataArray* array = this->FindArray(image).Array;
@@ -120,6 +121,9 @@ void Slabs::ForEach(Task& task, const char* phase, double begin, double end, Rea
   }
   isodiamond::Peers* const peers = this->Together();
   const auto count = static_cast<double>(this->Cut.size());
+  vtkDataArray* const only = reading == Reading::AllArrays
+    ? nullptr
+    : this->FindArray(vtkImageData::GetData(this->Input)).Array;
   for (std::size_t i = 0; i < this->Cut.size(); ++i)
   {
     const Slices slices = reading == Reading::Signs ? Alone(this->Cut[i]) : this->Cut[i];
@@ -140,9 +144,6 @@ void Slabs::ForEach(Task& task, const char* phase, double begin, double end, Rea
     };
     if (this->OfPeers)
     {
-      vtkDataArray* const only = reading == Reading::AllArrays
-        ? nullptr
-        : this->FindArray(vtkImageData::GetData(this->Input)).Array;
       const vtkSmartPointer<vtkImageData> image =
         this->OfPeers->Gather(slices.First, slices.Last, only, owner);
       // Who fails here must not leave the others with the next slab.

@@ -17,10 +17,7 @@ namespace
 vtkSmartPointer<vtkDataArray> TuplesOf(vtkDataArray* array, const std::vector<vtkIdType>& ids)
 {
   const vtkSmartPointer<vtkDataArray> all = InRow(array);
-  auto some = vtkSmartPointer<vtkDataArray>::Take(all->NewInstance());
-  some->SetName(array->GetName());
-  some->SetNumberOfComponents(array->GetNumberOfComponents());
-  AllocateTuples(some, static_cast<vtkIdType>(ids.size()));
+  vtkSmartPointer<vtkDataArray> some = NewLike(array, static_cast<vtkIdType>(ids.size()));
   const vtkIdType bytes = vtkIdType{ array->GetNumberOfComponents() } * array->GetDataTypeSize();
   const char* from = static_cast<const char*>(all->GetVoidPointer(0));
   char* to = static_cast<char*>(some->GetVoidPointer(0));

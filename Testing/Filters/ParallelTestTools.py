@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests in pvbatch with any number of processes share: an image's source, meshes of all of them on the first one, as
-rows of numbers, and an end for all if one fails."""
+"""What tests in pvbatch with any number of processes share: an image's source, meshes of all processes
+on the first one, as rows of numbers, and an end for all if one fails."""
 import os
 import sys
 import traceback
@@ -14,9 +14,10 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandD
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 controller = vtkMultiProcessController.GetGlobalController()
-SIZE = (35, 30, 75)
 rank = controller.GetLocalProcessId()
 ranks = controller.GetNumberOfProcesses()
+
+SIZE = (35, 30, 75)  # of the image of Source
 
 
 def gathered(mesh):
@@ -65,6 +66,7 @@ def together(filter):
 
 
 def new(filter, source, **properties):
+    """A filter behind a source, with properties by VTK's names."""
     filter.SetInputConnection(source.GetOutputPort())
     for name, value in properties.items():
         getattr(filter, "Set" + name)(*value if isinstance(value, tuple) else (value,))
@@ -72,6 +74,7 @@ def new(filter, source, **properties):
 
 
 def abort_at(filter, phase):
+    """Stops a filter in one of its phases."""
     filter.AddObserver(
         "ProgressEvent", lambda *_: filter.SetAbortExecute(1) if filter.GetProgressText() == phase else None)
 

@@ -8,8 +8,8 @@ import os
 import sys
 
 import numpy
-from paraview.vtk.util.numpy_support import vtk_to_numpy
 from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
