@@ -4,9 +4,9 @@
     PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/first_apply.py [OPTIONS] [RAW ...]
 
 For each volume: the first Apply at full resolution; then the first tolerance, half a voxel, which
-measures errors; then another one, a voxel; and a first Apply at half a voxel at once. All as the
-panel starts them, but without normals and scalars, which vtkContourFilter makes none of here,
-either. Beside it Contour and Decimate (vtkDecimatePro) for as many triangles as half a voxel has.
+measures errors; then another one, a voxel; a first Apply at half a voxel at once; and one with
+OneTolerance. All as the panel starts them, but without normals and scalars, which vtkContourFilter
+makes none of here, either. Beside it Contour and Decimate (vtkDecimatePro) for as many triangles as half a voxel has.
 Medians of some runs, each with a new filter; in times of vtkContourFilter, which has one thread, as
 vtkDecimatePro has. RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are synthetic and, where
 Debian's mricron-data is installed, an MRI head.
@@ -36,12 +36,15 @@ def at(contour, tolerance):
 
 
 def waits(image, isovalue, threads):
-    """Milliseconds: full resolution first, the first tolerance, the next one; a tolerance first."""
+    """Milliseconds: full resolution first, the first tolerance, the next one; a tolerance first;
+    the same as the only one."""
     voxel = min(image.GetSpacing())
-    first, second = (configured(vtkIsodiamondContour(), image, isovalue) for _ in range(2))
-    for contour in (first, second):
+    first, second, only = (configured(vtkIsodiamondContour(), image, isovalue) for _ in range(3))
+    for contour in (first, second, only):
         contour.SetNumberOfThreads(threads)
-    return [at(first, 0), at(first, voxel / 2), at(first, voxel), at(second, voxel / 2)]
+    only.OneToleranceOn()
+    times = [at(first, 0), at(first, voxel / 2), at(first, voxel), at(second, voxel / 2)]
+    return times + [at(only, voxel / 2)]
 
 
 def contour_and_decimate(contour, image, isovalue):
@@ -78,8 +81,8 @@ def main():
         volumes.append(("MRI head", head(), HEAD_ISOVALUE))
     volumes.extend(arguments.raw)
     print("| volume | threads | vtkContourFilter, ms | full resolution | first tolerance | next "
-          "| half a voxel at once | Contour + Decimate |")
-    print("|---|---:|---:|---:|---:|---:|---:|---:|")
+          "| half a voxel at once | OneTolerance | Contour + Decimate |")
+    print("|---|---:|---:|---:|---:|---:|---:|---:|---:|")
     for name, image, isovalue in volumes:
         reference = configured(vtkContourFilter(), image, isovalue)
         unit = statistics.median(timed(reference) for _ in range(arguments.runs))

@@ -36,6 +36,27 @@
 namespace
 {
 
+bool AreVolumes(const std::vector<isodiamond::Isoregion>& regions)
+{
+  return !regions.empty() && regions.front().IsVolume();
+}
+
+/** The tolerance of the hierarchy's mesh, if a query asks for one alone, and nothing else depends on
+ *  errors. */
+std::optional<double> OnlyTolerance(
+  const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::Volume& volume, bool refinesInterior)
+{
+  if (!query.OneTolerance || query.IsFull() || query.HasTarget || query.Region || query.View ||
+    query.SimulationQuality || refinesInterior)
+  {
+    return std::nullopt;
+  }
+  const isodiamond::GridGeometry& world = volume.Placement.World;
+  return query.Simplify
+    ? query.ErrorTolerance * vtkIsodiamond::PartForHierarchy(query, query.ErrorTolerance, world)
+    : query.ErrorTolerance;
+}
+
 /** Which hierarchy a query needs. Interior tolerances from the extent of the values on need nothing
  *  inside. */
 vtkIsodiamond::Cache::Need NeedOf(
@@ -46,8 +67,9 @@ vtkIsodiamond::Cache::Need NeedOf(
     const isodiamond::ValueRange range = isodiamond::FiniteRange(volume.Samples);
     return range.Maximum - range.Minimum;
   };
-  return { !query.IsFull(),
-    query.InteriorTolerance < VTK_DOUBLE_MAX && query.InteriorTolerance < extent() };
+  const bool refinesInterior =
+    query.InteriorTolerance < VTK_DOUBLE_MAX && query.InteriorTolerance < extent();
+  return { !query.IsFull(), refinesInterior, OnlyTolerance(query, volume, refinesInterior) };
 }
 
 }
@@ -70,6 +92,7 @@ void vtkIsodiamondVolumeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ErrorMetric: " << this->ErrorMetric << "\n";
   os << indent << "ToleranceUnit: " << this->ToleranceUnit << "\n";
+  os << indent << "OneTolerance: " << (this->OneTolerance ? "On" : "Off") << "\n";
   os << indent << "ExactIsovertices: " << (this->ExactIsovertices ? "On" : "Off") << "\n";
   os << indent << "PreserveFeatures: " << (this->PreserveFeatures ? "On" : "Off") << "\n";
   os << indent << "PreserveTopology: " << (this->PreserveTopology ? "On" : "Off") << "\n";
@@ -152,6 +175,15 @@ vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataSe
 }
 
 //------------------------------------------------------------------------------
+vtkIsodiamond::WorldQuery vtkIsodiamondVolumeAlgorithm::GetQuery() const
+{
+  vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
+  query.OneTolerance =
+    this->OneTolerance && this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE;
+  return query;
+}
+
+//------------------------------------------------------------------------------
 bool vtkIsodiamondVolumeAlgorithm::CanBeCut() const
 {
   return this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && !this->ClosesBoundary() &&
@@ -205,6 +237,9 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       const double unit = this->GetUnit(volume.Placement.World.SmallestStep());
       query.ErrorTolerance *= unit;
       query.OutsideErrorTolerance *= unit;
+      // Where cells are hidden, an interval volume is refined inside: by all errors.
+      query.OneTolerance =
+        query.OneTolerance && !(volume.Hidden.Any() && AreVolumes(this->GetRegions()));
       const isodiamond::BuildOptions options = this->GetOptions(volume.Placement.World, query);
       this->RemovedFromBlock = 0;
       vtkIsodiamond::RunThreaded(this->NumberOfThreads,
@@ -328,15 +363,16 @@ void vtkIsodiamondVolumeAlgorithm::WriteTable(const vtkIsodiamond::Volume& volum
   const vtkIsodiamond::WorldQuery& query, double unit, vtkIsodiamond::Task& task,
   vtkDataObject* output)
 {
-  if (query.IsFull())
+  const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
+  if (!need.Errors || need.Only)
   {
     return; // as if errors were not known, even if they are: the mesh is that of a new filter
   }
   std::vector<const isodiamond::CellCounts*> counts;
   for (const isodiamond::Isoregion& region : this->GetRegions())
   {
-    counts.push_back(&this->Hierarchies->Count(
-      volume, region, NeedOf(query, volume), query.InteriorTolerance, task));
+    counts.push_back(
+      &this->Hierarchies->Count(volume, region, need, query.InteriorTolerance, task));
   }
   if (!counts.empty())
   {

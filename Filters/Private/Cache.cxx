@@ -88,7 +88,8 @@ void Cache::Build(
     entry.Staged.emplace(BuildInSlabs(*volume.InSlabs, region, options, task));
   }
   // Where cells are hidden, what is inside of a volume is refined, too: by its errors.
-  else if (need.Errors || need.RefinedInterior || (region.IsVolume() && volume.Hidden.Any()))
+  else if ((need.Errors && !need.Only) || need.RefinedInterior ||
+    (region.IsVolume() && volume.Hidden.Any()))
   {
     entry.Encoding =
       isodiamond::BuildIsodiamonds(ModelKept, volume.Samples, region, task.For(), options);
@@ -101,35 +102,75 @@ void Cache::Build(
   this->Entries.splice(this->Entries.begin(), added);
 }
 
-void Cache::MeasureErrors(const Volume& volume, Task& task)
+template <typename Change>
+void Cache::ChangeFirst(isodiamond::Peers* peers, const Change& change)
 {
-  Entry& entry = this->Entries.front();
-  const isodiamond::BuildOptions options = this->OptionsFor(volume, entry.RefineInterior, task);
   try
   {
-    entry.Encoding = entry.Staged->Finish(ModelKept, volume.Samples, task.For(), options);
+    change(this->Entries.front());
   }
   catch (...)
   {
-    if (options.Together)
+    if (peers)
     {
-      this->Entries.pop_front(); // others may have come farther: all begin anew
+      this->Entries.pop_front();
     }
     throw;
   }
-  entry.Staged.reset();
+}
+
+void Cache::MeasureErrors(const Volume& volume, Task& task)
+{
+  this->ChangeFirst(PeersOf(volume),
+    [&](Entry& entry)
+    {
+      entry.Encoding = entry.Staged->Finish(ModelKept, volume.Samples, task.For(),
+        this->OptionsFor(volume, entry.RefineInterior, task));
+      entry.Staged.reset();
+    });
+}
+
+void Cache::RefineTo(double tolerance, const Volume& volume, Task& task)
+{
+  this->ChangeFirst(PeersOf(volume),
+    [&](Entry& entry)
+    {
+      entry.RefinedTo.reset();
+      if (tolerance > 0.0)
+      {
+        entry.Staged->RefineTo([&](const isodiamond::Place&) { return tolerance; }, volume.Samples,
+          task.For(), this->OptionsFor(volume, entry.RefineInterior, task));
+      }
+      else
+      {
+        entry.Staged->ShowFullResolution();
+      }
+      entry.RefinedTo = tolerance;
+    });
+}
+
+std::list<Cache::Entry>::iterator Cache::Find(
+  const isodiamond::Isoregion& region, const Need& need)
+{
+  const auto find = [&](bool mayBeStaged, bool mayBeDone)
+  {
+    return std::find_if(this->Entries.begin(), this->Entries.end(),
+      [&](const Entry& entry)
+      {
+        // What can be refined inside need not be.
+        return entry.Region == region && (entry.RefineInterior || !need.RefinedInterior) &&
+          (entry.Staged ? mayBeStaged : mayBeDone) && entry.From == this->Current;
+      });
+  };
+  // A mesh of one tolerance does not depend on whether other errors are known.
+  const auto done = find(false, !need.Only);
+  return done != this->Entries.end() ? done : find(true, false);
 }
 
 const isodiamond::IsodiamondHierarchy& Cache::Get(
   const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task)
 {
-  // What can be refined inside need not be.
-  const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
-    [&](const Entry& entry)
-    {
-      return entry.Region == region && (entry.RefineInterior || !need.RefinedInterior) &&
-        entry.From == this->Current;
-    });
+  const auto found = this->Find(region, need);
   const bool isKnown = found != this->Entries.end();
   // Peers build together, or nobody does.
   if (isodiamond::IsAnywhere(PeersOf(volume), !isKnown))
@@ -145,9 +186,18 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
     found->IsUsed = true;
     this->Entries.splice(this->Entries.begin(), this->Entries, found);
   }
-  if (this->Entries.front().Staged && need.Errors)
+  if (this->Entries.front().Staged && need.Errors && !need.Only)
   {
     this->MeasureErrors(volume, task);
+  }
+  if (this->Entries.front().Staged)
+  {
+    const double tolerance = need.Only.value_or(0.0);
+    if (isodiamond::IsAnywhere(
+          PeersOf(volume), this->Entries.front().RefinedTo != tolerance))
+    {
+      this->RefineTo(tolerance, volume, task);
+    }
   }
   Entry& entry = this->Entries.front();
   isodiamond::InStep(PeersOf(volume),

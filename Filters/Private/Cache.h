@@ -39,6 +39,9 @@ public:
   {
     bool Errors = true; ///< else it asks for full resolution
     bool RefinedInterior = false;
+    /** By the distance metric, a tolerance that is the only one: errors are looked at no farther
+     *  than its mesh needs. Not of an interval volume with hidden cells, which is refined inside. */
+    std::optional<double> Only = std::nullopt;
   };
 
   /** The hierarchy of a region; built if there is none yet, and its errors measured when a query
@@ -84,7 +87,8 @@ private:
     isodiamond::Isoregion Region = 0.0;
     bool RefineInterior = false;
     bool IsUsed = true;                            ///< since the last time of trimming
-    std::optional<isodiamond::StagedBuild> Staged; ///< as long as nobody needs errors
+    std::optional<isodiamond::StagedBuild> Staged; ///< as long as nobody needs all errors
+    std::optional<double> RefinedTo = 0.0; ///< the tolerance of what that shows; none if unknown
     isodiamond::Encoding Encoding;
     std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy; ///< of the encoding
     std::optional<isodiamond::CellCounts> Counts;
@@ -94,7 +98,7 @@ private:
 
     const isodiamond::IsodiamondHierarchy& Current() const
     {
-      return this->Staged ? this->Staged->FullResolution() : *this->Hierarchy;
+      return this->Staged ? this->Staged->OneMesh() : *this->Hierarchy;
     }
     /** 0 if an abortion left nothing to be seen yet. */
     std::int64_t Bytes() const
@@ -109,8 +113,16 @@ private:
   /** Adds an entry, in front. */
   void Build(
     const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task);
+  /** What is kept that serves a need; the end if nothing does. */
+  std::list<Entry>::iterator Find(const isodiamond::Isoregion& region, const Need& need);
   /** Finishes the one in front. */
   void MeasureErrors(const Volume& volume, Task& task);
+  /** Makes the one in front show the mesh of one tolerance. */
+  void RefineTo(double tolerance, const Volume& volume, Task& task);
+  /** Does something with the one in front, which is forgotten where that fails among peers: others
+   *  may have come farther, so all begin anew. */
+  template <typename Change>
+  void ChangeFirst(isodiamond::Peers* peers, const Change& change);
 
   ContentHashes Hashes;
   Source Current;

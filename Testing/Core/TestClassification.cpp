@@ -134,7 +134,7 @@ TEST(Classification, InTwoStepsIsAsInOne)
           StagedBuild elsewhere(std::move(staged));
           staged = std::move(elsewhere);
           const IsodiamondHierarchy hierarchy(expected, SerialFor);
-          EXPECT_TRUE(test::AnyMesh(staged.FullResolution(), Query{})
+          EXPECT_TRUE(test::AnyMesh(staged.OneMesh(), Query{})
                         .IsSameInAnyOrder(test::AnyMesh(hierarchy, Query{})));
           BuildOptions stopping = options;
           stopping.Report = [](const char* phase, double, double)

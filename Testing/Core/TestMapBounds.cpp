@@ -100,7 +100,7 @@ TEST(MapBounds, BoundTheWayBackFromEveryFlatPatch)
           [&](int number, const HalfPlace& tetrahedron)
           {
             const test::SurfaceTriangles patch = map.PatchOfTetrahedron(tetrahedron);
-            const double bound = code.Decode(bounds.Of(0, rank, number));
+            const double bound = code.Decode(bounds.Of(0, rank)[number]);
             ++all;
             if (patch.size() == 1 && bound < Infinity)
             {

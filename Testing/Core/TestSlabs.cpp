@@ -206,7 +206,7 @@ void Compare(
   const ParallelFor threads = test::ThreadedFor(2);
   const EncodingHeader& header = expected.TheEncoding.Header;
   StagedBuild staged = BuildInSlabs(samples, header.Region, slabs, threads, options);
-  EXPECT_TRUE(test::AnyMesh(staged.FullResolution(), Query{}).IsSameInAnyOrder(expected.Mesh));
+  EXPECT_TRUE(test::AnyMesh(staged.OneMesh(), Query{}).IsSameInAnyOrder(expected.Mesh));
   // Whatever is said to be the samples: they are not looked at.
   test::ExpectSame(
     staged.Finish(header.TheModel, SampleView<float>(), threads, options), expected.TheEncoding);

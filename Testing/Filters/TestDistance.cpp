@@ -6,6 +6,7 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkFieldData.h"
 #include "vtkDataArray.h"
 #include "vtkGenericCell.h"
 #include "vtkIsodiamondBuilder.h"
@@ -129,11 +130,16 @@ double DeviationBack(vtkPolyData* mesh, vtkPolyData* full, double voxel)
 void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, bool close = false)
 {
   vtkNew<vtkIsodiamondContour> contour;
-  contour->SetInputData(grid);
-  contour->SetValue(0, isovalue);
-  contour->SetCloseBoundary(close);
-  contour->ComputeNormalsOff();
-  contour->Update();
+  vtkNew<vtkIsodiamondContour> onlyOne;
+  onlyOne->OneToleranceOn();
+  for (vtkIsodiamondContour* filter : { contour.Get(), onlyOne.Get() })
+  {
+    filter->SetInputData(grid);
+    filter->SetValue(0, isovalue);
+    filter->SetCloseBoundary(close);
+    filter->ComputeNormalsOff();
+    filter->Update();
+  }
   vtkNew<vtkPolyData> full;
   full->DeepCopy(contour->GetOutput());
   ASSERT_GT(full->GetNumberOfPoints(), 100);
@@ -141,17 +147,27 @@ void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, boo
   for (const double inVoxels : { 0.1, 0.25, 0.5, 1.0, 2.0, 8.0 })
   {
     const double tolerance = inVoxels * voxel;
-    contour->SetErrorTolerance(tolerance);
-    contour->Update();
-    EXPECT_LE(contour->GetOutput()->GetNumberOfCells(), previous);
-    previous = contour->GetOutput()->GetNumberOfCells();
-    EXPECT_LE(DeviationOf(full, contour->GetOutput()).Largest, tolerance + Rounding(full))
-      << "tolerance " << inVoxels << " voxels";
-    EXPECT_LE(DeviationBack(contour->GetOutput(), full, voxel), tolerance + Rounding(full))
-      << "back, tolerance " << inVoxels << " voxels";
+    for (vtkIsodiamondContour* filter : { contour.Get(), onlyOne.Get() })
+    {
+      filter->SetErrorTolerance(tolerance);
+      filter->Update();
+      if (filter == onlyOne && inVoxels != 0.25 && inVoxels != 1.0)
+      {
+        continue; // measuring takes its time
+      }
+      EXPECT_LE(DeviationOf(full, filter->GetOutput()).Largest, tolerance + Rounding(full))
+        << "tolerance " << inVoxels << " voxels";
+      EXPECT_LE(DeviationBack(filter->GetOutput(), full, voxel), tolerance + Rounding(full))
+        << "back, tolerance " << inVoxels << " voxels";
+    }
+    const vtkIdType cells = contour->GetOutput()->GetNumberOfCells();
+    EXPECT_LE(cells, previous);
+    EXPECT_LE(onlyOne->GetOutput()->GetNumberOfCells(), 1.02 * cells);
+    previous = cells;
   }
   EXPECT_LT(previous, full->GetNumberOfCells());
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
+  EXPECT_EQ(onlyOne->GetNumberOfBuilds(), 1);
 }
 
 /** One surface of an interval volume: the faces of one tetrahedron whose corners all lie on it. */
@@ -350,6 +366,95 @@ TEST(Distance, IsAPromiseOnBothSurfacesOfIntervalVolumes)
       }
     }
   }
+}
+
+// It follows from the properties alone: not from what the filter knows already.
+TEST(Distance, OfOneToleranceDoesNotDependOnOthers)
+{
+  const auto image = test::PhantomImage({ 40, 36, 44 }, 5.0);
+  vtkNew<vtkIsodiamondContour> known;
+  known->SetInputData(image);
+  known->SetValue(0, 50.0);
+  known->SetErrorTolerance(0.5);
+  known->Update(); // all errors
+  vtkNew<vtkPolyData> ofAll;
+  ofAll->DeepCopy(known->GetOutput());
+  EXPECT_NE(ofAll->GetFieldData()->GetNumberOfArrays(), 0);
+  for (const bool simplify : { false, true })
+  {
+    known->SetSimplify(simplify);
+    known->OneToleranceOn();
+    for (const double tolerance : { 1.0, 0.3, 0.5 })
+    {
+      SCOPED_TRACE(tolerance);
+      known->SetErrorTolerance(tolerance);
+      known->Update();
+      vtkNew<vtkIsodiamondContour> fresh;
+      fresh->SetInputData(image);
+      fresh->SetValue(0, 50.0);
+      fresh->SetSimplify(simplify);
+      fresh->SetErrorTolerance(tolerance);
+      fresh->OneToleranceOn();
+      fresh->Update();
+      EXPECT_EQ(test::Difference(known->GetOutput(), fresh->GetOutput()), "");
+      EXPECT_EQ(fresh->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0); // no table
+    }
+  }
+  EXPECT_EQ(known->GetNumberOfBuilds(), 2);
+  known->SimplifyOff();
+  known->OneToleranceOff();
+  known->Update();
+  EXPECT_EQ(known->GetNumberOfBuilds(), 2);
+  EXPECT_EQ(test::Difference(known->GetOutput(), ofAll), "");
+}
+
+TEST(Distance, OfOneToleranceIsThatOfAllWhereAllAreNeeded)
+{
+  const auto image = test::PhantomImage({ 30, 30, 30 }, 5.0);
+  vtkNew<vtkIsodiamondContour> contour;
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  contour->SetValue(0, 50.0);
+  volume->SetIsorange(50.0, 110.0);
+  const auto expectSame = [&](vtkIsodiamondVolumeAlgorithm* filter, const char* what)
+  {
+    filter->SetInputData(image);
+    filter->OneToleranceOff();
+    filter->Update();
+    const vtkSmartPointer<vtkDataSet> all =
+      vtkSmartPointer<vtkDataSet>::Take(vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0))
+                                          ->NewInstance());
+    all->DeepCopy(filter->GetOutputDataObject(0));
+    filter->OneToleranceOn();
+    filter->Update();
+    EXPECT_GT(all->GetNumberOfCells(), 100) << what;
+    EXPECT_EQ(test::Difference(
+                vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0)), all),
+      "")
+      << what;
+  };
+  contour->SetErrorTolerance(1.0);
+  contour->SetTargetNumberOfTriangles(1000);
+  expectSame(contour, "a target");
+  contour->SetTargetNumberOfTriangles(0);
+  contour->SetRegionOfInterest(0.0, 10.0, 0.0, 30.0, 0.0, 30.0);
+  contour->UseRegionOfInterestOn();
+  expectSame(contour, "a region of interest");
+  contour->UseRegionOfInterestOff();
+  contour->ViewDependentOn();
+  expectSame(contour, "a view");
+  contour->ViewDependentOff();
+  contour->SetErrorMetricToField();
+  expectSame(contour, "the field metric");
+  volume->SetErrorTolerance(0.5);
+  volume->SetInteriorTolerance(20.0);
+  expectSame(volume, "an interior tolerance");
+  volume->UseInteriorToleranceOff();
+  volume->SimulationQualityOn();
+  expectSame(volume, "tetrahedra for simulations");
+  volume->SimulationQualityOff();
+  image->AllocateCellGhostArray()->SetValue(
+    15 + 29 * (15 + 29 * 15), vtkDataSetAttributes::HIDDENCELL);
+  expectSame(volume, "hidden cells");
 }
 
 TEST(Distance, SimplifiesSharpEdgesThatTheFieldMetricKeeps)

@@ -40,6 +40,7 @@ struct Settings
   std::array<double, 2> Isorange = { -0.2, 0.2 };
   double Tolerance = 0.0;
   int Target = 0;
+  bool OneTolerance = false;
   int Unit = vtkIsodiamondVolumeAlgorithm::WORLD_UNITS;
   int OutputType = vtkIsodiamondExtractor::UNSTRUCTURED_GRID;
   double InteriorTolerance = VTK_DOUBLE_MAX;
@@ -315,7 +316,7 @@ private:
 
   void ChangeOutput(Settings& settings)
   {
-    switch (this->Random() % 8)
+    switch (this->Random() % 9)
     {
       case 0:
         settings.Precision = static_cast<int>(this->Random() % 3);
@@ -337,6 +338,9 @@ private:
         break;
       case 6:
         settings.GlobalIds = !settings.GlobalIds;
+        break;
+      case 7:
+        settings.OneTolerance = !settings.OneTolerance;
         break;
       default:
         settings.Scalars = !settings.Scalars;
@@ -463,6 +467,7 @@ void ApplyVolume(const Settings& settings, vtkIsodiamondVolumeAlgorithm* filter)
   ApplyInput(settings, filter);
   filter->SetErrorMetric(settings.Metric);
   filter->SetToleranceUnit(settings.Unit);
+  filter->SetOneTolerance(settings.OneTolerance);
   filter->SetExactIsovertices(settings.ExactIsovertices);
   filter->SetPreserveFeatures(settings.PreserveFeatures);
   filter->SetPreserveTopology(settings.PreserveTopology);

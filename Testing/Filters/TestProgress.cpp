@@ -160,34 +160,69 @@ TEST(Progress, FullResolutionWaitsForNoErrors)
   }
 }
 
+TEST(Progress, OneToleranceWaitsForNoErrorsOfOthers)
+{
+  const auto image = test::PhantomImage({ 40, 40, 40 }, 1.0);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 50.0);
+  contour->OneToleranceOn();
+  vtkNew<Listener> listener;
+  contour->AddObserver(vtkCommand::ProgressEvent, listener);
+  const auto measures = [&]
+  {
+    listener->Start(-1);
+    contour->Update();
+    EXPECT_EQ(listener->Phases.count("Finding thresholds"), 0U);
+    return listener->Phases.count("Measuring errors") == 1U;
+  };
+  EXPECT_FALSE(measures());
+  contour->SetErrorTolerance(0.5);
+  EXPECT_TRUE(measures());
+  contour->ComputeNormalsOff(); // the same mesh
+  EXPECT_FALSE(measures());
+  contour->SetErrorTolerance(1.0);
+  EXPECT_TRUE(measures());
+  contour->SetErrorTolerance(0.0);
+  EXPECT_FALSE(measures());
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
+}
+
 TEST(Progress, AnAbortedMeasurementIsDoneAgain)
 {
   const auto image = test::PhantomImage({ 64, 64, 64 }, 1.0);
-  vtkNew<vtkIsodiamondContour> reference;
-  reference->SetInputData(image);
-  reference->SetValue(0, 50.0);
-  reference->SetErrorTolerance(0.5);
-  reference->Update();
-  int aborted = 0;
-  for (int at = 0; at < 12; ++at)
+  for (const bool oneTolerance : { false, true })
   {
-    vtkNew<vtkIsodiamondContour> contour;
-    contour->SetInputData(image);
-    contour->SetValue(0, 50.0);
-    contour->Update();
-    contour->SetErrorTolerance(0.5);
-    vtkNew<Listener> listener;
-    contour->AddObserver(vtkCommand::ProgressEvent, listener);
-    listener->Start(at);
-    contour->Update();
-    aborted += CellsOf(contour) == 0 ? 1 : 0;
-    contour->SetAbortExecute(0);
-    contour->Modified();
-    listener->Start(-1);
-    contour->Update();
-    EXPECT_EQ(test::Difference(contour->GetOutput(), reference->GetOutput()), "") << at;
+    const auto setUp = [&](vtkIsodiamondContour* contour)
+    {
+      contour->SetInputData(image);
+      contour->SetValue(0, 50.0);
+      contour->SetOneTolerance(oneTolerance);
+    };
+    vtkNew<vtkIsodiamondContour> reference;
+    setUp(reference);
+    reference->SetErrorTolerance(0.5);
+    reference->Update();
+    int aborted = 0;
+    for (int at = 0; at < 12; ++at)
+    {
+      vtkNew<vtkIsodiamondContour> contour;
+      setUp(contour);
+      contour->Update();
+      contour->SetErrorTolerance(0.5);
+      vtkNew<Listener> listener;
+      contour->AddObserver(vtkCommand::ProgressEvent, listener);
+      listener->Start(at);
+      contour->Update();
+      aborted += CellsOf(contour) == 0 ? 1 : 0;
+      contour->SetAbortExecute(0);
+      contour->Modified();
+      listener->Start(-1);
+      contour->Update();
+      EXPECT_EQ(test::Difference(contour->GetOutput(), reference->GetOutput()), "") << at;
+    }
+    EXPECT_GE(aborted, 2);
   }
-  EXPECT_GE(aborted, 2);
 }
 
 TEST(Progress, AnAbortedContourIsEmptyAndTheNextIsWhole)

@@ -2,6 +2,7 @@
 #include "Build/BuildSteps.h"
 
 #include "Build/ActivationThresholds.h"
+#include "Build/ToleratedSet.h"
 #include "DistanceError/DistanceError.h"
 #include "Hierarchy/Encoder.h"
 
@@ -44,11 +45,7 @@ void RaiseToThresholds(const Grid& grid, const DiamondSet& members, bool haveFol
 
 void SetCodes(Encoding& encoding, const DiamondSet& members, DiamondCodes codes)
 {
-  std::vector<std::uint16_t>& records = encoding.Arrays.Records;
-  for (std::size_t rank = 0; rank < records.size(); ++rank)
-  {
-    records[rank] = Record::Pack(codes.Surface[rank], Record::Sign(records[rank]));
-  }
+  BuildSteps::SetThresholds(codes.Surface, encoding);
   encoding.Arrays.InteriorCodes = std::move(codes.Interior);
   std::vector<std::uint64_t>& followers = encoding.Arrays.Followers;
   auto next = codes.Followers.cbegin();
@@ -220,6 +217,42 @@ DiamondCodes BuildSteps::MeasureDistances(
     peers->Max(own.Surface.data(), this->Members.Size());
   }
   return own;
+}
+
+std::vector<ErrorCode::Type> BuildSteps::RefineTo(const IsodiamondHierarchy& relevant, const Finiteness& isFinite,
+  const std::function<ErrorCode::Type(const Place&)>& accepted) const
+{
+  Tell(this->Options, "Measuring errors", 0.25, 0.9);
+  Peers* const peers = this->Options.Together;
+  DiamondCodes own;
+  std::optional<DistanceTests> tests;
+  InStep(peers,
+    [&]
+    {
+      own = DiamondCodes(this->Members.Size(), false);
+      this->SubdivideAlways(own);
+      tests.emplace(
+        TestedHierarchy{ relevant, isFinite, ErrorCode(this->Header.ErrorScale),
+          this->Options.PreserveFeatures, this->Options.Hidden },
+        this->Options.World, this->For);
+    });
+  const BuildSigns signs = this->SignsToGoBy();
+  const auto isAlways = [&](const Place& place, std::uint32_t rank)
+  {
+    return own.Surface[rank] == ErrorCode::Always ||
+      HoldsVolume(relevant.Region(), this->Origin.SampleGrid, signs, place);
+  };
+  return ToleratedSet(relevant, *tests, { accepted, isAlways }, Loops(this->For, peers), peers);
+}
+
+void BuildSteps::SetThresholds(
+  const std::vector<ErrorCode::Type>& thresholds, Encoding& relevant)
+{
+  std::vector<std::uint16_t>& records = relevant.Arrays.Records;
+  for (std::size_t rank = 0; rank < records.size(); ++rank)
+  {
+    records[rank] = Record::Pack(thresholds[rank], Record::Sign(records[rank]));
+  }
 }
 
 void BuildSteps::FindThresholds(DiamondCodes& codes) const

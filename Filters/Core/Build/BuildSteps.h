@@ -5,6 +5,7 @@
 #include "Build/Classification.h"
 #include "Build/OwnErrors.h"
 
+#include <functional>
 #include <optional>
 
 namespace isodiamond
@@ -40,6 +41,14 @@ public:
   DiamondCodes MeasureField() const;
   DiamondCodes MeasureDistances(
     const IsodiamondHierarchy& relevant, const Finiteness& isFinite) const;
+
+  /** What one mesh subdivides, in the place of thresholds: ToleratedSet(). Not where what is inside
+   *  is refined. @param accepted the greatest code that is tolerated of a diamond */
+  std::vector<ErrorCode::Type> RefineTo(const IsodiamondHierarchy& relevant, const Finiteness& isFinite,
+    const std::function<ErrorCode::Type(const Place&)>& accepted) const;
+
+  /** Sets the thresholds of an RI. */
+  static void SetThresholds(const std::vector<ErrorCode::Type>& thresholds, Encoding& relevant);
 
   /** Own errors become thresholds. Of the field metric nothing follows: an HD, which is to give the
    *  same mesh, has no thresholds to tell. */

@@ -86,20 +86,23 @@ DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
-      if (!relevant.Region().IsVolume() || !signs.HasAllVerticesInside(place))
+      if (HoldsVolume(relevant.Region(), source.SampleGrid, signs, place))
       {
-        return;
+        own.Surface[rank] = ErrorCode::Always;
       }
-      if (source.SampleGrid.SticksOut(place.Position, place.Scale))
-      {
-        own.Surface[rank] = ErrorCode::Always; // it holds volume
-      }
-      if (refineInterior)
+      if (refineInterior && signs.HasAllVerticesInside(place))
       {
         own.Interior[rank] = source.Summary(place).first;
       }
     });
   return own;
+}
+
+bool HoldsVolume(
+  const Isoregion& region, const Grid& grid, const BuildSigns& signs, const Place& place)
+{
+  return region.IsVolume() && grid.SticksOut(place.Position, place.Scale) &&
+    signs.HasAllVerticesInside(place);
 }
 
 bool HasHiddenCells(const BuildOptions& options)

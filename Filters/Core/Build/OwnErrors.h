@@ -108,6 +108,11 @@ DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
   const IsodiamondHierarchy& relevant, const BuildSigns& signs, const BuildOptions& options,
   DiamondCodes own, MapBounds& bounds, const ParallelFor& parallelFor);
 
+/** Whether a diamond of an interval volume has to be subdivided as it holds volume in the grid and
+ *  sticks out of that. */
+bool HoldsVolume(
+  const Isoregion& region, const Grid& grid, const BuildSigns& signs, const Place& place);
+
 bool HasHiddenCells(const BuildOptions& options);
 
 /** Whether an interval volume is refined inside: what lies in hidden cells can be left out at full

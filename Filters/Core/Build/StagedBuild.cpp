@@ -41,6 +41,25 @@ struct StagedBuild::State
     this->Hierarchy.emplace(this->Relevant, this->For);
   }
 
+  /** Goes on with the samples, wherever they are now. */
+  void Resume(
+    const AnySamples& samples, const ParallelFor& parallelFor, const BuildOptions& options)
+  {
+    this->Samples = samples;
+    this->For = parallelFor;
+    this->Options = options;
+    if (options.Metric == ErrorMetric::Distance && !this->IsFinite)
+    {
+      this->IsFinite.emplace(this->Samples);
+    }
+  }
+
+  void Show(const std::vector<ErrorCode::Type>& codes)
+  {
+    this->Done->SetThresholds(codes, this->Relevant);
+    this->Hierarchy->FindHighestThresholds();
+  }
+
   AnySamples Samples;
   ParallelFor For;
   BuildOptions Options;
@@ -73,25 +92,39 @@ StagedBuild::~StagedBuild() = default;
 StagedBuild::StagedBuild(StagedBuild&&) noexcept = default;
 StagedBuild& StagedBuild::operator=(StagedBuild&&) noexcept = default;
 
-const IsodiamondHierarchy& StagedBuild::FullResolution() const
+const IsodiamondHierarchy& StagedBuild::OneMesh() const
 {
   return *this->Kept->Hierarchy;
+}
+
+void StagedBuild::ShowFullResolution()
+{
+  this->Kept->Show(
+    std::vector<ErrorCode::Type>(this->Kept->Relevant.Arrays.Records.size(), ErrorCode::Always));
+}
+
+void StagedBuild::RefineTo(const std::function<double(const Place&)>& tolerated,
+  const AnySamples& samples, const ParallelFor& parallelFor, const BuildOptions& options)
+{
+  State& kept = *this->Kept;
+  if (NeedsFieldErrors(kept.Relevant.Header.Region, options))
+  {
+    throw std::invalid_argument("Errors in the field are measured all at once.");
+  }
+  kept.Resume(samples, parallelFor, options);
+  const ErrorCode code(kept.Relevant.Header.ErrorScale);
+  kept.Show(kept.Done->RefineTo(*kept.Hierarchy, *kept.IsFinite,
+    [&](const Place& place) { return code.Accepted(tolerated(place)); }));
 }
 
 Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const ParallelFor& parallelFor,
   const BuildOptions& options)
 {
   State& kept = *this->Kept;
-  kept.Samples = samples;
-  kept.For = parallelFor;
-  kept.Options = options;
+  kept.Resume(samples, parallelFor, options);
   if (NeedsFieldErrors(kept.Relevant.Header.Region, options))
   {
     kept.Errors.emplace(kept.TheGrid, kept.Samples, kept.For);
-  }
-  if (options.Metric == ErrorMetric::Distance && !kept.IsFinite)
-  {
-    kept.IsFinite.emplace(kept.Samples);
   }
   DiamondCodes codes = options.Metric == ErrorMetric::Field
     ? kept.Done->MeasureField()

@@ -5,6 +5,7 @@
 #include "Build/Builder.h"
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -29,9 +30,24 @@ public:
   StagedBuild(const StagedBuild&) = delete;
   StagedBuild& operator=(const StagedBuild&) = delete;
 
-  /** An RI whose diamonds are all always subdivided: full resolution at any tolerance. Valid until
-   *  the end of Finish(). */
-  const IsodiamondHierarchy& FullResolution() const;
+  /** An RI whose diamonds are always subdivided, or never: one mesh at any tolerance. At first that
+   *  of full resolution. Valid until the end of Finish(). */
+  const IsodiamondHierarchy& OneMesh() const;
+
+  /** Makes OneMesh() that of full resolution again. */
+  void ShowFullResolution();
+
+  /**
+   * Makes OneMesh() one that keeps tolerances, in a fraction of the time of the second step, which
+   * can still follow: most diamonds have no part in it. As good as what is extracted after that,
+   * but not the same: errors are compared with tolerances as they are, not as codes have them.
+   *
+   * @param tolerated the tolerance of a diamond
+   * @param samples, options as of Finish(); the distance metric, without refinement inside
+   * @throws std::invalid_argument for the field metric, and if what is inside is refined
+   */
+  void RefineTo(const std::function<double(const Place&)>& tolerated, const AnySamples& samples,
+    const ParallelFor& parallelFor, const BuildOptions& options);
 
   /** The second step: what BuildIsodiamonds() returns, to the bit. Once only; after an exception,
    *  as of who stops it, again, but not if there were peers.

@@ -2,6 +2,7 @@
 #include "DistanceError/DistanceMeasures.h"
 #include "DistanceError/DistanceWalk.h"
 #include "DistanceError/ScaleZeroDistances.h"
+#include "DistanceError/ToleranceTest.h"
 #include "DistanceError/WayBack.h"
 
 namespace isodiamond
@@ -24,6 +25,13 @@ void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths
   const Loops& loops)
 {
   MeasureAllBack(relevant, lengths, known, code, codes, loops);
+}
+
+void TestTolerances(const TestedSurface& surface, const TestedHierarchy& tested,
+  const AxesLengths& lengths, const std::vector<TestedDiamond>& diamonds,
+  std::vector<std::uint8_t>& exceeds, const ParallelFor& parallelFor)
+{
+  TestAll(surface, tested, lengths, diamonds, exceeds, parallelFor);
 }
 
 }

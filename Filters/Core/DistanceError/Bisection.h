@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 /**
  * @file Bisection.h
@@ -40,10 +43,57 @@ inline bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
   return true;
 }
 
+/** Some positions as rows of coordinates, from a place near them on, for loops that compilers make
+ *  vector instructions of. Exact: nearer than 2^16 units. */
+class PositionRows
+{
+public:
+  void Fill(const std::vector<FinePosition>& positions, const FinePosition& from)
+  {
+    this->Origin = from;
+    this->Count = positions.size();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Rows[axis].resize(this->Count);
+      for (std::size_t i = 0; i < this->Count; ++i)
+      {
+        this->Rows[axis][i] = static_cast<float>(positions[i][axis] - from[axis]);
+      }
+    }
+  }
+
+  std::size_t Size() const { return this->Count; }
+
+  /** Lowers numbers, one a position, to how far it is on the positive side of a plane. */
+  void LowerToSide(const ExactPlane& plane, float* least) const
+  {
+    const float* const x = this->Rows[0].data();
+    const float* const y = this->Rows[1].data();
+    const float* const z = this->Rows[2].data();
+    const auto [a, b, c] = plane.Across();
+    const auto nx = static_cast<float>(a);
+    const auto ny = static_cast<float>(b);
+    const auto nz = static_cast<float>(c);
+    const auto offset = static_cast<float>(plane.Side(this->Origin));
+    for (std::size_t i = 0; i < this->Count; ++i)
+    {
+      const float side = nx * x[i] + ny * y[i] + nz * z[i] + offset;
+      least[i] = side < least[i] ? side : least[i];
+    }
+  }
+
+private:
+  FinePosition Origin{};
+  std::size_t Count = 0;
+  std::array<std::vector<float>, 3> Rows;
+};
+
 /** A closed tetrahedron: what lies in it, exactly. */
 class ClosedTetrahedron
 {
 public:
+  ClosedTetrahedron() = default;
+
   explicit ClosedTetrahedron(const HalfPlace& tetrahedron)
   {
     const TypeTable& shape = tetrahedron.Shape();
@@ -100,6 +150,16 @@ public:
       }
     }
     return corners;
+  }
+
+  /** Sets numbers, one a position, not negative where it holds that. */
+  void FindHeld(const PositionRows& rows, std::vector<float>& sides) const
+  {
+    sides.assign(rows.Size(), std::numeric_limits<float>::max());
+    for (const ExactPlane& face : this->Faces)
+    {
+      rows.LowerToSide(face, sides.data());
+    }
   }
 
   /** Whether all of a box lies in it. */

@@ -3,6 +3,7 @@
 #define isodiamond_DistanceMeasures_h
 
 #include "DistanceError/DistanceError.h"
+#include "DistanceError/DistanceTests.h"
 #include "DistanceError/ErrorMaxima.h"
 #include "DistanceError/IsovertexClusters.h"
 #include "Field/Parallel.h"
@@ -37,6 +38,15 @@ void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengt
 void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths,
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const Loops& loops);
+
+/** Tells whether diamonds exceed what is tolerated of them, on one surface (ToleranceTest.h).
+ *  @param exceeds one a diamond, to be set where one does */
+void TestTolerances(const TestedSurface& surface, const TestedHierarchy& tested,
+  const AffineLengths& lengths, const std::vector<TestedDiamond>& diamonds,
+  std::vector<std::uint8_t>& exceeds, const ParallelFor& parallelFor);
+void TestTolerances(const TestedSurface& surface, const TestedHierarchy& tested,
+  const AxesLengths& lengths, const std::vector<TestedDiamond>& diamonds,
+  std::vector<std::uint8_t>& exceeds, const ParallelFor& parallelFor);
 
 }
 

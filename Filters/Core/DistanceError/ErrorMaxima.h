@@ -28,6 +28,38 @@ struct Farthest
   bool IsAny = false;   ///< whether there is an isovertex at all
 };
 
+/** Whether a diamond that holds an isovertex must not be a leaf, wherever that lies: it sticks out
+ *  of the grid, or one of its vertices is not finite. */
+inline bool HasNoInterpolant(const Grid& grid, const Finiteness& isFinite, const Place& diamond)
+{
+  bool has = grid.SticksOut(diamond.Position, diamond.Scale);
+  if (!has && !isFinite.All())
+  {
+    const TypeTable& shape = ShapeOf(diamond.Position);
+    ForEachBit(SampledVertices(grid, diamond, shape),
+      [&](int i) { has = has || !isFinite(VertexAt(diamond, shape.Offsets[i])); });
+  }
+  return has;
+}
+
+/** The greatest distance between two vertices of a diamond, squared: what an isovertex without any
+ *  patch to count with counts with, where features need not be preserved. */
+template <typename Lengths>
+double SquaredDiameter(const Grid& grid, const Lengths& lengths, const Place& diamond)
+{
+  const TypeTable& shape = ShapeOf(diamond.Position);
+  const std::uint32_t vertices = SampledVertices(grid, diamond, shape);
+  double largest = 0.0;
+  const auto vertexAt = [&](int i) { return VertexAt(diamond, shape.Offsets[i]); };
+  const auto measure = [&](int a, int b)
+  {
+    const Vector vector = lengths.Between(vertexAt(b), vertexAt(a));
+    largest = std::max(largest, Dot(vector, vector));
+  };
+  ForEachBit(vertices, [&](int a) { ForEachBit(vertices, [&](int b) { measure(a, b); }); });
+  return largest;
+}
+
 /**
  * The distance errors of all diamonds while they are being found. Each is a maximum over
  * isovertices and only rises: in the end it is the same whatever the order of the threads.
@@ -77,8 +109,7 @@ public:
   /** Whether a diamond that holds an isovertex must not be a leaf, wherever it lies. */
   bool HasNoInterpolant(const Place& diamond) const
   {
-    return this->Source.SampleGrid().SticksOut(diamond.Position, diamond.Scale) ||
-      !(this->Finite.All() || this->HasFiniteVertices(diamond));
+    return isodiamond::HasNoInterpolant(this->Source.SampleGrid(), this->Finite, diamond);
   }
 
   /** Raises an error to the distance of the farthest isovertex, as find(farthest) finds it. */
@@ -95,7 +126,8 @@ public:
     if (farthest.Squared == std::numeric_limits<double>::infinity() && !this->PreserveFeatures)
     {
       farthest.Squared =
-        std::visit([&](const auto& lengths) { return this->SquaredDiameter(lengths, diamond); },
+        std::visit([&](const auto& lengths)
+          { return SquaredDiameter(this->Source.SampleGrid(), lengths, diamond); },
           this->InWorld);
     }
     if (farthest.IsAny && (farthest.Squared > known * known || code == 0))
@@ -105,31 +137,6 @@ public:
   }
 
 private:
-  bool HasFiniteVertices(const Place& diamond) const
-  {
-    const TypeTable& shape = ShapeOf(diamond.Position);
-    bool finite = true;
-    ForEachBit(SampledVertices(this->Source.SampleGrid(), diamond, shape),
-      [&](int i) { finite = finite && this->Finite(VertexAt(diamond, shape.Offsets[i])); });
-    return finite;
-  }
-
-  template <typename Lengths>
-  double SquaredDiameter(const Lengths& lengths, const Place& diamond) const
-  {
-    const TypeTable& shape = ShapeOf(diamond.Position);
-    const std::uint32_t vertices = SampledVertices(this->Source.SampleGrid(), diamond, shape);
-    double largest = 0.0;
-    const auto vertexAt = [&](int i) { return VertexAt(diamond, shape.Offsets[i]); };
-    const auto measure = [&](int a, int b)
-    {
-      const Vector vector = lengths.Between(vertexAt(b), vertexAt(a));
-      largest = std::max(largest, Dot(vector, vector));
-    };
-    ForEachBit(vertices, [&](int a) { ForEachBit(vertices, [&](int b) { measure(a, b); }); });
-    return largest;
-  }
-
   /** A maximum: the same whatever the order of the threads. */
   void Raise(std::uint32_t rank, ErrorCode::Type code)
   {

@@ -88,7 +88,7 @@ public:
       return 0.0;
     }
     farthest.IsAny = true;
-    const double squared = this->Patches.BorderIn(around).Squared(this->InWorld(position));
+    const double squared = this->SquaredToBorder(around, position);
     const float bound = 1.01F * this->Patches.LengthsOfBounds().Squared(squared) + 1e-20F;
     if (!(bound <= this->Patches.LengthsOfBounds().Squared(farthest.Squared)))
     {
@@ -105,6 +105,13 @@ public:
   double SquaredToPatch(int tetrahedron, const FinePosition& position)
   {
     return this->Patches.SquaredTo(tetrahedron, this->InWorld(position));
+  }
+
+  /** The squared distance to where the patches of all tetrahedra meet an edge or a triangle between
+   *  them; infinite if they do not. @param around its edges, a mask */
+  double SquaredToBorder(std::uint32_t around, const FinePosition& position)
+  {
+    return this->Patches.BorderIn(around).Squared(this->InWorld(position));
   }
 
   /** The greatest of squared distances to the border of a patch, of the isovertices that lie on the

@@ -30,26 +30,27 @@ class MapBounds
 public:
   static constexpr ErrorCode::Type None = ErrorCode::Always;
 
+  /** Of one diamond and one surface, by tetrahedron, as ForEachParentHalf() counts. */
+  using OfDiamond = std::array<ErrorCode::Type, 8>;
+  static constexpr OfDiamond NoneOfDiamond = { None, None, None, None, None, None, None, None };
+
   /** No bounds, of no diamonds: none are wanted. */
   MapBounds() = default;
 
   MapBounds(std::size_t diamondCount, int surfaceCount)
   {
-    OfDiamond none;
-    none.fill(None);
     for (int surface = 0; surface < surfaceCount; ++surface)
     {
-      this->Codes[surface].assign(diamondCount, none);
+      this->Codes[surface].assign(diamondCount, NoneOfDiamond);
     }
   }
 
   bool AreWanted() const { return !this->Codes[0].empty(); }
 
-  /** @param rank of the diamond
-   *  @param tetrahedron as ForEachParentHalf() counts */
-  ErrorCode::Type Of(int surface, std::uint32_t rank, int tetrahedron) const
+  /** @param rank of the diamond */
+  const OfDiamond& Of(int surface, std::uint32_t rank) const
   {
-    return this->AreWanted() ? this->Codes[surface][rank][tetrahedron] : None;
+    return this->AreWanted() ? this->Codes[surface][rank] : NoneOfDiamond;
   }
 
   void Set(int surface, std::uint32_t rank, int tetrahedron, ErrorCode::Type code)
@@ -71,7 +72,6 @@ public:
   }
 
 private:
-  using OfDiamond = std::array<ErrorCode::Type, 8>;
   std::array<std::vector<OfDiamond>, 2> Codes;
 };
 

@@ -42,16 +42,14 @@ template <typename Lengths>
 class WayBack
 {
 public:
-  /** @param fine the surface of the number
-   *  @param bounds of the way forth; null for none. All must outlive it. */
+  /** @param fine the surface of the number. All must outlive it. */
   WayBack(const IsodiamondHierarchy& hierarchy, const Lengths& lengths, int surface,
-    const FineSurface& fine, const MapBounds* bounds, const ErrorCode& code)
+    const FineSurface& fine, const ErrorCode& code)
     : Hierarchy(hierarchy)
     , Neighbourhood(hierarchy)
     , InWorld(lengths)
     , Surface(surface)
     , Fine(fine)
-    , Bounds(bounds)
     , Code(code)
     , Balls(lengths)
     , Nearby(lengths)
@@ -61,34 +59,23 @@ public:
   }
 
   /** The greater of a diamond's error so far and of the way back.
+   *  @param bounds of the way forth
    *  @param isWhole whether no cell in the domain is hidden: maps know of none */
-  double Measure(const Place& diamond, std::uint32_t rank, double error, bool isWhole)
+  double Measure(
+    const Place& diamond, const MapBounds::OfDiamond& bounds, double error, bool isWhole)
   {
-    this->Known = std::max(error, this->Least);
-    this->Bound = 0.0;
-    this->Left = MostLooks;
-    this->FoundCount = 0;
-    this->HasNearby = false;
-    this->Nearby.Clear();
-    this->Hard.Clear();
-    this->Neighbourhood.FindPatches(diamond, this->Surface, this->Patches);
-    for (const NumberedPatch& patch : this->Patches)
-    {
-      if (patch.Patch.TriangleCount > 0 && !(isWhole && this->IsBounded(patch, rank)))
-      {
-        this->Hard.Add(patch);
-      }
-    }
-    const bool isMapped =
-      !this->Hard.IsEmpty() && isWhole && diamond.Scale <= 1 && this->IsDomainMapped(diamond);
-    if (!isMapped)
-    {
-      for (const NumberedPatch& patch : this->Hard)
-      {
-        this->MeasureFrom(patch);
-      }
-    }
-    return std::max(error, this->Bound);
+    return std::max(error, this->BoundAbove(diamond, bounds, error, isWhole));
+  }
+
+  /** Whether the way back of a diamond surely is no longer than so much. It may say no from 8/9 of
+   *  that on. */
+  bool IsWithin(const Place& diamond, const MapBounds::OfDiamond& bounds, double most, bool isWhole)
+  {
+    this->Most = most;
+    const double bound = this->BoundAbove(diamond, bounds, most / (1.0 + Precision), isWhole);
+    const bool isWithin = bound <= most && !this->IsBeyondMost();
+    this->Most = HUGE_VAL;
+    return isWithin;
   }
 
 private:
@@ -105,6 +92,49 @@ private:
   /** How many cells are worth being gathered. */
   static constexpr std::int64_t MostCells = 1000;
 
+  /** A bound of the way back, as far as it exceeds what is known. */
+  double BoundAbove(
+    const Place& diamond, const MapBounds::OfDiamond& bounds, double known, bool isWhole)
+  {
+    this->Known = std::max(known, this->Least);
+    this->Bound = 0.0;
+    this->Left = MostLooks;
+    this->FoundCount = 0;
+    this->HasNearby = false;
+    this->Nearby.Clear();
+    this->Hard.Clear();
+    this->Neighbourhood.FindPatches(diamond, this->Surface, this->Patches);
+    for (const NumberedPatch& patch : this->Patches)
+    {
+      if (patch.Patch.TriangleCount > 0 && !(isWhole && this->IsBounded(patch, bounds)))
+      {
+        this->Hard.Add(patch);
+      }
+    }
+    const bool isMapped =
+      !this->Hard.IsEmpty() && isWhole && diamond.Scale <= 1 && this->IsDomainMapped(diamond);
+    if (!isMapped)
+    {
+      for (const NumberedPatch& patch : this->Hard)
+      {
+        this->MeasureFrom(patch);
+      }
+    }
+    return this->Bound;
+  }
+
+  /** What a bound may be: by a part more than what is known, or all that may be. */
+  double Limit(double part) const
+  {
+    return this->Most < HUGE_VAL ? this->Most : (1.0 + part) * this->Known;
+  }
+
+  /** Whether something is too far away, whatever else there is. */
+  bool IsBeyondMost() const
+  {
+    return (1.0 + Precision) * this->Known > DistanceMargin * this->Most;
+  }
+
   Vector Corner(const HalfPlace& tetrahedron, int edge) const
   {
     return this->InWorld(IsovertexOn(this->Hierarchy, tetrahedron, edge, this->Surface));
@@ -113,7 +143,7 @@ private:
   /** Whether a bound of a piece is good enough, as it exceeds what is known by little. */
   bool IsAccepted(double bound)
   {
-    if (!(bound <= (1.0 + Precision) * this->Known))
+    if (!(bound <= this->Limit(Precision)))
     {
       return false;
     }
@@ -122,12 +152,11 @@ private:
   }
 
   /** Whether the isovertices in a tetrahedron bound the way back from its patch. */
-  bool IsBounded(const NumberedPatch& hard, std::uint32_t rank)
+  bool IsBounded(const NumberedPatch& hard, const MapBounds::OfDiamond& bounds)
   {
-    const double limit = (1.0 + MapPrecision) * this->Known;
-    double bound = this->Bounds != nullptr
-      ? this->Code.Decode(this->Bounds->Of(this->Surface, rank, hard.Number))
-      : HUGE_VAL;
+    const double limit = this->Limit(MapPrecision);
+    const ErrorCode::Type code = bounds[hard.Number];
+    double bound = code != MapBounds::None ? this->Code.Decode(code) : HUGE_VAL;
     if (bound <= limit && hard.Patch.TriangleCount == 2)
     {
       bound += BendOf(hard.Patch, this->CornersOf(hard));
@@ -151,7 +180,7 @@ private:
   {
     const auto isWithin = [&](double squared, double part)
     {
-      const double limit = (1.0 + part) * this->Known;
+      const double limit = this->Limit(part);
       return squared <= limit * limit;
     };
     const auto isNear = [&](double squared) { return isWithin(squared, precision); };
@@ -188,6 +217,10 @@ private:
 
   void MeasureFrom(const NumberedPatch& hard)
   {
+    if (this->IsBeyondMost())
+    {
+      return;
+    }
     const SurfacePatch& patch = hard.Patch;
     const std::array<Vector, 6> corners = this->CornersOf(hard);
     if (patch.TriangleCount == 2)
@@ -302,7 +335,7 @@ private:
     // Its corners lie on the surface, but for rounding: there is nothing to be found.
     this->Seen.assign(
       whole.Polygon.Corners.begin(), whole.Polygon.Corners.begin() + whole.Polygon.Count);
-    while (!this->Pieces.empty())
+    while (!this->Pieces.empty() && !this->IsBeyondMost())
     {
       const ConvexPolygon piece = this->Pieces.back();
       this->Pieces.pop_back();
@@ -320,7 +353,7 @@ private:
       return false;
     }
     const SlabTest<Lengths> test(piece.Polygon, piece.Normal, this->Known - piece.Bend,
-      (1.0 + Precision) * this->Known - piece.Bend, this->Fine, this->InWorld, this->Balls);
+      this->Limit(Precision) - piece.Bend, this->Fine, this->InWorld, this->Balls);
     return test.IsBetween() && this->IsAccepted(test.Greatest() + piece.Bend);
   }
 
@@ -625,7 +658,6 @@ private:
   const Lengths& InWorld;
   int Surface;
   const FineSurface& Fine;
-  const MapBounds* Bounds;
   ErrorCode Code;
   CellBalls<Lengths> Balls;
   NearbyTriangles<Lengths> Nearby; ///< to the diamond
@@ -633,6 +665,7 @@ private:
   double Least;       ///< what is less is no error
   double Known = 0.0; ///< the error is not less: that so far, or a distance that was found
   double Bound = 0.0; ///< nothing that was looked at is farther
+  double Most = HUGE_VAL; ///< what is farther need not be measured
   int Left = 0;       ///< how many more looks are worth it
   int FoundCount = 0;
   std::array<TriangleDistance, MostFound> Found; ///< the last ones, of the diamond
@@ -659,7 +692,9 @@ void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
     loops.Share(static_cast<std::int64_t>(bricks.size()), 4,
       [&](std::int64_t begin, std::int64_t end)
       {
-        WayBack<Lengths> wayBack(relevant, lengths, surface, fine, known.Bounds, code);
+        const MapBounds none;
+        const MapBounds& bounds = known.Bounds != nullptr ? *known.Bounds : none;
+        WayBack<Lengths> wayBack(relevant, lengths, surface, fine, code);
         for (std::int64_t i = begin; i < end; ++i)
         {
           const int scale = bricks[i].Scale;
@@ -677,7 +712,7 @@ void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
               }
               const double error = code.Decode(before) / DistanceMargin;
               const double greater =
-                wayBack.Measure(place, rank, error, hidden == nullptr || !hidden->Touch(place));
+                wayBack.Measure(place, bounds.Of(surface, rank), error, hidden == nullptr || !hidden->Touch(place));
               if (greater > error)
               {
                 codes[rank] = code.Encode(greater * DistanceMargin);

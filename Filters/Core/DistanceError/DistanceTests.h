@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DistanceTests_h
+#define isodiamond_DistanceTests_h
+
+#include "DistanceError/FineSurface.h"
+#include "Field/GridGeometry.h"
+#include "Field/Samples.h"
+#include "Patches/WorldLengths.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** A diamond, and the greatest code that is tolerated of it. */
+struct TestedDiamond
+{
+  Place Diamond;
+  ErrorCode::Type Accepted = 0;
+};
+
+/** One of the surfaces of a hierarchy, at full resolution. */
+struct TestedSurface
+{
+  int Number = 0;
+  FineSurface Fine;
+};
+
+/** What the tests of all diamonds go by. */
+struct TestedHierarchy
+{
+  const IsodiamondHierarchy& Relevant; ///< an RI, whatever its error codes
+  const Finiteness& IsFinite;
+  ErrorCode Code;
+  bool PreserveFeatures = true;
+  const HiddenCells* Hidden = nullptr; ///< null for none
+};
+
+/**
+ * Tells of diamonds whether their distance errors exceed a tolerance, without measuring what does
+ * not matter for that: for meshes of one tolerance, which most diamonds have no part in.
+ *
+ * The error is that of DistanceErrors() and RaiseByWayBack(), but for the way back's rounding: what
+ * is longer than 8/9 of the tolerance may count as too long.
+ */
+class DistanceTests
+{
+public:
+  /** All of the hierarchy's parts must outlive it.
+   *  @throws std::invalid_argument without distances */
+  DistanceTests(
+    const TestedHierarchy& tested, const GridGeometry& world, const ParallelFor& parallelFor);
+
+  /** One a diamond: whether it exceeds what is tolerated. */
+  std::vector<std::uint8_t> Exceed(
+    const std::vector<TestedDiamond>& diamonds, const ParallelFor& parallelFor) const;
+
+private:
+  TestedHierarchy Tested;
+  WorldLengths InWorld;
+  std::vector<TestedSurface> Surfaces;
+};
+
+}
+
+#endif

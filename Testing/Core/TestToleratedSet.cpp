@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes of one tolerance: the smallest refined set that keeps it, by the errors that are measured
+// for all of them, and the promise on whole meshes.
+#include "Build/StagedBuild.h"
+#include "DistanceError/DistanceError.h"
+#include "DistanceTestTools.h"
+#include "TopologyTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+using namespace isodiamond;
+
+namespace
+{
+
+std::vector<test::Field> Fields()
+{
+  return { test::NoiseField({ 9, 9, 9 }, 61), test::SphereField({ 17, 17, 17 }),
+    test::SparseField({ 17, 17, 17 }, 62), test::WaveField({ 30, 26, 33 }),
+    test::BrokenField({ 9, 10, 8 }, 63), test::SphereField({ 12, 17, 9 }) };
+}
+
+/** A spacing, and uneven axes. */
+std::vector<GridGeometry> WorldsFor(const std::array<int, 3>& dims)
+{
+  return { test::Spacing(0.5, 2.0, 1.25), GridGeometry(test::UnevenCoordinates(dims, 20.0)) };
+}
+
+using Tolerated = std::function<double(const Place&)>;
+
+/** The errors of all diamonds, measured for themselves alone. */
+struct AllErrors
+{
+  ErrorCode Code;
+  std::vector<ErrorCode::Type> Forth;
+  std::vector<ErrorCode::Type> Both;
+
+  AllErrors(
+    const IsodiamondHierarchy& relevant, const AnySamples& samples, const BuildOptions& options)
+    : Code(DistanceErrorScale(relevant.SampleGrid(), options.World))
+    , Forth(DistanceErrors(
+        relevant, Finiteness(samples), options.World, options.PreserveFeatures, SerialFor))
+    , Both(this->Forth)
+  {
+    RaiseByWayBack(relevant, options.World, { options.Hidden, nullptr, {} }, this->Both, SerialFor);
+  }
+};
+
+/** What is said of a set of subdivided diamonds, counted. */
+struct Seen
+{
+  int Subdivided = 0;
+  int Leaves = 0;
+};
+
+bool IsSubdivided(const IsodiamondHierarchy& mesh, const Place& place)
+{
+  const std::int64_t rank = mesh.Diamonds().Rank(place);
+  return rank != DiamondSet::None && mesh.Threshold(rank) == ErrorCode::Always;
+}
+
+/** Calls body(parent) for the parents of a diamond, but for corners of the base cube. */
+template <typename Body>
+void ForEachParent(const IsodiamondHierarchy& mesh, const Place& place, const Body& body)
+{
+  const TypeTable& shape = ShapeOf(place.Position);
+  for (int i = 0; i < shape.ParentCount; ++i)
+  {
+    const Place parent = ParentPlace(shape, place, i);
+    if (parent.Scale < mesh.SampleGrid().Depth() &&
+      mesh.SampleGrid().IsValid(parent.Position, parent.Scale))
+    {
+      body(parent);
+    }
+  }
+}
+
+bool HasSubdividedChild(const IsodiamondHierarchy& mesh, const Place& place)
+{
+  const TypeTable& shape = ShapeOf(place.Position);
+  bool has = false;
+  for (int i = 0; i < shape.ChildCount && !has; ++i)
+  {
+    const Place child = ChildPlace(shape, place, i);
+    has = child.Scale >= 0 && IsSubdivided(mesh, child);
+  }
+  return has;
+}
+
+/** That a set is closed, that nothing that it leaves whole exceeds what is tolerated, and that
+ *  everything in it exceeds that, or leads to something that does. */
+void ExpectSmallestSet(const IsodiamondHierarchy& mesh, const AllErrors& errors,
+  const Tolerated& tolerated, Seen& seen)
+{
+  mesh.Diamonds().ForEach(
+    [&](const Place& place, std::uint32_t rank)
+    {
+      if (place.Scale == mesh.SampleGrid().Depth())
+      {
+        return;
+      }
+      const bool isSubdivided = IsSubdivided(mesh, place);
+      bool isMet = place.Scale == mesh.SampleGrid().Depth() - 1 && place.Position == Point{ 1, 1, 1 };
+      ForEachParent(mesh, place,
+        [&](const Place& parent)
+        {
+          isMet = isMet || IsSubdivided(mesh, parent);
+          ASSERT_TRUE(!isSubdivided || IsSubdivided(mesh, parent)) << "not closed";
+        });
+      const double tolerance = tolerated(place);
+      const ErrorCode::Type accepted = errors.Code.Accepted(tolerance);
+      if (isSubdivided)
+      {
+        ++seen.Subdivided;
+        ASSERT_TRUE(errors.Forth[rank] > accepted ||
+          errors.Code.Decode(errors.Both[rank]) > tolerance * 8.0 / 9.0 * (1.0 - 1e-6) ||
+          HasSubdividedChild(mesh, place))
+          << "need not be subdivided";
+      }
+      else if (isMet)
+      {
+        ++seen.Leaves;
+        ASSERT_LE(errors.Forth[rank], accepted) << "too far away";
+        // The way back of all errors is rounded up by a quarter at most.
+        ASSERT_LE(errors.Code.Decode(errors.Both[rank]),
+          1.25 * std::max(tolerance, errors.Code.Decode(errors.Forth[rank])) * (1.0 + 1e-6));
+      }
+    });
+}
+
+}
+
+TEST(ToleratedSet, IsTheSmallestThatKeepsTheTolerance)
+{
+  Seen seen;
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    for (const GridGeometry& world : WorldsFor(field.Dims))
+    {
+      for (const bool preserve : { true, false })
+      {
+        BuildOptions options = test::Distance(world);
+        options.PreserveFeatures = preserve;
+        StagedBuild staged(field.View(), field.Isovalue, SerialFor, options);
+        const AllErrors errors(staged.OneMesh(), field.View(), options);
+        const int middle = field.Dims[0] / 2;
+        for (const double tolerance : { 0.1, 0.25, 0.5, 1.0, 2.0, 1000.0 })
+        {
+          SCOPED_TRACE(tolerance);
+          for (const Tolerated& tolerated :
+            { Tolerated([=](const Place&) { return tolerance; }),
+              Tolerated([=](const Place& place)
+                { return Centre(place)[0] < middle ? tolerance : 4.0 * tolerance; }) })
+          {
+            staged.RefineTo(tolerated, field.View(), test::ThreadedFor(2), options);
+            ExpectSmallestSet(staged.OneMesh(), errors, tolerated, seen);
+            ASSERT_FALSE(testing::Test::HasFailure());
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(seen.Subdivided, 10000);
+  EXPECT_GT(seen.Leaves, 10000);
+}
+
+TEST(ToleratedSet, IsAPromise)
+{
+  std::size_t fewer = 0;
+  for (const test::Field& field : Fields())
+  {
+    SCOPED_TRACE(field.Name);
+    for (const GridGeometry& world : WorldsFor(field.Dims))
+    {
+      const BuildOptions options = test::Distance(world);
+      StagedBuild staged(field.View(), field.Isovalue, SerialFor, options);
+      const test::SurfaceTriangles full = test::Placed(test::Extract(staged.OneMesh(), 0.0), world);
+      for (const double tolerance : { 0.03, 0.1, 0.25, 0.5, 1.0, 2.0, 1000.0 })
+      {
+        staged.RefineTo([=](const Place&) { return tolerance; }, field.View(), SerialFor, options);
+        const test::SurfaceTriangles mesh =
+          test::Placed(test::Extract(staged.OneMesh(), tolerance), world);
+        fewer += mesh.size() < full.size() ? 1 : 0;
+        test::Promise promise;
+        promise.Tolerance = tolerance;
+        EXPECT_EQ(FaultOf(promise, full, mesh), "");
+      }
+    }
+  }
+  EXPECT_GT(fewer, 20U);
+}
+
+TEST(ToleratedSet, IsAPromiseOfBothSurfaces)
+{
+  for (const test::Field& field : { test::SphereField({ 17, 17, 17 }),
+         test::WaveField({ 14, 11, 13 }), test::NoiseField({ 9, 9, 9 }, 61) })
+  {
+    SCOPED_TRACE(field.Name);
+    for (const GridGeometry& world : WorldsFor(field.Dims))
+    {
+      const BuildOptions options = test::Distance(world);
+      StagedBuild staged(
+        field.View(), test::RegionOf(test::RangesOf(field)[0]), SerialFor, options);
+      const test::Volume full = test::ExtractVolume(staged.OneMesh(), 0.0);
+      for (const double tolerance : { 0.1, 0.25, 1.0, 4.0 })
+      {
+        staged.RefineTo([=](const Place&) { return tolerance; }, field.View(), SerialFor, options);
+        const test::Volume volume = test::ExtractVolume(staged.OneMesh(), tolerance);
+        for (const int surface : { -1, 1 })
+        {
+          test::Promise promise;
+          promise.Tolerance = tolerance;
+          EXPECT_EQ(FaultOf(promise, test::Placed(full, surface, world),
+                      test::Placed(volume, surface, world)),
+            "");
+        }
+      }
+    }
+  }
+}
+
+// Whatever was shown before, with any threads; and nothing that follows knows of it.
+TEST(ToleratedSet, OfRandomFieldsIsFitAndLeavesNoTrace)
+{
+  const int cases = test::ForRandomSeeds(
+    [](std::uint32_t seed)
+    {
+      SCOPED_TRACE(seed);
+      test::Random numbers(seed);
+      const test::RandomSamples field(numbers, 24, 3000);
+      const Isoregion region = test::RandomRegion(numbers, field);
+      SCOPED_TRACE(test::Describe(field, region));
+      BuildOptions options = test::RandomOptions(numbers, field.Dimensions);
+      options.Metric = ErrorMetric::Distance;
+      options.RefineInterior = false;
+      StagedBuild staged(field.View(), region, SerialFor, options);
+      const test::AnyMesh full(staged.OneMesh(), Query{});
+      const double scale = DistanceErrorScale(staged.OneMesh().SampleGrid(), options.World);
+      const auto meshAt = [&](StagedBuild& build, double tolerance, const ParallelFor& loops)
+      {
+        build.RefineTo([=](const Place&) { return tolerance; }, field.View(), loops, options);
+        return test::AnyMesh(build.OneMesh(), Query{ tolerance });
+      };
+      const double tolerance = scale * std::exp2(-test::Uniform(numbers, 0.0, 8.0));
+      const test::AnyMesh mesh = meshAt(staged, tolerance, SerialFor);
+      EXPECT_EQ(mesh.Fault(field.Dimensions), "");
+      EXPECT_LE(mesh.CellCount(), full.CellCount());
+      if (options.PreserveTopology)
+      {
+        EXPECT_EQ(test::Topology(mesh), test::Topology(full));
+      }
+      meshAt(staged, 0.5 * tolerance, SerialFor);
+      StagedBuild other(field.View(), region, test::ThreadedFor(3), options);
+      EXPECT_TRUE(mesh == meshAt(staged, tolerance, test::ThreadedFor(3)));
+      EXPECT_TRUE(mesh == meshAt(other, tolerance, test::ThreadedFor(2)));
+      staged.ShowFullResolution();
+      EXPECT_TRUE(full == test::AnyMesh(staged.OneMesh(), Query{}));
+      meshAt(staged, tolerance, SerialFor);
+      test::ExpectSame(staged.Finish(Model::Minimal, field.View(), SerialFor, options),
+        BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, options));
+    });
+  EXPECT_GT(cases, 0);
+}
+
+TEST(ToleratedSet, NeedsDistancesAndNothingInside)
+{
+  const test::Field field = test::SphereField({ 9, 9, 9 });
+  const auto refine = [&](const Isoregion& region, const BuildOptions& options)
+  {
+    StagedBuild staged(field.View(), region, SerialFor, options);
+    staged.RefineTo([](const Place&) { return 1.0; }, field.View(), SerialFor, options);
+  };
+  EXPECT_THROW(refine(field.Isovalue, {}), std::invalid_argument);
+  BuildOptions inside = test::Distance();
+  inside.RefineInterior = true;
+  EXPECT_THROW(refine({ field.Isovalue, field.Isovalue + 1.0 }, inside), std::invalid_argument);
+  EXPECT_NO_THROW(refine(field.Isovalue, inside));
+}
