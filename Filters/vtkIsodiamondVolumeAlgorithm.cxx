@@ -41,8 +41,8 @@ bool AreVolumes(const std::vector<isodiamond::Isoregion>& regions)
   return !regions.empty() && regions.front().IsVolume();
 }
 
-/** The tolerance of the hierarchy's mesh, if a query asks for one alone, and nothing else depends on
- *  errors. */
+/** The tolerance of the hierarchy's mesh, if a query asks for one alone, and nothing else depends
+ * on errors. */
 std::optional<double> OnlyTolerance(
   const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::Volume& volume, bool refinesInterior)
 {
@@ -178,8 +178,7 @@ vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataSe
 vtkIsodiamond::WorldQuery vtkIsodiamondVolumeAlgorithm::GetQuery() const
 {
   vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
-  query.OneTolerance =
-    this->OneTolerance && this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE;
+  query.OneTolerance = this->OneTolerance && this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE;
   return query;
 }
 

@@ -136,21 +136,13 @@ void Cache::RefineTo(double tolerance, const Volume& volume, Task& task)
     [&](Entry& entry)
     {
       entry.RefinedTo.reset();
-      if (tolerance > 0.0)
-      {
-        entry.Staged->RefineTo([&](const isodiamond::Place&) { return tolerance; }, volume.Samples,
-          task.For(), this->OptionsFor(volume, entry.RefineInterior, task));
-      }
-      else
-      {
-        entry.Staged->ShowFullResolution();
-      }
+      entry.Staged->RefineTo([&](const isodiamond::Place&) { return tolerance; }, volume.Samples,
+        task.For(), this->OptionsFor(volume, entry.RefineInterior, task));
       entry.RefinedTo = tolerance;
     });
 }
 
-std::list<Cache::Entry>::iterator Cache::Find(
-  const isodiamond::Isoregion& region, const Need& need)
+std::list<Cache::Entry>::iterator Cache::Find(const isodiamond::Isoregion& region, const Need& need)
 {
   const auto find = [&](bool mayBeStaged, bool mayBeDone)
   {
@@ -190,14 +182,10 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
   {
     this->MeasureErrors(volume, task);
   }
-  if (this->Entries.front().Staged)
+  if (need.Only &&
+    isodiamond::IsAnywhere(PeersOf(volume), this->Entries.front().RefinedTo != need.Only))
   {
-    const double tolerance = need.Only.value_or(0.0);
-    if (isodiamond::IsAnywhere(
-          PeersOf(volume), this->Entries.front().RefinedTo != tolerance))
-    {
-      this->RefineTo(tolerance, volume, task);
-    }
+    this->RefineTo(*need.Only, volume, task);
   }
   Entry& entry = this->Entries.front();
   isodiamond::InStep(PeersOf(volume),

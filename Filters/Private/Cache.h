@@ -40,7 +40,8 @@ public:
     bool Errors = true; ///< else it asks for full resolution
     bool RefinedInterior = false;
     /** By the distance metric, a tolerance that is the only one: errors are looked at no farther
-     *  than its mesh needs. Not of an interval volume with hidden cells, which is refined inside. */
+     *  than its mesh needs. Not of an interval volume with hidden cells, which is refined inside.
+     */
     std::optional<double> Only = std::nullopt;
   };
 
@@ -88,7 +89,7 @@ private:
     bool RefineInterior = false;
     bool IsUsed = true;                            ///< since the last time of trimming
     std::optional<isodiamond::StagedBuild> Staged; ///< as long as nobody needs all errors
-    std::optional<double> RefinedTo = 0.0; ///< the tolerance of what that shows; none if unknown
+    std::optional<double> RefinedTo;               ///< the tolerance that it was told last
     isodiamond::Encoding Encoding;
     std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy; ///< of the encoding
     std::optional<isodiamond::CellCounts> Counts;

@@ -33,7 +33,7 @@ struct View
 struct WorldQuery
 {
   double ErrorTolerance = 0.0;
-  bool HasTarget = false; ///< whether that tolerance is yet to be found
+  bool HasTarget = false;    ///< whether that tolerance is yet to be found
   bool OneTolerance = false; ///< whether errors are to be measured for that alone
   double InteriorTolerance = HUGE_VAL;
   /** In the world; the tolerances hold there. */

@@ -251,6 +251,34 @@ BuildOptions RandomOptions(Random& random, const std::array<int, 3>& dimensions)
   return options;
 }
 
+HiddenCells RandomHidden(Random& random, const std::array<int, 3>& dimensions)
+{
+  const std::array<int, 3> cells = { dimensions[0] - 1, dimensions[1] - 1, dimensions[2] - 1 };
+  const int kind = Pick(random, 6);
+  std::array<int, 3> low{};
+  std::array<int, 3> high{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    low[axis] = Pick(random, cells[axis]);
+    high[axis] = low[axis] + Pick(random, cells[axis] - low[axis]);
+  }
+  std::vector<std::uint8_t> hidden;
+  for (int z = 0; z < cells[2]; ++z)
+  {
+    for (int y = 0; y < cells[1]; ++y)
+    {
+      for (int x = 0; x < cells[0]; ++x)
+      {
+        const bool isSingle = Pick(random, 30) == 0;
+        const bool isInBlock =
+          x >= low[0] && x <= high[0] && y >= low[1] && y <= high[1] && z >= low[2] && z <= high[2];
+        hidden.push_back((kind == 0 && isSingle) || (kind == 1 && isInBlock) ? 1 : 0);
+      }
+    }
+  }
+  return { std::move(hidden), cells };
+}
+
 Query RandomQuery(Random& random, const IsodiamondHierarchy& hierarchy, const GridGeometry& world)
 {
   Query query{ RandomTolerance(random, hierarchy.Codes().Scale()),

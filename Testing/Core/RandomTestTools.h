@@ -2,6 +2,7 @@
 #ifndef RandomTestTools_h
 #define RandomTestTools_h
 
+#include "Field/HiddenCells.h"
 #include "IntervalTestTools.h"
 
 #include <cstdint>
@@ -42,6 +43,9 @@ isodiamond::Isoregion RandomRegion(Random& random, const RandomSamples& samples)
 
 /** Both metrics, affine and uneven worlds, and all else but hidden cells. */
 isodiamond::BuildOptions RandomOptions(Random& random, const std::array<int, 3>& dimensions);
+
+/** Single cells, blocks of them, or none. */
+isodiamond::HiddenCells RandomHidden(Random& random, const std::array<int, 3>& dimensions);
 
 /** Two tolerances, a region of interest or none, and of errors that are distances a viewpoint or
  *  none. */

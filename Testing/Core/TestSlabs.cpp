@@ -281,6 +281,40 @@ TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
   EXPECT_GT(cases, 0);
 }
 
+TEST(Slabs, OfPeersRefineToTheSameMesh)
+{
+  const int cases = test::ForRandomSeeds(
+    [](std::uint32_t seed)
+    {
+      SCOPED_TRACE(seed);
+      test::Random random(seed);
+      const RandomCase whole(random, 40, 2000);
+      const double tolerance = test::Uniform(random, 0.0, 3.0);
+      const auto meshOf = [&](StagedBuild staged, const BuildOptions& options)
+      {
+        staged.RefineTo(
+          [&](const Place&) { return tolerance; }, whole.Samples.View(), SerialFor, options);
+        return test::AnyMesh(staged.OneMesh(), Query{ tolerance });
+      };
+      const test::AnyMesh expected =
+        meshOf({ whole.Samples.View(), whole.Region, SerialFor, whole.Options }, whole.Options);
+      const int peers = 1 + test::Pick(random, std::min(4, whole.Samples.Dimensions[2]));
+      std::mutex mutex; // of expectations
+      Gathering(peers).Run(
+        [&](Peers& own)
+        {
+          BuildOptions together = whole.Options;
+          together.Together = &own;
+          const test::AnyMesh found =
+            meshOf(BuildInSlabs(whole.Samples.View(), whole.Region, peers + 2, SerialFor, together),
+              together);
+          const std::lock_guard<std::mutex> lock(mutex);
+          EXPECT_TRUE(found == expected);
+        });
+    });
+  EXPECT_GT(cases, 0);
+}
+
 // Or the others would wait forever.
 TEST(Slabs, OfPeersFailForAllOfThem)
 {

@@ -15,35 +15,6 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** Single cells, blocks of them, or none. */
-HiddenCells RandomHidden(test::Random& random, const std::array<int, 3>& dimensions)
-{
-  const std::array<int, 3> cells = { dimensions[0] - 1, dimensions[1] - 1, dimensions[2] - 1 };
-  const int kind = test::Pick(random, 6);
-  std::array<int, 3> low{};
-  std::array<int, 3> high{};
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    low[axis] = test::Pick(random, cells[axis]);
-    high[axis] = low[axis] + test::Pick(random, cells[axis] - low[axis]);
-  }
-  std::vector<std::uint8_t> hidden;
-  for (int z = 0; z < cells[2]; ++z)
-  {
-    for (int y = 0; y < cells[1]; ++y)
-    {
-      for (int x = 0; x < cells[0]; ++x)
-      {
-        const bool isSingle = test::Pick(random, 30) == 0;
-        const bool isInBlock =
-          x >= low[0] && x <= high[0] && y >= low[1] && y <= high[1] && z >= low[2] && z <= high[2];
-        hidden.push_back((kind == 0 && isSingle) || (kind == 1 && isInBlock) ? 1 : 0);
-      }
-    }
-  }
-  return { std::move(hidden), cells };
-}
-
 /** An HD of any samples. */
 struct Scalars
 {
@@ -68,7 +39,7 @@ public:
     , Field(Numbers, 12, 400)
     , Region(test::RandomRegion(Numbers, Field))
     , Options(test::RandomOptions(Numbers, Field.Dimensions))
-    , Hidden(RandomHidden(Numbers, Field.Dimensions))
+    , Hidden(test::RandomHidden(Numbers, Field.Dimensions))
   {
     this->Options.Hidden = &this->Hidden;
     this->Options.PreserveTopology = true;

@@ -6,8 +6,8 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkFieldData.h"
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkGenericCell.h"
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
@@ -420,16 +420,13 @@ TEST(Distance, OfOneToleranceIsThatOfAllWhereAllAreNeeded)
     filter->SetInputData(image);
     filter->OneToleranceOff();
     filter->Update();
-    const vtkSmartPointer<vtkDataSet> all =
-      vtkSmartPointer<vtkDataSet>::Take(vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0))
-                                          ->NewInstance());
+    const vtkSmartPointer<vtkDataSet> all = vtkSmartPointer<vtkDataSet>::Take(
+      vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0))->NewInstance());
     all->DeepCopy(filter->GetOutputDataObject(0));
     filter->OneToleranceOn();
     filter->Update();
     EXPECT_GT(all->GetNumberOfCells(), 100) << what;
-    EXPECT_EQ(test::Difference(
-                vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0)), all),
-      "")
+    EXPECT_EQ(test::Difference(vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0)), all), "")
       << what;
   };
   contour->SetErrorTolerance(1.0);

@@ -219,8 +219,8 @@ DiamondCodes BuildSteps::MeasureDistances(
   return own;
 }
 
-std::vector<ErrorCode::Type> BuildSteps::RefineTo(const IsodiamondHierarchy& relevant, const Finiteness& isFinite,
-  const std::function<ErrorCode::Type(const Place&)>& accepted) const
+std::vector<ErrorCode::Type> BuildSteps::RefineTo(const IsodiamondHierarchy& relevant,
+  const Finiteness& isFinite, const std::function<ErrorCode::Type(const Place&)>& accepted) const
 {
   Tell(this->Options, "Measuring errors", 0.25, 0.9);
   Peers* const peers = this->Options.Together;
@@ -231,9 +231,8 @@ std::vector<ErrorCode::Type> BuildSteps::RefineTo(const IsodiamondHierarchy& rel
     {
       own = DiamondCodes(this->Members.Size(), false);
       this->SubdivideAlways(own);
-      tests.emplace(
-        TestedHierarchy{ relevant, isFinite, ErrorCode(this->Header.ErrorScale),
-          this->Options.PreserveFeatures, this->Options.Hidden },
+      tests.emplace(TestedHierarchy{ relevant, isFinite, ErrorCode(this->Header.ErrorScale),
+                      this->Options.PreserveFeatures, this->Options.Hidden },
         this->Options.World, this->For);
     });
   const BuildSigns signs = this->SignsToGoBy();
@@ -245,8 +244,7 @@ std::vector<ErrorCode::Type> BuildSteps::RefineTo(const IsodiamondHierarchy& rel
   return ToleratedSet(relevant, *tests, { accepted, isAlways }, Loops(this->For, peers), peers);
 }
 
-void BuildSteps::SetThresholds(
-  const std::vector<ErrorCode::Type>& thresholds, Encoding& relevant)
+void BuildSteps::SetThresholds(const std::vector<ErrorCode::Type>& thresholds, Encoding& relevant)
 {
   std::vector<std::uint16_t>& records = relevant.Arrays.Records;
   for (std::size_t rank = 0; rank < records.size(); ++rank)

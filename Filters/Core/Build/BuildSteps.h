@@ -44,8 +44,8 @@ public:
 
   /** What one mesh subdivides, in the place of thresholds: ToleratedSet(). Not where what is inside
    *  is refined. @param accepted the greatest code that is tolerated of a diamond */
-  std::vector<ErrorCode::Type> RefineTo(const IsodiamondHierarchy& relevant, const Finiteness& isFinite,
-    const std::function<ErrorCode::Type(const Place&)>& accepted) const;
+  std::vector<ErrorCode::Type> RefineTo(const IsodiamondHierarchy& relevant,
+    const Finiteness& isFinite, const std::function<ErrorCode::Type(const Place&)>& accepted) const;
 
   /** Sets the thresholds of an RI. */
   static void SetThresholds(const std::vector<ErrorCode::Type>& thresholds, Encoding& relevant);

@@ -54,12 +54,6 @@ struct StagedBuild::State
     }
   }
 
-  void Show(const std::vector<ErrorCode::Type>& codes)
-  {
-    this->Done->SetThresholds(codes, this->Relevant);
-    this->Hierarchy->FindHighestThresholds();
-  }
-
   AnySamples Samples;
   ParallelFor For;
   BuildOptions Options;
@@ -97,12 +91,6 @@ const IsodiamondHierarchy& StagedBuild::OneMesh() const
   return *this->Kept->Hierarchy;
 }
 
-void StagedBuild::ShowFullResolution()
-{
-  this->Kept->Show(
-    std::vector<ErrorCode::Type>(this->Kept->Relevant.Arrays.Records.size(), ErrorCode::Always));
-}
-
 void StagedBuild::RefineTo(const std::function<double(const Place&)>& tolerated,
   const AnySamples& samples, const ParallelFor& parallelFor, const BuildOptions& options)
 {
@@ -113,8 +101,10 @@ void StagedBuild::RefineTo(const std::function<double(const Place&)>& tolerated,
   }
   kept.Resume(samples, parallelFor, options);
   const ErrorCode code(kept.Relevant.Header.ErrorScale);
-  kept.Show(kept.Done->RefineTo(*kept.Hierarchy, *kept.IsFinite,
-    [&](const Place& place) { return code.Accepted(tolerated(place)); }));
+  // The hierarchy reads them there; that some are the highest stays true enough.
+  BuildSteps::SetThresholds(kept.Done->RefineTo(*kept.Hierarchy, *kept.IsFinite,
+                              [&](const Place& place) { return code.Accepted(tolerated(place)); }),
+    kept.Relevant);
 }
 
 Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const ParallelFor& parallelFor,

@@ -30,17 +30,15 @@ public:
   StagedBuild(const StagedBuild&) = delete;
   StagedBuild& operator=(const StagedBuild&) = delete;
 
-  /** An RI whose diamonds are always subdivided, or never: one mesh at any tolerance. At first that
-   *  of full resolution. Valid until the end of Finish(). */
+  /** An RI whose diamonds are always subdivided, or never: at tolerance 0 full resolution, at any
+   *  other what RefineTo() was told last; before, full resolution too. Valid until the end of
+   *  Finish(). */
   const IsodiamondHierarchy& OneMesh() const;
-
-  /** Makes OneMesh() that of full resolution again. */
-  void ShowFullResolution();
 
   /**
    * Makes OneMesh() one that keeps tolerances, in a fraction of the time of the second step, which
    * can still follow: most diamonds have no part in it. As good as what is extracted after that,
-   * but not the same: errors are compared with tolerances as they are, not as codes have them.
+   * but not the same: errors are compared with tolerances before they are rounded up.
    *
    * @param tolerated the tolerance of a diamond
    * @param samples, options as of Finish(); the distance metric, without refinement inside

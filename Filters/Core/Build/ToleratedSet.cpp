@@ -49,7 +49,8 @@ public:
   {
     std::vector<ErrorCode::Type> codes(this->States.size());
     std::transform(this->States.begin(), this->States.end(), codes.begin(),
-      [](State state) { return state == State::Subdivided ? ErrorCode::Always : ErrorCode::Least; });
+      [](State state)
+      { return state == State::Subdivided ? ErrorCode::Always : ErrorCode::Least; });
     return codes;
   }
 

@@ -2,8 +2,8 @@
 #ifndef isodiamond_ToleratedSet_h
 #define isodiamond_ToleratedSet_h
 
-#include "Field/Peers.h"
 #include "DistanceError/DistanceTests.h"
+#include "Field/Peers.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 
 #include <functional>

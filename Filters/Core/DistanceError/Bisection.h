@@ -44,10 +44,13 @@ inline bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
 }
 
 /** Some positions as rows of coordinates, from a place near them on, for loops that compilers make
- *  vector instructions of. Exact: nearer than 2^16 units. */
+ *  vector instructions of. */
 class PositionRows
 {
 public:
+  /** Numbers of 32 bits are exact beside tetrahedra up to this scale. */
+  static constexpr int MostExactScale = 12;
+
   void Fill(const std::vector<FinePosition>& positions, const FinePosition& from)
   {
     this->Origin = from;

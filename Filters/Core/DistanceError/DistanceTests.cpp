@@ -29,8 +29,7 @@ std::vector<std::uint8_t> DistanceTests::Exceed(
   std::vector<std::uint8_t> exceed(diamonds.size(), 0);
   for (const TestedSurface& surface : this->Surfaces)
   {
-    std::visit(
-      [&](const auto& lengths)
+    std::visit([&](const auto& lengths)
       { TestTolerances(surface, this->Tested, lengths, diamonds, exceed, parallelFor); },
       this->InWorld);
   }

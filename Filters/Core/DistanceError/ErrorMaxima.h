@@ -125,10 +125,9 @@ public:
     find(farthest);
     if (farthest.Squared == std::numeric_limits<double>::infinity() && !this->PreserveFeatures)
     {
-      farthest.Squared =
-        std::visit([&](const auto& lengths)
-          { return SquaredDiameter(this->Source.SampleGrid(), lengths, diamond); },
-          this->InWorld);
+      farthest.Squared = std::visit([&](const auto& lengths)
+        { return SquaredDiameter(this->Source.SampleGrid(), lengths, diamond); },
+        this->InWorld);
     }
     if (farthest.IsAny && (farthest.Squared > known * known || code == 0))
     {

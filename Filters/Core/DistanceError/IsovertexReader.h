@@ -61,7 +61,8 @@ public:
   }
 
   /** Calls body(position, whether both ends are finite, edge of the domain) for those in the domain
-   *  of a diamond of scale 0 or 1, but for those that are corners of its patches. */
+   *  of a diamond of scale 0 or 1, but for corners of its patches: these are where they are, and as
+   *  the centre has an edge to both ends of theirs, they never are the only ones. */
   template <typename Body>
   void ForEachInDomain(const Place& diamond, const Body& body)
   {
@@ -75,7 +76,7 @@ public:
     {
       const Place place{ 0, centre + owner.Offset };
       const std::int64_t rank = this->Window->Rank(place.Position);
-      if (rank != DiamondSet::None && !(owner.IsOlder && this->IsFinite.All()))
+      if (rank != DiamondSet::None && !owner.IsOlder)
       {
         this->ForEachOf(place, static_cast<std::uint32_t>(rank), owner.EdgeMask,
           [&](const FinePosition& position, int edge)
@@ -110,8 +111,8 @@ private:
   void ForEachOf(
     const Place& owner, std::uint32_t rank, std::uint32_t edges, const Body& body) const
   {
-    ForEachBit(edges &
-        (this->Surface == 0 ? this->Hierarchy.Edges(rank) : this->Hierarchy.UpperEdges(rank)),
+    ForEachBit(
+      edges & (this->Surface == 0 ? this->Hierarchy.Edges(rank) : this->Hierarchy.UpperEdges(rank)),
       [&](int edge)
       { body(IsovertexAt(this->Hierarchy, owner, rank, edge, this->Surface), edge); });
   }

@@ -46,8 +46,7 @@ public:
   bool Exceeds(const Place& diamond, ErrorCode::Type accepted)
   {
     this->Begin(diamond, accepted);
-    const bool isWithin =
-      diamond.Scale <= 1 ? this->IsSmallDomainWithin() : this->IsDomainWithin();
+    const bool isWithin = diamond.Scale <= 1 ? this->IsSmallDomainWithin() : this->IsDomainWithin();
     return !isWithin || (this->Far.IsAny && !this->IsBackWithin());
   }
 
@@ -69,9 +68,8 @@ private:
   {
     this->Diamond = diamond;
     this->Accepted = accepted;
-    const double known = accepted == 0
-      ? 0.0
-      : this->Tested.Code.Decode(accepted) / (DistanceMargin * DistanceMargin);
+    const double known =
+      accepted == 0 ? 0.0 : this->Tested.Code.Decode(accepted) / (DistanceMargin * DistanceMargin);
     this->Tolerated = known * known;
     this->Far = { this->Tolerated, false };
     this->HasNone = HasNoInterpolant(this->Hierarchy.SampleGrid(), this->Tested.IsFinite, diamond);
@@ -154,8 +152,7 @@ private:
       [&](const auto& eighth, const Point& origin)
       {
         this->Clear();
-        eighth(
-          [&](const FinePosition& position, bool areEndsFinite)
+        eighth([&](const FinePosition& position, bool areEndsFinite)
           { (areEndsFinite ? this->Positions : this->NotFinite).push_back(position); });
         this->Rows.Fill(this->Positions, FineUnits * origin);
         return this->AreReadWithin();
@@ -173,17 +170,28 @@ private:
         {
           return false;
         }
-        part.Closed.FindHeld(this->Rows, this->Sides);
-        for (std::size_t i = 0; i < this->Positions.size(); ++i)
-        {
-          if (this->Sides[i] >= 0.0F)
-          {
-            part.Held.push_back(this->Positions[i]);
-          }
-        }
+        this->FindHeld(part);
       }
     }
     return this->AreHeldWithin();
+  }
+
+  void FindHeld(Part& part)
+  {
+    if (this->Diamond.Scale > PositionRows::MostExactScale)
+    {
+      std::copy_if(this->Positions.begin(), this->Positions.end(), std::back_inserter(part.Held),
+        [&](const FinePosition& position) { return part.Closed.Holds(position); });
+      return;
+    }
+    part.Closed.FindHeld(this->Rows, this->Sides);
+    for (std::size_t i = 0; i < this->Positions.size(); ++i)
+    {
+      if (this->Sides[i] >= 0.0F)
+      {
+        part.Held.push_back(this->Positions[i]);
+      }
+    }
   }
 
   /** Whether no isovertex that the tetrahedra hold is too far away. */
@@ -231,8 +239,8 @@ private:
   bool IsBackWithin()
   {
     MapBounds::OfDiamond bounds = MapBounds::NoneOfDiamond;
-    for (std::size_t number = 0;
-         number < this->Parts.size() && this->Diamond.Scale < CoarseScale; ++number)
+    for (std::size_t number = 0; number < this->Parts.size() && this->Diamond.Scale < CoarseScale;
+         ++number)
     {
       bounds[number] =
         this->Tested.Code.Encode(std::sqrt(this->Parts[number].SquaredBack) * DistanceMargin);
@@ -252,10 +260,10 @@ private:
   WayBack<Lengths> Back;
   Place Diamond;
   ErrorCode::Type Accepted = 0;
-  double Tolerated = 0.0;    ///< squared
-  bool HasNone = false;      ///< whether the diamond has no interpolant
-  Farthest Far;              ///< the farthest isovertex, or what is tolerated
-  std::array<Part, 8> Parts; ///< by number
+  double Tolerated = 0.0;              ///< squared
+  bool HasNone = false;                ///< whether the diamond has no interpolant
+  Farthest Far;                        ///< the farthest isovertex, or what is tolerated
+  std::array<Part, 8> Parts;           ///< by number
   std::vector<FinePosition> Positions; ///< that were read in the domain, with finite ends
   std::vector<FinePosition> NotFinite; ///< the others
   std::vector<std::pair<FinePosition, const FineDomain::Edge*>> OnBorders; ///< of tetrahedra

@@ -6,6 +6,7 @@
 #include "DistanceError/DomainMap.h"
 #include "DistanceError/ErrorMaxima.h"
 #include "DistanceError/FineSurface.h"
+#include "DistanceError/FlatPiece.h"
 #include "DistanceError/NearbyTriangles.h"
 #include "DistanceError/SlabTest.h"
 #include "DistanceError/SpineNeighbourhood.h"
@@ -225,7 +226,7 @@ private:
     const std::array<Vector, 6> corners = this->CornersOf(hard);
     if (patch.TriangleCount == 2)
     {
-      const FlatPiece both = this->Flatten(patch, corners);
+      const FlatPiece both = Flatten(patch, corners);
       if (both.Bend <= 0.25 * this->Known && this->IsBetween(both))
       {
         return;
@@ -240,87 +241,6 @@ private:
         Cross(triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]);
       this->MeasureFrom({ triangle, Unit(across), 0.0 });
     }
-  }
-
-  /** How far two triangles and whatever else fills the border of both can be from each other, seen
-   *  across both diagonals; infinite if one triangle covers the other there. */
-  static double BendOf(const SurfacePatch& patch, const std::array<Vector, 6>& corners)
-  {
-    const auto [polygon, isOne] = Join(patch, corners);
-    const std::array<Vector, ConvexPolygon::MostCorners>& q = polygon.Corners;
-    const Vector shared = q[2] - q[0];
-    const Vector across = Unit(Cross(shared, q[3] - q[1]));
-    const Vector beside = Cross(shared, across);
-    const bool isOpen = isOne && Dot(q[1] - q[0], beside) * Dot(q[3] - q[0], beside) < 0.0;
-    return isOpen ? std::abs(Dot(q[1] - q[0], across)) : HUGE_VAL;
-  }
-
-  /** What is flat, or nearly so. */
-  struct FlatPiece
-  {
-    ConvexPolygon Polygon;
-    Vector Normal{};   ///< of unit length; not a number without area
-    double Bend = 0.0; ///< how far from the polygon what it stands for can be
-  };
-
-  static Vector Unit(const Vector& vector)
-  {
-    return (1.0 / std::sqrt(Dot(vector, vector))) * vector;
-  }
-
-  /** Two triangles as one piece; with an infinite bend if that is not convex. */
-  static FlatPiece Flatten(const SurfacePatch& patch, const std::array<Vector, 6>& corners)
-  {
-    auto [polygon, isOne] = Join(patch, corners);
-    FlatPiece flat{ polygon, {}, HUGE_VAL };
-    if (!isOne)
-    {
-      return flat;
-    }
-    flat.Normal =
-      Unit(Cross(polygon.Corners[2] - polygon.Corners[0], polygon.Corners[3] - polygon.Corners[1]));
-    const Vector middle = polygon.Middle();
-    double bend = 0.0;
-    for (int i = 0; i < 4; ++i)
-    {
-      const double height = Dot(polygon.Corners[i] - middle, flat.Normal);
-      flat.Polygon.Corners[i] = polygon.Corners[i] - height * flat.Normal;
-      bend = std::max(bend, std::abs(height));
-    }
-    bool isConvex = true;
-    for (int i = 0; i < 4; ++i)
-    {
-      const Vector& corner = flat.Polygon.Corners[(i + 1) % 4];
-      const Vector turn =
-        Cross(corner - flat.Polygon.Corners[i], flat.Polygon.Corners[(i + 2) % 4] - corner);
-      isConvex = isConvex && Dot(turn, flat.Normal) > 0.0;
-    }
-    flat.Bend = isConvex ? bend : HUGE_VAL;
-    return flat;
-  }
-
-  /** The corners of two triangles in order, and whether these share an edge. */
-  static std::pair<ConvexPolygon, bool> Join(
-    const SurfacePatch& patch, const std::array<Vector, 6>& corners)
-  {
-    const std::array<std::uint8_t, 3>& first = patch.Triangles[0];
-    const std::array<std::uint8_t, 3>& second = patch.Triangles[1];
-    ConvexPolygon joined;
-    int shared = 0;
-    for (int i = 0; i < 3; ++i)
-    {
-      const auto has = [](const std::array<std::uint8_t, 3>& edges, std::uint8_t edge)
-      { return std::find(edges.begin(), edges.end(), edge) != edges.end(); };
-      joined.Add(corners[first[i]]);
-      if (has(second, first[i]) && has(second, first[(i + 1) % 3]))
-      {
-        ++shared;
-        const auto other = std::find_if(
-          second.begin(), second.end(), [&](std::uint8_t edge) { return !has(first, edge); });
-        joined.Add(corners[other != second.end() ? *other : second[0]]);
-      }
-    }
-    return { joined, shared == 1 };
   }
 
   /** All of a piece, in smaller ones. */
@@ -662,11 +582,11 @@ private:
   CellBalls<Lengths> Balls;
   NearbyTriangles<Lengths> Nearby; ///< to the diamond
   DomainMap<Lengths> Map;
-  double Least;       ///< what is less is no error
-  double Known = 0.0; ///< the error is not less: that so far, or a distance that was found
-  double Bound = 0.0; ///< nothing that was looked at is farther
+  double Least;           ///< what is less is no error
+  double Known = 0.0;     ///< the error is not less: that so far, or a distance that was found
+  double Bound = 0.0;     ///< nothing that was looked at is farther
   double Most = HUGE_VAL; ///< what is farther need not be measured
-  int Left = 0;       ///< how many more looks are worth it
+  int Left = 0;           ///< how many more looks are worth it
   int FoundCount = 0;
   std::array<TriangleDistance, MostFound> Found; ///< the last ones, of the diamond
   bool HasNearby = false;                        ///< of the diamond
@@ -711,8 +631,8 @@ void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
                 return;
               }
               const double error = code.Decode(before) / DistanceMargin;
-              const double greater =
-                wayBack.Measure(place, bounds.Of(surface, rank), error, hidden == nullptr || !hidden->Touch(place));
+              const double greater = wayBack.Measure(
+                place, bounds.Of(surface, rank), error, hidden == nullptr || !hidden->Touch(place));
               if (greater > error)
               {
                 codes[rank] = code.Encode(greater * DistanceMargin);

@@ -258,7 +258,6 @@ void IsodiamondHierarchy::CountInsideValues()
 
 void IsodiamondHierarchy::FindHighestThresholds()
 {
-  this->Highest.clear();
   for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
   {
     for (const Brick& brick : this->Set.Level(scale).Bricks)

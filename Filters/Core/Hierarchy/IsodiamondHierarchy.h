@@ -188,9 +188,6 @@ public:
    *  @throws std::invalid_argument naming what is wrong with the encoding. */
   IsodiamondHierarchy(const EncodingView& encoding, const ParallelFor& parallelFor);
 
-  /** Takes note of other thresholds in the encoding's records. */
-  void FindHighestThresholds();
-
   const EncodingHeader& Header() const { return this->View.Header; }
   const Grid& SampleGrid() const { return this->TheGrid; }
   const DiamondSet& Diamonds() const { return this->Set; }
@@ -286,6 +283,7 @@ private:
   void CountByKind();
   void CheckOrderOnEdges() const;
   void CountInsideValues();
+  void FindHighestThresholds();
   int SignAt(const Place& place) const;
 
   EncodingView View;
