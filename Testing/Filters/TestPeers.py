@@ -67,10 +67,11 @@ def check_hierarchy():
         print(f"{ranks} processes: the same hierarchy", flush=True)
 
 
-def check_failure(name, fail):
+def check_failure(name, fail, **properties):
     """Of one process: all have an error, and go on afterwards."""
     source = Source()
-    contour = new(isodiamonds.vtkIsodiamondContour(), source, Value=(0, 0.0), ErrorTolerance=0.4, NumberOfBlocks=8)
+    contour = new(isodiamonds.vtkIsodiamondContour(), source, Value=(0, 0.0), ErrorTolerance=0.4, NumberOfBlocks=8,
+                  **properties)
     errors = []
     for teller in (contour, source, source.GetExecutive()):
         teller.AddObserver("ErrorEvent", lambda *_: errors.append(1))
@@ -139,6 +140,8 @@ def main():
         for phase in ("Reading signs", "Classifying diamonds", "Placing isovertices", "Measuring errors",
                       "Finding thresholds", "Reading point data", "Extracting the mesh"):
             check_failure(f"aborted while {phase}", lambda _, contour: abort_at(contour, phase))
+        check_failure("aborted while Measuring errors of one tolerance",
+                      lambda _, contour: abort_at(contour, "Measuring errors"), OneTolerance=1)
 
 
 run(main)

@@ -222,13 +222,13 @@ DiamondCodes BuildSteps::MeasureDistances(
 std::vector<ErrorCode::Type> BuildSteps::RefineTo(const IsodiamondHierarchy& relevant,
   const Finiteness& isFinite, const std::function<ErrorCode::Type(const Place&)>& accepted) const
 {
-  Tell(this->Options, "Measuring errors", 0.25, 0.9);
   Peers* const peers = this->Options.Together;
   DiamondCodes own;
   std::optional<DistanceTests> tests;
   InStep(peers,
     [&]
     {
+      Tell(this->Options, "Measuring errors", 0.25, 0.9);
       own = DiamondCodes(this->Members.Size(), false);
       this->SubdivideAlways(own);
       tests.emplace(TestedHierarchy{ relevant, isFinite, ErrorCode(this->Header.ErrorScale),

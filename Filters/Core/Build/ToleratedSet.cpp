@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 namespace isodiamond
@@ -123,25 +124,33 @@ private:
 std::vector<ErrorCode::Type> ToleratedSet(const IsodiamondHierarchy& relevant,
   const DistanceTests& tests, const ToleratedBy& by, const Loops& loops, Peers* peers)
 {
-  Subdivision subdivision(relevant, by);
-  for (std::vector<TestedDiamond> met = subdivision.TakeMet(); !met.empty();
-       met = subdivision.TakeMet())
+  std::optional<Subdivision> subdivision;
+  std::vector<TestedDiamond> met;
+  std::vector<std::uint8_t> exceed; // one each
+  InStep(peers, [&] { subdivision.emplace(relevant, by); });
+  do
   {
-    std::vector<std::uint8_t> exceed;
-    InStep(peers, [&] { exceed = tests.Exceed(met, loops.Share); });
+    InStep(peers,
+      [&]
+      {
+        for (std::size_t i = 0; i < met.size(); ++i)
+        {
+          if (exceed[i] != 0)
+          {
+            subdivision->Subdivide(met[i].Diamond);
+          }
+        }
+        met = subdivision->TakeMet();
+        exceed = tests.Exceed(met, loops.Share);
+      });
     if (peers != nullptr)
     {
       peers->Or(exceed);
     }
-    for (std::size_t i = 0; i < met.size(); ++i)
-    {
-      if (exceed[i] != 0)
-      {
-        subdivision.Subdivide(met[i].Diamond);
-      }
-    }
-  }
-  return subdivision.Codes();
+  } while (!met.empty());
+  std::vector<ErrorCode::Type> codes;
+  InStep(peers, [&] { codes = subdivision->Codes(); });
+  return codes;
 }
 
 }
