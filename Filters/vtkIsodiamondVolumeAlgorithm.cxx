@@ -51,10 +51,8 @@ std::optional<double> OnlyTolerance(
   {
     return std::nullopt;
   }
-  const isodiamond::GridGeometry& world = volume.Placement.World;
-  return query.Simplify
-    ? query.ErrorTolerance * vtkIsodiamond::PartForHierarchy(query, query.ErrorTolerance, world)
-    : query.ErrorTolerance;
+  return vtkIsodiamond::HierarchyTolerance(
+    query, isodiamond::ErrorMetric::Distance, volume.Placement.World);
 }
 
 /** Which hierarchy a query needs. Interior tolerances from the extent of the values on need nothing
@@ -69,7 +67,8 @@ vtkIsodiamond::Cache::Need NeedOf(
   };
   const bool refinesInterior =
     query.InteriorTolerance < VTK_DOUBLE_MAX && query.InteriorTolerance < extent();
-  return { !query.IsFull(), refinesInterior, OnlyTolerance(query, volume, refinesInterior) };
+  const std::optional<double> only = OnlyTolerance(query, volume, refinesInterior);
+  return { !query.IsFull() && !only, refinesInterior, only };
 }
 
 }
@@ -175,14 +174,6 @@ vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataSe
 }
 
 //------------------------------------------------------------------------------
-vtkIsodiamond::WorldQuery vtkIsodiamondVolumeAlgorithm::GetQuery() const
-{
-  vtkIsodiamond::WorldQuery query = this->Superclass::GetQuery();
-  query.OneTolerance = this->OneTolerance && this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE;
-  return query;
-}
-
-//------------------------------------------------------------------------------
 bool vtkIsodiamondVolumeAlgorithm::CanBeCut() const
 {
   return this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && !this->ClosesBoundary() &&
@@ -237,8 +228,9 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       query.ErrorTolerance *= unit;
       query.OutsideErrorTolerance *= unit;
       // Where cells are hidden, an interval volume is refined inside: by all errors.
-      query.OneTolerance =
-        query.OneTolerance && !(volume.Hidden.Any() && AreVolumes(this->GetRegions()));
+      query.OneTolerance = this->OneTolerance &&
+        this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
+        !(volume.Hidden.Any() && AreVolumes(this->GetRegions()));
       const isodiamond::BuildOptions options = this->GetOptions(volume.Placement.World, query);
       this->RemovedFromBlock = 0;
       vtkIsodiamond::RunThreaded(this->NumberOfThreads,
@@ -363,7 +355,7 @@ void vtkIsodiamondVolumeAlgorithm::WriteTable(const vtkIsodiamond::Volume& volum
   vtkDataObject* output)
 {
   const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
-  if (!need.Errors || need.Only)
+  if (!need.AllErrors)
   {
     return; // as if errors were not known, even if they are: the mesh is that of a new filter
   }

@@ -88,8 +88,7 @@ void Cache::Build(
     entry.Staged.emplace(BuildInSlabs(*volume.InSlabs, region, options, task));
   }
   // Where cells are hidden, what is inside of a volume is refined, too: by its errors.
-  else if ((need.Errors && !need.Only) || need.RefinedInterior ||
-    (region.IsVolume() && volume.Hidden.Any()))
+  else if (need.AllErrors || need.RefinedInterior || (region.IsVolume() && volume.Hidden.Any()))
   {
     entry.Encoding =
       isodiamond::BuildIsodiamonds(ModelKept, volume.Samples, region, task.For(), options);
@@ -111,7 +110,7 @@ void Cache::ChangeFirst(isodiamond::Peers* peers, const Change& change)
   }
   catch (...)
   {
-    if (peers)
+    if (peers || !this->Entries.front().Staged->CanGoOn())
     {
       this->Entries.pop_front();
     }
@@ -127,6 +126,7 @@ void Cache::MeasureErrors(const Volume& volume, Task& task)
       entry.Encoding = entry.Staged->Finish(ModelKept, volume.Samples, task.For(),
         this->OptionsFor(volume, entry.RefineInterior, task));
       entry.Staged.reset();
+      entry.RefinedTo.reset();
     });
 }
 
@@ -164,8 +164,13 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
 {
   const auto found = this->Find(region, need);
   const bool isKnown = found != this->Entries.end();
-  // Peers build together, or nobody does.
-  if (isodiamond::IsAnywhere(PeersOf(volume), !isKnown))
+  const bool isStaged = isKnown && found->Staged;
+  // Peers build together, or nobody does; and go on from the same.
+  isodiamond::Peers* const peers = PeersOf(volume);
+  const bool isUnknown = isodiamond::IsAnywhere(peers, !isKnown);
+  const bool isStagedAnywhere = isodiamond::IsAnywhere(peers, isStaged);
+  const bool isDoneAnywhere = isodiamond::IsAnywhere(peers, !isStaged);
+  if (isUnknown || (isStagedAnywhere && isDoneAnywhere))
   {
     if (isKnown)
     {
@@ -178,7 +183,7 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
     found->IsUsed = true;
     this->Entries.splice(this->Entries.begin(), this->Entries, found);
   }
-  if (this->Entries.front().Staged && need.Errors && !need.Only)
+  if (this->Entries.front().Staged && need.AllErrors)
   {
     this->MeasureErrors(volume, task);
   }

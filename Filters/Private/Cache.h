@@ -37,11 +37,10 @@ public:
   /** What of a hierarchy a query needs. */
   struct Need
   {
-    bool Errors = true; ///< else it asks for full resolution
+    bool AllErrors = true; ///< else it asks for full resolution, or for the mesh of one tolerance
     bool RefinedInterior = false;
-    /** By the distance metric, a tolerance that is the only one: errors are looked at no farther
-     *  than its mesh needs. Not of an interval volume with hidden cells, which is refined inside.
-     */
+    /** By the distance metric, without all errors: that tolerance. Not of an interval volume with
+     *  hidden cells, which is refined inside. */
     std::optional<double> Only = std::nullopt;
   };
 
@@ -51,7 +50,7 @@ public:
     const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task);
 
   /** How many cells there are at every tolerance, of the same hierarchy. Kept until a query has
-   *  another interior tolerance, or the hierarchy is forgotten. @pre need.Errors */
+   *  another interior tolerance, or the hierarchy is forgotten. @pre need.AllErrors */
   const isodiamond::CellCounts& Count(const Volume& volume, const isodiamond::Isoregion& region,
     const Need& need, double interiorTolerance, Task& task);
 
@@ -120,8 +119,8 @@ private:
   void MeasureErrors(const Volume& volume, Task& task);
   /** Makes the one in front show the mesh of one tolerance. */
   void RefineTo(double tolerance, const Volume& volume, Task& task);
-  /** Does something with the one in front, which is forgotten where that fails among peers: others
-   *  may have come farther, so all begin anew. */
+  /** Does something with the one in front. Where that fails it is forgotten if it cannot go on, and
+   *  among peers: others may have come farther, so all begin anew. */
   template <typename Change>
   void ChangeFirst(isodiamond::Peers* peers, const Change& change);
 

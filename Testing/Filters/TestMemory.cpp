@@ -259,6 +259,22 @@ TEST(Memory, PieceOfAContour)
     9);
 }
 
+TEST(Memory, ContourOfOneTolerance)
+{
+  const auto image = ImageWithAttributes(Size);
+  ExpectAllErrors(
+    [&]
+    {
+      const auto contour = NewInjecting<vtkIsodiamondContour>();
+      contour->SetInputData(image);
+      contour->SetValue(0, 0.0);
+      contour->SetErrorTolerance(0.01);
+      contour->OneToleranceOn();
+      return contour;
+    },
+    3);
+}
+
 TEST(Memory, ContourOfSeveralValues)
 {
   // Not malloc: vtkAppendPolyData allocates itself, where it has been made sure that it can.

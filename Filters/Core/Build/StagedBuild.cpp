@@ -86,6 +86,11 @@ StagedBuild::~StagedBuild() = default;
 StagedBuild::StagedBuild(StagedBuild&&) noexcept = default;
 StagedBuild& StagedBuild::operator=(StagedBuild&&) noexcept = default;
 
+bool StagedBuild::CanGoOn() const
+{
+  return this->Kept->Hierarchy.has_value();
+}
+
 const IsodiamondHierarchy& StagedBuild::OneMesh() const
 {
   return *this->Kept->Hierarchy;
@@ -97,7 +102,8 @@ void StagedBuild::RefineTo(const std::function<double(const Place&)>& tolerated,
   State& kept = *this->Kept;
   if (NeedsFieldErrors(kept.Relevant.Header.Region, options))
   {
-    throw std::invalid_argument("Errors in the field are measured all at once.");
+    throw std::invalid_argument(
+      "By the field metric, and where what is inside is refined, all errors are measured at once.");
   }
   kept.Resume(samples, parallelFor, options);
   const ErrorCode code(kept.Relevant.Header.ErrorScale);

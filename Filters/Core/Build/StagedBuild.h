@@ -38,7 +38,8 @@ public:
   /**
    * Makes OneMesh() one that keeps tolerances, in a fraction of the time of the second step, which
    * can still follow: most diamonds have no part in it. As good as what is extracted after that,
-   * but not the same: errors are compared with tolerances before they are rounded up.
+   * but not the same: errors are compared with tolerances before they are rounded up, and the way
+   * back is decided no closer than to 8/9 of a tolerance.
    *
    * @param tolerated the tolerance of a diamond
    * @param samples, options as of Finish(); the distance metric, without refinement inside
@@ -48,11 +49,14 @@ public:
     const ParallelFor& parallelFor, const BuildOptions& options);
 
   /** The second step: what BuildIsodiamonds() returns, to the bit. Once only; after an exception,
-   *  as of who stops it, again, but not if there were peers.
+   *  as of who stops it, again if it CanGoOn() and there were no peers.
    *  @param samples the same, wherever they are now; any if they came in slabs
    *  @param options the same, but Hidden may be elsewhere and Report another */
   Encoding Finish(Model model, const AnySamples& samples, const ParallelFor& parallelFor,
     const BuildOptions& options);
+
+  /** Not after Finish(), nor if that failed in the very end, for lack of memory. */
+  bool CanGoOn() const;
 
 private:
   friend class StreamedBuild;

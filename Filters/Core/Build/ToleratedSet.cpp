@@ -101,13 +101,14 @@ private:
       return;
     }
     this->States[rank] = State::Met;
-    if (this->By.IsAlways(diamond, static_cast<std::uint32_t>(rank)))
+    const ErrorCode::Type accepted = this->By.Accepted(diamond);
+    if (accepted < ErrorCode::Least || this->By.IsAlways(diamond, static_cast<std::uint32_t>(rank)))
     {
       this->Waiting.push_back(diamond);
     }
     else
     {
-      this->Met.push_back({ diamond, this->By.Accepted(diamond) });
+      this->Met.push_back({ diamond, accepted });
     }
   }
 
@@ -133,13 +134,15 @@ std::vector<ErrorCode::Type> ToleratedSet(const IsodiamondHierarchy& relevant,
     InStep(peers,
       [&]
       {
-        for (std::size_t i = 0; i < met.size(); ++i)
-        {
-          if (exceed[i] != 0)
+        constexpr std::size_t some = 1 << 14;
+        InSteps(loops.Whole, met.size(), some,
+          [&](std::size_t i)
           {
-            subdivision->Subdivide(met[i].Diamond);
-          }
-        }
+            if (exceed[i] != 0)
+            {
+              subdivision->Subdivide(met[i].Diamond);
+            }
+          });
         met = subdivision->TakeMet();
         exceed = tests.Exceed(met, loops.Share);
       });

@@ -12,7 +12,7 @@
 namespace isodiamond
 {
 
-/** What one mesh goes by. */
+/** What one mesh goes by: the same for all peers, whenever it is asked. */
 struct ToleratedBy
 {
   /** The greatest code that is tolerated of a diamond. */

@@ -43,14 +43,12 @@ inline bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
   return true;
 }
 
-/** Some positions as rows of coordinates, from a place near them on, for loops that compilers make
- *  vector instructions of. */
+/** Some positions as rows of coordinates, for loops that compilers make vector instructions of.
+ * From a place near them on, nearer than 2^20 units: so numbers of 32 bits are exact where a plane
+ * is near, and have the right sign where it is far. */
 class PositionRows
 {
 public:
-  /** Numbers of 32 bits are exact beside tetrahedra up to this scale. */
-  static constexpr int MostExactScale = 12;
-
   void Fill(const std::vector<FinePosition>& positions, const FinePosition& from)
   {
     this->Origin = from;

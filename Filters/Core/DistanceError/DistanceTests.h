@@ -14,7 +14,7 @@
 namespace isodiamond
 {
 
-/** A diamond, and the greatest code that is tolerated of it. */
+/** A diamond, and the greatest code that is tolerated of it, ErrorCode::Least or more. */
 struct TestedDiamond
 {
   Place Diamond;
@@ -42,8 +42,8 @@ struct TestedHierarchy
  * Tells of diamonds whether their distance errors exceed a tolerance, without measuring what does
  * not matter for that: for meshes of one tolerance, which most diamonds have no part in.
  *
- * The error is that of DistanceErrors() and RaiseByWayBack(), but for the way back's rounding: what
- * is longer than 8/9 of the tolerance may count as too long.
+ * The error is that of DistanceErrors() and RaiseByWayBack(), but the way back may count as too
+ * long from 8/9 of the tolerance on.
  */
 class DistanceTests
 {

@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -68,9 +67,8 @@ private:
   {
     this->Diamond = diamond;
     this->Accepted = accepted;
-    const double known =
-      accepted == 0 ? 0.0 : this->Tested.Code.Decode(accepted) / (DistanceMargin * DistanceMargin);
-    this->Tolerated = known * known;
+    const double tolerated = this->Tested.Code.Decode(accepted) / (DistanceMargin * DistanceMargin);
+    this->Tolerated = tolerated * tolerated;
     this->Far = { this->Tolerated, false };
     this->HasNone = HasNoInterpolant(this->Hierarchy.SampleGrid(), this->Tested.IsFinite, diamond);
     this->Search.Reset(diamond);
@@ -178,12 +176,6 @@ private:
 
   void FindHeld(Part& part)
   {
-    if (this->Diamond.Scale > PositionRows::MostExactScale)
-    {
-      std::copy_if(this->Positions.begin(), this->Positions.end(), std::back_inserter(part.Held),
-        [&](const FinePosition& position) { return part.Closed.Holds(position); });
-      return;
-    }
     part.Closed.FindHeld(this->Rows, this->Sides);
     for (std::size_t i = 0; i < this->Positions.size(); ++i)
     {
@@ -277,7 +269,14 @@ void TestAll(const TestedSurface& surface, const TestedHierarchy& tested, const 
   const std::vector<TestedDiamond>& diamonds, std::vector<std::uint8_t>& exceeds,
   const ParallelFor& parallelFor)
 {
-  parallelFor(static_cast<std::int64_t>(diamonds.size()), 64,
+  // Those of the first rounds are few and coarse, and each is much work.
+  int coarsest = 0;
+  for (const TestedDiamond& tested : diamonds)
+  {
+    coarsest = std::max(coarsest, tested.Diamond.Scale);
+  }
+  parallelFor(static_cast<std::int64_t>(diamonds.size()),
+    std::max(64 >> (2 * std::min(coarsest, 3)), 1),
     [&](std::int64_t begin, std::int64_t end)
     {
       ToleranceTest<Lengths> test(surface, tested, lengths);

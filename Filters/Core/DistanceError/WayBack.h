@@ -69,7 +69,7 @@ public:
   }
 
   /** Whether the way back of a diamond surely is no longer than so much. It may say no from 8/9 of
-   *  that on. */
+   *  that on, and after MostLooks. */
   bool IsWithin(const Place& diamond, const MapBounds::OfDiamond& bounds, double most, bool isWhole)
   {
     this->Most = most;
@@ -97,7 +97,7 @@ private:
   double BoundAbove(
     const Place& diamond, const MapBounds::OfDiamond& bounds, double known, bool isWhole)
   {
-    this->Known = std::max(known, this->Least);
+    this->Known = this->Most < HUGE_VAL ? known : std::max(known, this->Least);
     this->Bound = 0.0;
     this->Left = MostLooks;
     this->FoundCount = 0;
@@ -174,7 +174,7 @@ private:
   bool IsDomainMapped(const Place& diamond)
   {
     return this->BoundByMap(diamond, MapPrecision) < HUGE_VAL ||
-      this->BoundByMap(diamond, ComparedPrecision) < HUGE_VAL;
+      (this->Most == HUGE_VAL && this->BoundByMap(diamond, ComparedPrecision) < HUGE_VAL);
   }
 
   double BoundByMap(const Place& diamond, double precision)
