@@ -185,6 +185,22 @@ private:
   int Meetings = 0;
 };
 
+/** Calls check(make(options)) for each of some peers, whose options these are. */
+template <typename Make, typename Check>
+void ForEachPeer(int peers, const BuildOptions& options, const Make& make, const Check& check)
+{
+  std::mutex mutex; // of expectations
+  Gathering(peers).Run(
+    [&](Peers& own)
+    {
+      BuildOptions together = options;
+      together.Together = &own;
+      const auto found = make(together);
+      const std::lock_guard<std::mutex> lock(mutex);
+      check(found);
+    });
+}
+
 /** An encoding and its mesh of full resolution. */
 struct Whole
 {
@@ -265,18 +281,14 @@ TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
       const int peers = 1 + test::Pick(random, std::min(4, whole.Samples.Dimensions[2]));
       const int slabs = peers + test::Pick(random, 5);
       const Encoding& expected = whole.Expected.TheEncoding;
-      std::mutex mutex; // of expectations
-      Gathering(peers).Run(
-        [&](Peers& own)
+      ForEachPeer(
+        peers, whole.Options,
+        [&](const BuildOptions& together)
         {
-          BuildOptions together = whole.Options;
-          together.Together = &own;
-          const Encoding found =
-            BuildInSlabs(whole.Samples.View(), whole.Region, slabs, SerialFor, together)
-              .Finish(expected.Header.TheModel, SampleView<float>(), SerialFor, together);
-          const std::lock_guard<std::mutex> lock(mutex);
-          test::ExpectSame(found, expected);
-        });
+          return BuildInSlabs(whole.Samples.View(), whole.Region, slabs, SerialFor, together)
+            .Finish(expected.Header.TheModel, SampleView<float>(), SerialFor, together);
+        },
+        [&](const Encoding& found) { test::ExpectSame(found, expected); });
     });
   EXPECT_GT(cases, 0);
 }
@@ -299,18 +311,15 @@ TEST(Slabs, OfPeersRefineToTheSameMesh)
       const test::AnyMesh expected =
         meshOf({ whole.Samples.View(), whole.Region, SerialFor, whole.Options }, whole.Options);
       const int peers = 1 + test::Pick(random, std::min(4, whole.Samples.Dimensions[2]));
-      std::mutex mutex; // of expectations
-      Gathering(peers).Run(
-        [&](Peers& own)
+      ForEachPeer(
+        peers, whole.Options,
+        [&](const BuildOptions& together)
         {
-          BuildOptions together = whole.Options;
-          together.Together = &own;
-          const test::AnyMesh found =
-            meshOf(BuildInSlabs(whole.Samples.View(), whole.Region, peers + 2, SerialFor, together),
-              together);
-          const std::lock_guard<std::mutex> lock(mutex);
-          EXPECT_TRUE(found == expected);
-        });
+          return meshOf(
+            BuildInSlabs(whole.Samples.View(), whole.Region, peers + 2, SerialFor, together),
+            together);
+        },
+        [&](const test::AnyMesh& found) { EXPECT_TRUE(found == expected); });
     });
   EXPECT_GT(cases, 0);
 }

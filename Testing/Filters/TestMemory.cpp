@@ -182,6 +182,21 @@ constexpr int Size = 14;
 
 }
 
+namespace
+{
+
+/** A contour of the value 0. */
+template <typename Contour>
+vtkSmartPointer<Injecting<Contour>> NewContour(vtkDataSet* input)
+{
+  const auto contour = NewInjecting<Contour>();
+  contour->SetInputData(input);
+  contour->SetValue(0, 0.0);
+  return contour;
+}
+
+}
+
 TEST(Memory, KnowsTheFilters)
 {
   EXPECT_TRUE(test::KnowsFilters());
@@ -195,9 +210,7 @@ TEST(Memory, Contour)
     ExpectAllErrors(
       [&]
       {
-        const auto contour = NewInjecting<vtkIsodiamondContour>();
-        contour->SetInputData(image);
-        contour->SetValue(0, 0.0);
+        const auto contour = NewContour<vtkIsodiamondContour>(image);
         contour->SetErrorTolerance(0.01);
         contour->SetMinimumPieceSize(5);
         contour->ComputeGradientsOn();
@@ -218,9 +231,7 @@ TEST(Memory, ContourOfAGridWithHiddenCells)
   ExpectAllErrors(
     [&]
     {
-      const auto contour = NewInjecting<vtkIsodiamondContour>();
-      contour->SetInputData(grid);
-      contour->SetValue(0, 0.0);
+      const auto contour = NewContour<vtkIsodiamondContour>(grid);
       return contour;
     },
     2);
@@ -251,9 +262,7 @@ TEST(Memory, PieceOfAContour)
   ExpectAllErrors(
     [&]
     {
-      const auto contour = NewInjecting<PieceOfContour>();
-      contour->SetInputData(image);
-      contour->SetValue(0, 0.0);
+      const auto contour = NewContour<PieceOfContour>(image);
       return contour;
     },
     9);
@@ -265,9 +274,7 @@ TEST(Memory, ContourOfOneTolerance)
   ExpectAllErrors(
     [&]
     {
-      const auto contour = NewInjecting<vtkIsodiamondContour>();
-      contour->SetInputData(image);
-      contour->SetValue(0, 0.0);
+      const auto contour = NewContour<vtkIsodiamondContour>(image);
       contour->SetErrorTolerance(0.01);
       contour->OneToleranceOn();
       return contour;
@@ -281,9 +288,7 @@ TEST(Memory, ContourOfSeveralValues)
   const auto image = ImageWithAttributes(Size);
   const MakeFilter make = [&]
   {
-    const auto contour = NewInjecting<vtkIsodiamondContour>();
-    contour->SetInputData(image);
-    contour->SetValue(0, 0.0);
+    const auto contour = NewContour<vtkIsodiamondContour>(image);
     contour->SetValue(1, 0.1);
     return contour;
   };

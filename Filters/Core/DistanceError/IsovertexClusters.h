@@ -31,6 +31,13 @@ inline FinePosition IsovertexAt(const IsodiamondHierarchy& hierarchy, const Plac
   return (1 << place.Scale) * (FineUnits * place.Position + along * offset);
 }
 
+/** Whether both ends of one of a diamond of scale 0's subdivision edges are finite. */
+inline bool AreEndsFinite(const Finiteness& isFinite, const Place& place, int edge)
+{
+  const Point& offset = tables::Parities[Parity(place.Position)].Offsets[edge];
+  return isFinite(place.Position) && isFinite(place.Position + offset);
+}
+
 /** The isovertex on an edge of any tetrahedron, which is crossed. */
 inline FinePosition IsovertexOn(
   const IsodiamondHierarchy& hierarchy, const HalfPlace& tetrahedron, int edge, int surface)
@@ -125,9 +132,7 @@ public:
   /** Whether the isovertex on an edge of a diamond of scale 0 is one of these. */
   bool IsWanted(const Place& place, int edge) const
   {
-    const Point& offset = tables::Parities[Parity(place.Position)].Offsets[edge];
-    const bool isFinite = this->IsFinite(place.Position) && this->IsFinite(place.Position + offset);
-    return isFinite == (this->Wanted == Ends::Finite);
+    return AreEndsFinite(this->IsFinite, place, edge) == (this->Wanted == Ends::Finite);
   }
 
 private:

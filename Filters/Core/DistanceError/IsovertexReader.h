@@ -80,7 +80,7 @@ public:
       {
         this->ForEachOf(place, static_cast<std::uint32_t>(rank), owner.EdgeMask,
           [&](const FinePosition& position, int edge)
-          { body(position, this->AreEndsFinite(place, edge), owner.Edges[edge]); });
+          { body(position, AreEndsFinite(this->IsFinite, place, edge), owner.Edges[edge]); });
       }
     }
   }
@@ -102,7 +102,7 @@ private:
             const Place owner{ 0, PositionOf(origin, z, bit) };
             this->ForEachOf(owner, brick.Rank(z, bit), AllEdges,
               [&](const FinePosition& position, int edge)
-              { body(position, this->AreEndsFinite(owner, edge)); });
+              { body(position, AreEndsFinite(this->IsFinite, owner, edge)); });
           });
       });
   }
@@ -115,13 +115,6 @@ private:
       edges & (this->Surface == 0 ? this->Hierarchy.Edges(rank) : this->Hierarchy.UpperEdges(rank)),
       [&](int edge)
       { body(IsovertexAt(this->Hierarchy, owner, rank, edge, this->Surface), edge); });
-  }
-
-  bool AreEndsFinite(const Place& owner, int edge) const
-  {
-    return this->IsFinite.All() ||
-      (this->IsFinite(owner.Position) &&
-        this->IsFinite(owner.Position + tables::Parities[Parity(owner.Position)].Offsets[edge]));
   }
 
   const IsodiamondHierarchy& Hierarchy;
