@@ -45,7 +45,8 @@ private:
   Slot& Find(std::uint64_t key)
   {
     const std::size_t last = this->Slots.size() - 1;
-    std::size_t i = ((key * 0x9e3779b97f4a7c15U) >> 20) & last;
+    // The product's highest bits are those that all coordinates have a say in.
+    std::size_t i = (key * 0x9e3779b97f4a7c15U) >> this->UnusedBits;
     while (this->Slots[i].Key != key && this->Slots[i].Key != NoKey)
     {
       i = (i + 1) & last;
@@ -56,7 +57,8 @@ private:
   void Grow()
   {
     const std::vector<Slot> before = std::move(this->Slots);
-    this->Slots.assign(std::max<std::size_t>(1024, 2 * before.size()), {});
+    --this->UnusedBits;
+    this->Slots.assign(std::size_t{ 1 } << (64 - this->UnusedBits), {});
     for (const Slot& slot : before)
     {
       if (slot.Key != NoKey)
@@ -67,6 +69,7 @@ private:
   }
 
   std::vector<Slot> Slots;
+  int UnusedBits = 55; ///< of 64, all but those of the number of slots
   std::uint32_t Count = 0;
 };
 
