@@ -12,7 +12,7 @@ namespace
 {
 
 /** Each time leaves that are too far away become finer by a level; few need more than three. */
-constexpr int MostRounds = 6;
+constexpr int MostRounds = 10;
 
 }
 

@@ -11,11 +11,55 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 using namespace isodiamond;
 
 namespace test
 {
+namespace
+{
+
+/** By tetrahedron of the volume's mesh: the leaf that it is a part of, the one that has its points,
+ *  at its vertices or on its edges. */
+std::vector<std::uint32_t> LeavesOf(const Volume& plain, const CutMesh& leaves)
+{
+  std::vector<std::vector<std::uint32_t>> at(plain.Points.size());
+  for (std::uint32_t leaf = 0; leaf < leaves.Tetrahedra.size(); ++leaf)
+  {
+    std::vector<std::uint32_t> points;
+    for (const std::uint32_t vertex : leaves.Tetrahedra[leaf].Vertices)
+    {
+      points.push_back(leaves.Vertices[vertex].PointId);
+    }
+    for (const auto& cuts : leaves.Tetrahedra[leaf].Cuts)
+    {
+      points.insert(points.end(), cuts.begin(), cuts.end());
+    }
+    for (const std::uint32_t point : points)
+    {
+      if (point != CutMesh::None)
+      {
+        at[point].push_back(leaf);
+      }
+    }
+  }
+  std::vector<std::uint32_t> leafOf;
+  for (const auto& [a, b, c, d] : plain.Tetrahedra)
+  {
+    const auto found = std::find_if(at[a].begin(), at[a].end(),
+      [&, others = std::array{ b, c, d }](std::uint32_t leaf)
+      {
+        return std::all_of(others.begin(), others.end(),
+          [&](std::int32_t other)
+          { return std::find(at[other].begin(), at[other].end(), leaf) != at[other].end(); });
+      });
+    leafOf.push_back(found != at[a].end() ? *found : CutMesh::None);
+  }
+  return leafOf;
+}
+
+}
 
 Stuffed::Stuffed(const IsodiamondHierarchy& hierarchy, const Query& query,
   const GridGeometry& world, const HiddenCells* hidden, const ParallelFor& parallelFor)
@@ -32,6 +76,7 @@ Stuffed::Stuffed(const IsodiamondHierarchy& hierarchy, const Query& query,
   const std::vector<Vector> vertices = VerticesInWorld(leaves, world);
   this->SurfaceMove = std::max(0.25 * world.SmallestStep(), 0.5 * query.Tolerance);
   this->LeafCount = leaves.Tetrahedra.size();
+  this->PlainOrigins = LeavesOf(this->Plain, leaves);
   this->Mesh = Stuff(
     { leaves, vertices, points, world, hierarchy.SampleGrid(), this->SurfaceMove }, parallelFor)
                  .Mesh;
@@ -49,7 +94,7 @@ TetrahedronMesh Stuffed::PlainMesh() const
       { static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[1]),
         static_cast<std::uint32_t>(corners[2]), static_cast<std::uint32_t>(corners[3]) });
   }
-  plain.Origins.assign(plain.Tetrahedra.size(), 0);
+  plain.Origins = this->PlainOrigins;
   return plain;
 }
 
@@ -101,7 +146,14 @@ Topology TopologyOf(const Volume& volume, AnyMesh mesh)
 
 bool IsFar(const TetrahedronMesh& plain, const TetrahedronMesh& mesh, double allowance)
 {
-  MeasuredSurfaces surfaces(plain, mesh, { allowance }, SerialFor);
+  std::uint32_t last = 0;
+  for (const std::vector<std::uint32_t>* origins : { &plain.Origins, &mesh.Origins })
+  {
+    last = std::accumulate(origins->begin(), origins->end(), last,
+      [](std::uint32_t a, std::uint32_t b) { return std::max(a, b); });
+  }
+  const std::vector<double> allowances(last + 1, allowance);
+  MeasuredSurfaces surfaces(plain, mesh, allowances, SerialFor);
   EXPECT_TRUE(surfaces.AreSound);
   const std::vector<bool> all(surfaces.Part.Simple.Triangles.size(), true);
   return PartDistance(surfaces.Part).Find(surfaces.Part.Simple, surfaces.Homes(), all).Any();

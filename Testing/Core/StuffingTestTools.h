@@ -24,6 +24,7 @@ struct Stuffed
   Volume Plain; ///< in index space
   isodiamond::TetrahedronMesh Mesh;
   std::size_t LeafCount = 0;
+  std::vector<std::uint32_t> PlainOrigins; ///< by tetrahedron of the volume's mesh: its leaf
   double SurfaceMove = 0.0;
 
   Stuffed(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond::Query& query,
@@ -31,8 +32,7 @@ struct Stuffed
     const isodiamond::HiddenCells* hidden = nullptr,
     const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
 
-  /** The volume's mesh of the same points; all tetrahedra are of the first leaf, so that one
-   *  allowance goes for all. */
+  /** The volume's mesh, of the same points and leaves. */
   isodiamond::TetrahedronMesh PlainMesh() const;
 
   /** As a volume with the points that are used. */

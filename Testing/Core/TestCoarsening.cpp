@@ -278,7 +278,8 @@ TEST(TetrahedronCollapses, AreUndoneTogetherWithThoseOfSurfaces)
     Query query;
     query.Tolerance = 0.3;
     test::Stuffed stuffed(*built.Hierarchy, query);
-    const MeasuredSurfaces surfaces(stuffed.PlainMesh(), stuffed.Mesh, { 1.0 }, SerialFor);
+    const std::vector<double> allowances(stuffed.LeafCount, 1.0);
+    const MeasuredSurfaces surfaces(stuffed.PlainMesh(), stuffed.Mesh, allowances, SerialFor);
     const std::size_t count = surfaces.Part.Simple.Triangles.size();
     TetrahedronCollapses tetrahedra(stuffed.Mesh, 10.0, VolumeOf(stuffed.Mesh));
     if (!surfaces.AreSound || count == 0)

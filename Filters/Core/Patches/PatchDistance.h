@@ -68,6 +68,15 @@ public:
     return squared;
   }
 
+  /** Whether a point is over the triangle, seen along its normal. */
+  bool IsOver(const Vector& point) const
+  {
+    const Vector p = point - this->Corner;
+    const double first = Dot(p, this->AlongFirst);
+    const double second = Dot(p, this->AlongSecond);
+    return !this->IsDegenerate && first >= 0.0 && second >= 0.0 && first + second <= 1.0;
+  }
+
   /** Normal to the triangle, of some length; nothing if it has no area. */
   const Vector& Across() const { return this->Normal; }
 
@@ -75,11 +84,10 @@ public:
   Vector Nearest(const Vector& point) const
   {
     const Vector p = point - this->Corner;
-    const double first = Dot(p, this->AlongFirst);
-    const double second = Dot(p, this->AlongSecond);
-    if (!this->IsDegenerate && first >= 0.0 && second >= 0.0 && first + second <= 1.0)
+    if (this->IsOver(point))
     {
-      return this->Corner + first * this->First + second * this->Second;
+      return this->Corner + Dot(p, this->AlongFirst) * this->First +
+        Dot(p, this->AlongSecond) * this->Second;
     }
     const std::array<Vector, 3> onSides = { PlaceOnSide(p, this->First, this->Inverse[0]),
       PlaceOnSide(p, this->Second, this->Inverse[1]),

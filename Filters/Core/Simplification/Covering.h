@@ -64,6 +64,18 @@ public:
   /** Unit normal of a triangle of the mesh; 0 if it has no area. */
   Vector Normal(std::uint32_t triangle) { return this->Of(triangle).Normal; }
 
+  /** Of a place from a triangle of the mesh. */
+  double SquaredDistance(std::uint32_t triangle, const Vector& place)
+  {
+    return this->Of(triangle).Distance.Squared(place);
+  }
+
+  /** Whether a place is over a triangle of the mesh, seen along its normal. */
+  bool IsOver(std::uint32_t triangle, const Vector& place)
+  {
+    return this->Of(triangle).Distance.IsOver(place);
+  }
+
   /** Whether all corners of a piece are so near to a triangle of the mesh. */
   bool IsNear(std::uint32_t triangle, const Vector* corners, int count, double allowed)
   {

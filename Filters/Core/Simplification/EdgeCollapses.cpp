@@ -329,6 +329,10 @@ void EdgeCollapses::Offer(std::uint32_t vertex, double cost, std::uint32_t targe
   {
     this->Queue.push(best);
   }
+  else if (this->Guard != nullptr)
+  {
+    this->Guard->NoteRefusal(vertex);
+  }
 }
 
 /** What is offered of a vertex may be another one after a neighbour went into a target. */
@@ -416,7 +420,7 @@ std::vector<bool> EdgeCollapses::Run()
 {
   for (std::uint32_t point = 0; point < this->Positions.size(); ++point)
   {
-    if (this->MayGo(point))
+    if (this->MayGo(point) && (this->Guard == nullptr || this->Guard->IsWorthATry(point)))
     {
       this->Offer(point, -HUGE_VAL, 0);
     }

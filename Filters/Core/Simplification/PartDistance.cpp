@@ -7,25 +7,6 @@
 
 namespace isodiamond
 {
-namespace
-{
-
-/** By point: one of the triangles there, or None. */
-std::vector<std::uint32_t> AnyTriangleAt(std::size_t points, const LinkedTriangles& mesh)
-{
-  std::vector<std::uint32_t> any(points, None);
-  for (std::uint32_t i = 0; i < mesh.Triangles.size(); ++i)
-  {
-    for (int k = 0; mesh.IsThere(i) && k < 3; ++k)
-    {
-      any[mesh.Triangles[i][k]] = i;
-    }
-  }
-  return any;
-}
-
-}
-
 PartDistance::PartDistance(MeshPart& part)
   : Part(part)
   , Cover(part.Positions, part.Original)

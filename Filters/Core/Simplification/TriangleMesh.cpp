@@ -6,6 +6,19 @@
 namespace isodiamond
 {
 
+std::vector<std::uint32_t> AnyTriangleAt(std::size_t points, const LinkedTriangles& mesh)
+{
+  std::vector<std::uint32_t> any(points, None);
+  for (std::uint32_t i = 0; i < mesh.Triangles.size(); ++i)
+  {
+    for (int k = 0; mesh.IsThere(i) && k < 3; ++k)
+    {
+      any[mesh.Triangles[i][k]] = i;
+    }
+  }
+  return any;
+}
+
 Connectivity::Connectivity(std::size_t pointCount, std::vector<Triangle> triangles)
   : Cells(pointCount, triangles.size(), [&](std::size_t triangle) { return triangles[triangle]; })
   , Links{ std::move(triangles), {} }

@@ -74,6 +74,9 @@ struct LinkedTriangles
   }
 };
 
+/** By point: one of the triangles there, or None. */
+std::vector<std::uint32_t> AnyTriangleAt(std::size_t points, const LinkedTriangles& mesh);
+
 /**
  * Which triangles meet at the points and edges of a mesh.
  *

@@ -150,8 +150,12 @@ private:
     {
       return;
     }
-    PointStar star = this->FacesAround(point);
     const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
+    if (!(before.Shortfall > this->Best.Gain))
+    {
+      return;
+    }
+    PointStar star = this->FacesAround(point);
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Wanted);
     const Shape after = this->ShapeAt(star, best.Place);

@@ -13,6 +13,65 @@
 namespace isodiamond
 {
 
+/** A face opposite to a point, and what of its tetrahedron does not depend on where that is. */
+class OppositeFace
+{
+public:
+  /** From outside: with the point it is a positive tetrahedron. */
+  explicit OppositeFace(const std::array<Vector, 3>& corners)
+    : Corners(corners)
+    , Across(Cross(corners[1] - corners[0], corners[2] - corners[0]))
+    , SquaredAcross(Dot(this->Across, this->Across))
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vector side = corners[(i + 2) % 3] - corners[(i + 1) % 3];
+      this->SquaredSides[i] = Dot(side, side);
+    }
+  }
+
+  const std::array<Vector, 3>& Points() const { return this->Corners; }
+
+  double SmallestSine(const Vector& place) const
+  {
+    return isodiamond::SmallestSine(place, this->Corners[0], this->Corners[1], this->Corners[2]);
+  }
+
+  /** The smallest sine with the point at a place; any that is small enough, if it is not more than
+   *  what is of interest: most are not, which takes no root and no division. */
+  double SmallestSine(const Vector& place, double interesting) const
+  {
+    const std::array<Vector, 3> edges = { this->Corners[0] - place, this->Corners[1] - place,
+      this->Corners[2] - place };
+    const double volume = Dot(this->Across, edges[0]);
+    if (interesting < 0.0 || !(volume > 0.0))
+    {
+      return interesting < 0.0 ? this->SmallestSine(place) : 0.0;
+    }
+    std::array<double, 3> squaredAreas{}; // of the other faces, by the corner that they do not have
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vector across = Cross(edges[(i + 1) % 3], edges[(i + 2) % 3]);
+      squaredAreas[i] = Dot(across, across);
+    }
+    double least = HUGE_VAL;
+    for (int i = 0; i < 3; ++i)
+    {
+      const double beside = squaredAreas[(i + 1) % 3] * squaredAreas[(i + 2) % 3];
+      least = std::min({ least, this->SquaredSides[i] / (squaredAreas[i] * this->SquaredAcross),
+        Dot(edges[i], edges[i]) / beside });
+    }
+    const double sine = volume * std::sqrt(least);
+    return std::isfinite(sine) ? sine : 0.0;
+  }
+
+private:
+  std::array<Vector, 3> Corners;
+  Vector Across;
+  double SquaredAcross;
+  std::array<double, 3> SquaredSides{}; ///< by the corner that they do not have
+};
+
 /** The faces opposite to a point in its tetrahedra. */
 class PointStar
 {
@@ -23,8 +82,9 @@ public:
     const auto own = std::find(corners.begin(), corners.end(), point) - corners.begin();
     // The point, and the face opposite to it from outside: an even permutation.
     const std::array<int, 3>& face = FacesOfTetrahedron[own];
-    this->Faces.push_back({ mesh.Positions[corners[face[0]]], mesh.Positions[corners[face[1]]],
-      mesh.Positions[corners[face[2]]] });
+    this->Faces.emplace_back(std::array<Vector, 3>{ mesh.Positions[corners[face[0]]],
+      mesh.Positions[corners[face[1]]], mesh.Positions[corners[face[2]]] });
+    this->Looks.push_back({ this->Looks.size() });
   }
 
   /** The smallest sine of the tetrahedra with the point at a place; any that is small enough, if
@@ -32,15 +92,19 @@ public:
   double WorstAt(const Vector& place, double interesting)
   {
     double worst = 1.0;
-    for (std::array<Vector, 3>& face : this->Faces)
+    for (Look& look : this->Looks)
     {
-      worst = std::min(worst, SmallestSine(place, face[0], face[1], face[2]));
+      look.Sine = this->Faces[look.Face].SmallestSine(place, interesting);
+      worst = std::min(worst, look.Sine);
       if (worst <= interesting)
       {
-        std::swap(face, this->Faces.front()); // the next place most likely fails there, too
+        std::swap(look, this->Looks.front()); // the next place most likely fails there, too
         return worst;
       }
     }
+    // Places around this one will be tried, and fail where it is worst.
+    std::sort(this->Looks.begin(), this->Looks.end(),
+      [](const Look& a, const Look& b) { return a.Sine < b.Sine; });
     return worst;
   }
 
@@ -48,18 +112,19 @@ public:
   template <typename Visit>
   void ForEachSine(const Vector& place, Visit&& visit) const
   {
-    for (const std::array<Vector, 3>& face : this->Faces)
+    for (const OppositeFace& face : this->Faces)
     {
-      visit(SmallestSine(place, face[0], face[1], face[2]));
+      visit(face.SmallestSine(place));
     }
   }
 
   Vector Mean() const
   {
     Vector sum{};
-    for (const std::array<Vector, 3>& face : this->Faces)
+    for (const OppositeFace& face : this->Faces)
     {
-      sum = sum + face[0] + face[1] + face[2];
+      const auto& [a, b, c] = face.Points();
+      sum = sum + a + b + c;
     }
     return (1.0 / (3.0 * static_cast<double>(this->Faces.size()))) * sum;
   }
@@ -68,9 +133,9 @@ public:
   double Radius(const Vector& place) const
   {
     double squared = HUGE_VAL;
-    for (const std::array<Vector, 3>& face : this->Faces)
+    for (const OppositeFace& face : this->Faces)
     {
-      for (const Vector& corner : face)
+      for (const Vector& corner : face.Points())
       {
         squared = std::min(squared, Dot(corner - place, corner - place));
       }
@@ -79,7 +144,14 @@ public:
   }
 
 private:
-  std::vector<std::array<Vector, 3>> Faces;
+  std::vector<OppositeFace> Faces;
+  /** At a face, and what was found there the last time. */
+  struct Look
+  {
+    std::size_t Face = 0;
+    double Sine = 0.0;
+  };
+  std::vector<Look> Looks; ///< in the order in which they are done
 };
 
 /** A place for a point, and the smallest sine around it there. */

@@ -21,15 +21,18 @@ struct CoarseningInput
   double UsedPart = 0.75;
 };
 
+/** The leaves where a surface of a stuffed mesh is too far away, and which could be finer, sorted. */
+std::vector<std::uint32_t> FarLeaves(
+  const TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor);
+
 /**
  * Makes a stuffed mesh coarser, within what is allowed: edges collapse, on surfaces as Simplify
  * collapses them (EdgeCollapses.h), and inside, where the tetrahedra that this makes are of good
  * shape (TetrahedronCollapses.h). All of both surfaces is measured against those of the volume's
  * mesh, both ways (PartDistance.h), and what is too far away undone.
  *
- * @return leaves where a surface was too far away before, and which could be finer, sorted. If
- *         there are any the mesh stays as it is: it is for the caller to refine and begin again.
- *         What is too far away and cannot be finer stays as it is there.
+ * @return the FarLeaves() of before. If there are any the mesh stays as it is: it is for the caller
+ *         to refine and begin again. What is too far away and cannot be finer stays as it is there.
  */
 std::vector<std::uint32_t> Coarsen(
   TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 namespace isodiamond
@@ -73,21 +72,35 @@ private:
     return this->Mesh.IsAlive(tetrahedron) && this->Mesh.SineOf(tetrahedron) < this->Wanted;
   }
 
+  /** Of a point or tetrahedron, of which there may be new ones: how many changes there were when it
+   *  was noted last; less than any if it never was. */
+  static int NotedAt(const std::vector<int>& notes, std::uint32_t number)
+  {
+    return number < notes.size() ? notes[number] : Never;
+  }
+  static void Note(std::vector<int>& notes, std::uint32_t number, int changes)
+  {
+    if (number >= notes.size())
+    {
+      notes.resize(number + number / 2 + 1, Never);
+    }
+    notes[number] = changes;
+  }
+
   /** Whether a point has been touched after so many changes. */
   bool IsTouched(std::uint32_t point, int changes) const
   {
-    const auto touched = this->Touched.find(point);
-    return touched != this->Touched.end() && touched->second > changes;
+    return NotedAt(this->Touched, point) > changes;
   }
 
   /** Whether anything has changed around a tetrahedron since it was tried. */
   bool IsWorthATry(std::uint32_t tetrahedron) const
   {
-    const auto tried = this->Tried.find(tetrahedron);
+    const int tried = NotedAt(this->Tried, tetrahedron);
     const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-    return tried == this->Tried.end() ||
+    return tried == Never ||
       std::any_of(corners.begin(), corners.end(),
-        [&](std::uint32_t point) { return this->IsTouched(point, tried->second); });
+        [&](std::uint32_t point) { return this->IsTouched(point, tried); });
   }
 
   /** Whether anything that BestChange() reads has changed after so many changes. */
@@ -142,7 +155,7 @@ private:
   void DoAndNote(
     std::uint32_t tetrahedron, const Change& change, std::vector<std::uint32_t>& changed)
   {
-    this->Tried[tetrahedron] = this->Changes;
+    Note(this->Tried, tetrahedron, this->Changes);
     if (change.Kind == Change::None)
     {
       return;
@@ -163,7 +176,7 @@ private:
     {
       for (const std::uint32_t point : this->Mesh.CornersOf(tetrahedron))
       {
-        this->Touched[point] = this->Changes;
+        Note(this->Touched, point, this->Changes);
       }
     }
   }
@@ -237,12 +250,14 @@ private:
     }
   }
 
+  static constexpr int Never = -1;
+
   LocalMesh Mesh;
   const ImprovementOptions& Options;
   double Wanted; ///< sine
   int Changes = 0;
-  /** How many changes there were when a tetrahedron was tried last, and a point touched. */
-  std::unordered_map<std::uint32_t, int> Tried, Touched;
+  std::vector<int> Tried;   ///< by tetrahedron: how many changes there were, the last time
+  std::vector<int> Touched; ///< by point, likewise
 };
 
 }

@@ -1,131 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stuffing/LocalMesh.h"
 
+#include "Stuffing/LinkCondition.h"
+
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 namespace isodiamond
 {
-namespace
-{
-
-/** Sorts, and leaves each once. */
-template <typename Item>
-void MakeSet(std::vector<Item>& items)
-{
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
-
-template <typename Item>
-std::vector<Item> Common(const std::vector<Item>& a, const std::vector<Item>& b)
-{
-  std::vector<Item> common;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
-  return common;
-}
-
-/** The face opposite to a corner, sorted. */
-Face Opposite(const Corners& corners, std::uint32_t point)
-{
-  Face face = Without(corners, point);
-  std::sort(face.begin(), face.end());
-  return face;
-}
-
-/** The link of a point: vertices, edges and triangles. */
-struct Link
-{
-  std::vector<std::uint32_t> Points;
-  std::vector<Edge> Edges;
-  std::vector<Face> Faces;
-
-  Link(const LocalMesh& mesh, std::uint32_t point)
-  {
-    for (const std::uint32_t tetrahedron : mesh.StarOf(point))
-    {
-      const Face face = Opposite(mesh.CornersOf(tetrahedron), point);
-      this->Faces.push_back(face);
-      for (int i = 0; i < 3; ++i)
-      {
-        this->Points.push_back(face[i]);
-        this->Edges.push_back(SortedEdge(face[i], face[(i + 1) % 3]));
-      }
-    }
-    MakeSet(this->Points);
-    MakeSet(this->Edges);
-    MakeSet(this->Faces);
-  }
-};
-
-/** The edges opposite to a point of the triangles of the boundary there. */
-std::vector<Edge> BoundaryLink(const LocalMesh& mesh, std::uint32_t point)
-{
-  std::vector<Edge> edges;
-  for (const std::uint32_t tetrahedron : mesh.StarOf(point))
-  {
-    const Face face = Opposite(mesh.CornersOf(tetrahedron), point);
-    for (int i = 0; i < 3; ++i)
-    {
-      if (mesh.CountAt(point, face[i], face[(i + 1) % 3]) == 1)
-      {
-        edges.push_back(SortedEdge(face[i], face[(i + 1) % 3]));
-      }
-    }
-  }
-  return edges;
-}
-
-std::vector<std::uint32_t> EndsOf(const std::vector<Edge>& edges)
-{
-  std::vector<std::uint32_t> ends;
-  for (const Edge& edge : edges)
-  {
-    ends.insert(ends.end(), edge.begin(), edge.end());
-  }
-  MakeSet(ends);
-  return ends;
-}
-
-/** What of the boundary a point's triangles lie on. */
-int PlacesAround(const LocalMesh& mesh, std::uint32_t point, const std::vector<Edge>& link)
-{
-  int places = 0;
-  for (const Edge& edge : link)
-  {
-    places |= mesh.PlaceOfFace(point, edge[0], edge[1]);
-  }
-  return places;
-}
-
-/** The link condition of the boundary: an edge of it, whose ends have no other neighbours in common
- *  there, and which lies on everything that the point lies on that goes. */
-bool CanCollapseOnBoundary(const LocalMesh& mesh, std::uint32_t from, std::uint32_t to)
-{
-  const std::vector<Edge> link = BoundaryLink(mesh, from);
-  if (link.empty())
-  {
-    return true;
-  }
-  std::vector<std::uint32_t> across; // the third points of the edge's triangles
-  for (const Edge& edge : link)
-  {
-    if (edge[0] == to || edge[1] == to)
-    {
-      across.push_back(edge[0] == to ? edge[1] : edge[0]);
-    }
-  }
-  MakeSet(across);
-  if (across.size() != 2 || Common(EndsOf(link), EndsOf(BoundaryLink(mesh, to))) != across)
-  {
-    return false;
-  }
-  return PlacesAround(mesh, from, link) ==
-    (mesh.PlaceOfFace(from, to, across[0]) | mesh.PlaceOfFace(from, to, across[1]));
-}
-
-}
 
 LocalMesh::LocalMesh(TetrahedronMesh mesh)
   : TheMesh(std::move(mesh))
@@ -218,30 +100,19 @@ bool LocalMesh::CanCollapse(std::uint32_t from, std::uint32_t to) const
   {
     return false;
   }
-  // What the links have in common must be the link of the edge.
-  std::vector<Edge> edges;
   for (const std::uint32_t tetrahedron : this->StarOf(from))
   {
-    const Corners& corners = this->CornersOf(tetrahedron);
-    if (Has(corners, to))
+    Corners fresh = this->CornersOf(tetrahedron);
+    if (!Has(fresh, to))
     {
-      const Edge edge = Without(corners, from, to);
-      edges.push_back(SortedEdge(edge[0], edge[1]));
-      continue;
-    }
-    Corners fresh = corners;
-    std::replace(fresh.begin(), fresh.end(), from, to);
-    if (this->IsAmbiguous(fresh))
-    {
-      return false;
+      std::replace(fresh.begin(), fresh.end(), from, to);
+      if (this->IsAmbiguous(fresh))
+      {
+        return false;
+      }
     }
   }
-  MakeSet(edges);
-  const Link ofFrom(*this, from);
-  const Link ofTo(*this, to);
-  return !edges.empty() && Common(ofFrom.Points, ofTo.Points) == EndsOf(edges) &&
-    Common(ofFrom.Edges, ofTo.Edges) == edges && Common(ofFrom.Faces, ofTo.Faces).empty() &&
-    CanCollapseOnBoundary(*this, from, to);
+  return HaveOnlyTheirEdgeInCommon(*this, from, to) && HaveOnlyTheirEdgeOnTheBoundary(*this, from, to);
 }
 
 bool LocalMesh::FindRing(std::uint32_t a, std::uint32_t b, std::size_t most, Ring& ring) const

@@ -31,62 +31,91 @@ public:
   {
   }
 
-  /** The nearest triangle, as long as one around is nearer. */
-  std::uint32_t NearestTo(const Vector& position, std::uint32_t start)
+  /** From the nearest of some triangles, of which any may be None, to one beside it, as long as one
+   *  is nearer. @return None if there is none to start from */
+  template <typename Starts>
+  std::uint32_t NearestTo(const Vector& position, const Starts& starts)
   {
-    for (std::uint32_t at = None; at != start;)
+    this->Least = HUGE_VAL;
+    std::uint32_t nearest = this->NearerOf(starts, position, None);
+    for (std::uint32_t at = None; at != nearest;)
     {
-      at = start;
-      this->Around = { start };
-      for (const std::uint32_t point : this->Mesh.Linked().Triangles[start])
+      at = nearest;
+      nearest = this->NearerOf(this->Mesh.Linked().Neighbours[at], position, at);
+      if (nearest == at && !this->Cover.IsOver(at, position))
       {
-        const IdRange there = this->Mesh.At(point);
-        this->Around.insert(this->Around.end(), there.begin(), there.end());
+        // The way to another one may lead around a point to which all between are as near.
+        for (const std::uint32_t point : this->Mesh.Linked().Triangles[at])
+        {
+          nearest = this->NearerOf(this->Mesh.At(point), position, nearest);
+        }
       }
-      start = this->Cover.NearestOf(this->Around, position);
     }
-    return start;
+    return nearest;
   }
 
 private:
+  template <typename Triangles>
+  std::uint32_t NearerOf(
+    const Triangles& triangles, const Vector& position, std::uint32_t nearest)
+  {
+    for (const std::uint32_t triangle : triangles)
+    {
+      const double squared =
+        triangle == None ? HUGE_VAL : this->Cover.SquaredDistance(triangle, position);
+      if (squared < this->Least)
+      {
+        this->Least = squared;
+        nearest = triangle;
+      }
+    }
+    return nearest;
+  }
+
   const Connectivity& Mesh;
   Covering Cover;
-  std::vector<std::uint32_t> Around;
+  double Least = HUGE_VAL; ///< squared distance of the nearest one so far
 };
 
 /** Puts samples over the triangles of the simpler mesh. */
 class SampleHomes
 {
 public:
-  SampleHomes(MeshPart& part, const Connectivity& simple)
+  /** @param anyIn by triangle of the original: one of the simpler mesh in the same leaf and on
+   *         the same surface, or None */
+  SampleHomes(
+    MeshPart& part, const Connectivity& simple, const std::vector<std::uint32_t>& anyIn)
     : Part(part)
     , Simple(simple)
+    , AnyAt(AnyTriangleAt(part.Positions.size(), part.Simple))
+    , AnyIn(anyIn)
   {
   }
 
-  /** First of triangles with a point that both meshes have; the rest from what is beside it. */
+  /** First of triangles in a leaf where there is one, or with a point that both meshes have; the
+   *  rest from what is beside it. */
   void Find(const ParallelFor& parallelFor)
   {
     const std::vector<Triangle>& originals = this->Part.Original.Triangles;
     this->Walk(
       parallelFor, originals.size(), [&](std::size_t i) -> SurfaceSample& { return MiddleOf(i); },
-      [&](std::size_t i) { return this->StartOf(i); });
+      [&](std::size_t i) { return this->StartsOf(i); });
     this->FindFromNeighbours();
-    std::vector<std::uint32_t> anyAt(this->Part.Positions.size(), None);
+    std::vector<std::uint32_t> beside(this->Part.Positions.size(), None);
     for (std::uint32_t i = 0; i < originals.size(); ++i)
     {
       for (const std::uint32_t point : originals[i])
       {
-        anyAt[point] = this->MiddleOf(i).Home != None ? i : anyAt[point];
+        beside[point] = this->MiddleOf(i).Home != None ? i : beside[point];
       }
     }
     this->Walk(
-      parallelFor, anyAt.size(),
+      parallelFor, beside.size(),
       [&](std::size_t i) -> SurfaceSample& { return this->Part.Samples[i]; },
-      [&](std::size_t i)
+      [&](std::size_t i) -> std::array<std::uint32_t, 1>
       {
-        const bool isGone = !this->Simple.IsUsed(static_cast<std::uint32_t>(i));
-        return isGone && anyAt[i] != None ? this->MiddleOf(anyAt[i]).Home : None;
+        const bool isGone = this->AnyAt[i] == None;
+        return { isGone && beside[i] != None ? this->MiddleOf(beside[i]).Home : None };
       });
   }
 
@@ -96,21 +125,16 @@ private:
     return this->Part.Samples[this->Part.Positions.size() + triangle];
   }
 
-  std::uint32_t StartOf(std::size_t original) const
+  /** In the same leaf, and at the points that are still there. */
+  std::array<std::uint32_t, 4> StartsOf(std::size_t original) const
   {
-    for (const std::uint32_t point : this->Part.Original.Triangles[original])
-    {
-      if (this->Simple.IsUsed(point))
-      {
-        return *this->Simple.At(point).begin();
-      }
-    }
-    return None;
+    const auto [a, b, c] = this->Part.Original.Triangles[original];
+    return { this->AnyIn[original], this->AnyAt[a], this->AnyAt[b], this->AnyAt[c] };
   }
 
-  template <typename SampleAt, typename Start>
+  template <typename SampleAt, typename Starts>
   void Walk(
-    const ParallelFor& parallelFor, std::size_t count, const SampleAt& at, const Start& startOf)
+    const ParallelFor& parallelFor, std::size_t count, const SampleAt& at, const Starts& startsOf)
   {
     constexpr std::int64_t grain = 1024;
     parallelFor(static_cast<std::int64_t>(count), grain,
@@ -119,11 +143,7 @@ private:
         Walker walker(this->Part.Positions, this->Simple);
         for (std::int64_t i = begin; i < end; ++i)
         {
-          const std::uint32_t start = startOf(i);
-          if (start != None)
-          {
-            at(i).Home = walker.NearestTo(at(i).Position, start);
-          }
+          at(i).Home = walker.NearestTo(at(i).Position, startsOf(i));
         }
       });
   }
@@ -147,7 +167,8 @@ private:
         if (neighbour != None && this->MiddleOf(neighbour).Home == None)
         {
           SurfaceSample& sample = this->MiddleOf(neighbour);
-          sample.Home = walker.NearestTo(sample.Position, this->MiddleOf(waiting[at]).Home);
+          sample.Home = walker.NearestTo(
+            sample.Position, std::array<std::uint32_t, 1>{ this->MiddleOf(waiting[at]).Home });
           waiting.push_back(neighbour);
         }
       }
@@ -156,6 +177,8 @@ private:
 
   MeshPart& Part;
   const Connectivity& Simple;
+  std::vector<std::uint32_t> AnyAt; ///< by point: a triangle of the simpler mesh, or None
+  const std::vector<std::uint32_t>& AnyIn;
 };
 
 /** Points, and then the middles of the original's triangles. */
@@ -195,18 +218,22 @@ Surfaces SurfacesOf(const TetrahedronMesh& mesh)
       }
     }
   }
-  std::sort(all.begin(), all.end(),
-    [](const OwnedTriangle& a, const OwnedTriangle& b) { return a.Sorted < b.Sorted; });
+  // What two tetrahedra have is inside. Each look is at the few triangles with one least point.
+  const CellsAtPoints byLeast(mesh.Positions.size(), all.size(),
+    [&](std::size_t i) { return std::array<std::uint32_t, 1>{ all[i].Sorted[0] }; });
   Surfaces result;
-  for (std::size_t i = 0; i < all.size(); ++i)
+  for (std::uint32_t point = 0; point < mesh.Positions.size(); ++point)
   {
-    // What two tetrahedra have is inside.
-    const bool isShared = (i > 0 && all[i - 1].Sorted == all[i].Sorted) ||
-      (i + 1 < all.size() && all[i + 1].Sorted == all[i].Sorted);
-    if (!isShared)
+    const IdRange there = byLeast[point];
+    for (const std::uint32_t i : there)
     {
-      result.Triangles.push_back(all[i].Points);
-      result.Origins.push_back(mesh.Origins[all[i].Owner]);
+      const bool isShared = std::any_of(there.begin(), there.end(),
+        [&](std::uint32_t other) { return other != i && all[other].Sorted == all[i].Sorted; });
+      if (!isShared)
+      {
+        result.Triangles.push_back(all[i].Points);
+        result.Origins.push_back(mesh.Origins[all[i].Owner]);
+      }
     }
   }
   return result;
@@ -239,7 +266,21 @@ MeasuredSurfaces::MeasuredSurfaces(const TetrahedronMesh& plain, const Tetrahedr
     part.Allowances.push_back(allowances[origin]);
   }
   AddSamples(part.Allowances, part);
-  SampleHomes(part, simple).Find(parallelFor);
+  // Of the same surface: a leaf may have both.
+  const auto placeOf = [&](std::uint32_t leaf, const Triangle& triangle)
+  { return 2 * std::size_t{ leaf } + (stuffed.Surfaces[triangle[0]] > 0 ? 1 : 0); };
+  std::vector<std::uint32_t> inLeaf(2 * allowances.size(), None);
+  for (std::uint32_t i = 0; i < this->SimpleOrigins.size(); ++i)
+  {
+    inLeaf[placeOf(this->SimpleOrigins[i], part.Simple.Triangles[i])] = i;
+  }
+  std::vector<std::uint32_t> anyIn;
+  anyIn.reserve(this->Origins.size());
+  for (std::uint32_t i = 0; i < this->Origins.size(); ++i)
+  {
+    anyIn.push_back(inLeaf[placeOf(this->Origins[i], part.Original.Triangles[i])]);
+  }
+  SampleHomes(part, simple, anyIn).Find(parallelFor);
 }
 
 std::vector<std::uint32_t> MeasuredSurfaces::Homes() const

@@ -99,18 +99,18 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
     {
       const int younger = std::min(own, other);
       const int older = std::max(own, other);
-      const Vector edge = this->Mesh.PositionOf(corners[other]) - at;
       for (int surface = 0; surface < 2 && other != own; ++surface)
       {
         const bool isBehind =
           (state == BelowLower && surface == 1) || (state == AboveUpper && surface == 0);
-        if (isBehind || CommonWalls(walls, this->Mesh.WallsOf(corners[other])) != walls ||
-          !this->IsCut(tetrahedron, younger, older, surface))
+        if (isBehind || !this->IsCut(tetrahedron, younger, older, surface) ||
+          CommonWalls(walls, this->Mesh.WallsOf(corners[other])) != walls)
         {
           continue;
         }
         const std::uint32_t point =
           this->Mesh.Leaves().Tetrahedra[tetrahedron].Cuts[CutEdge(younger, older)][surface];
+        const Vector edge = this->Mesh.PositionOf(corners[other]) - at;
         const Vector way = this->Mesh.PointAt(point) - at;
         const double distance = std::sqrt(Dot(way, way) / Dot(edge, edge));
         if (distance < nearest.Distance || (distance == nearest.Distance && point < nearest.Point))

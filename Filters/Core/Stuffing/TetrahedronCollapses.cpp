@@ -223,6 +223,10 @@ std::vector<std::uint32_t> TetrahedronCollapses::Undo(const std::vector<std::uin
     }
   }
   this->Steps.resize(kept);
+  for (std::size_t point = 0; point < isChanged.size(); ++point)
+  {
+    this->IsTried[point] = this->IsTried[point] && !isChanged[point];
+  }
   return back;
 }
 

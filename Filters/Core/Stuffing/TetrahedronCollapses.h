@@ -37,6 +37,8 @@ public:
   TetrahedronMesh Take() { return this->Mesh.Take(); }
 
   bool Allows(std::uint32_t vertex, std::uint32_t target) override;
+  void NoteRefusal(std::uint32_t vertex) override { this->IsTried[vertex] = true; }
+  bool IsWorthATry(std::uint32_t vertex) const override { return !this->IsTried[vertex]; }
   void Collapse(std::uint32_t vertex, std::uint32_t target) override;
   std::vector<std::uint32_t> Undo(const std::vector<std::uint32_t>& vertices) override;
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_LinkCondition_h
+#define isodiamond_LinkCondition_h
+
+#include <cstdint>
+
+/**
+ * @file LinkCondition.h
+ * Whether an edge of a mesh can shrink into a point without a change of topology.
+ *
+ * The link of a point is what its tetrahedra have opposite to it: triangles, their edges and
+ * points. That of an edge is a ring around it, or a path at the boundary. What the links of both
+ * ends have in common must be the edge's, and nothing else (Dey, Edelsbrunner, Guha and Nekhayev,
+ * "Topology preserving edge contraction", 1999); and the same must hold of the boundary.
+ */
+namespace isodiamond
+{
+
+class LocalMesh;
+
+/** Whether two points have an edge, and of their links nothing but its link in common. */
+bool HaveOnlyTheirEdgeInCommon(const LocalMesh& mesh, std::uint32_t a, std::uint32_t b);
+
+/** The same of the boundary, if the first of two points is on it: then they have an edge of it, and
+ *  that lies on every surface and wall that the first point has triangles on. */
+bool HaveOnlyTheirEdgeOnTheBoundary(const LocalMesh& mesh, std::uint32_t from, std::uint32_t to);
+
+}
+
+#endif
