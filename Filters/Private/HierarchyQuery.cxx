@@ -11,7 +11,7 @@ namespace
 constexpr double LargestPartOfSimplify = 0.3;
 /** More of the rest would be of no use: it is the tetrahedra's shape that bounds how coarse they
  *  get, and the finer ones take their time. */
-constexpr double PartOfSimulation = 0.5;
+constexpr double PartOfSimulation = 0.65;
 
 }
 

@@ -15,15 +15,17 @@ namespace
 
 /** The dihedral angle in degrees that tetrahedra have at the least, and by which they have less
  *  than 180, unless what they replace has worse ones. The less, the fewer tetrahedra. */
-constexpr double LeastAngle = 20.0;
+constexpr double LeastAngle = 16.0;
 
 /** Passes over inside and surfaces; what one leaves lets the other one go on. */
 constexpr int CollapsePasses = 6;
 
-/** The leaves of a stuffed mesh where surfaces are too far away, and which could be finer. */
-std::vector<std::uint32_t> FarLeaves(const MeasuredSurfaces& surfaces,
-  const PartDistance::Faults& faults, const std::vector<bool>& canBeFiner)
+/** See FarLeaves(). @param distance of the surfaces' part, which is measured */
+std::vector<std::uint32_t> FindFarLeaves(const MeasuredSurfaces& surfaces, PartDistance& distance,
+  const std::vector<bool>& canBeFiner)
 {
+  const PartDistance::Faults faults = distance.Find(surfaces.Part.Simple, surfaces.Homes(),
+    std::vector<bool>(surfaces.Part.Simple.Triangles.size(), true));
   std::vector<std::uint32_t> leaves;
   for (std::uint32_t i = 0; i < surfaces.Part.Original.Triangles.size(); ++i)
   {
@@ -46,6 +48,18 @@ std::vector<std::uint32_t> FarLeaves(const MeasuredSurfaces& surfaces,
 
 }
 
+std::vector<std::uint32_t> FarLeaves(
+  const TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor)
+{
+  MeasuredSurfaces surfaces(input.Plain, mesh, input.Allowances, parallelFor);
+  if (!surfaces.AreSound)
+  {
+    return {};
+  }
+  PartDistance distance(surfaces.Part);
+  return FindFarLeaves(surfaces, distance, input.CanBeFiner);
+}
+
 std::vector<std::uint32_t> Coarsen(
   TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor)
 {
@@ -56,9 +70,8 @@ std::vector<std::uint32_t> Coarsen(
     return {};
   }
   PartDistance distance(part);
-  PartDistance::Faults faults = distance.Find(
-    part.Simple, surfaces.Homes(), std::vector<bool>(part.Simple.Triangles.size(), true));
-  if (std::vector<std::uint32_t> far = FarLeaves(surfaces, faults, input.CanBeFiner); !far.empty())
+  if (std::vector<std::uint32_t> far = FindFarLeaves(surfaces, distance, input.CanBeFiner);
+      !far.empty())
   {
     return far;
   }
@@ -79,7 +92,8 @@ std::vector<std::uint32_t> Coarsen(
   }
   do
   {
-    faults = distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched);
+    const PartDistance::Faults faults =
+      distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched);
     isTouched = faults.Any() ? edges.Undo(faults.Triangles, faults.Points) : std::vector<bool>();
   } while (std::find(isTouched.begin(), isTouched.end(), true) != isTouched.end());
   mesh = tetrahedra.Take();

@@ -2,10 +2,12 @@
 #include "Stuffing/Stuffing.h"
 
 #include "Stuffing/Background.h"
+#include "Stuffing/BestChange.h"
 #include "Stuffing/Coarsening.h"
 #include "Stuffing/Improvement.h"
 #include "Stuffing/MovedVertices.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +18,18 @@ namespace
 
 /** In degrees; a little more than what is promised to be tried, for coordinates get rounded. */
 constexpr double WantedAngle = 15.5;
+
+/** Where more than this part of the tetrahedra is bad, to improve them takes longer than to measure
+ *  the surfaces once more. */
+constexpr double ManyBad = 0.1;
+
+bool AreManyBad(const TetrahedronMesh& mesh, const ImprovementOptions& options)
+{
+  const double wanted = WantedSine(options);
+  const auto bad = std::count_if(mesh.Tetrahedra.begin(), mesh.Tetrahedra.end(),
+    [&](const Corners& corners) { return SmallestSine(mesh, corners) < wanted; });
+  return static_cast<double>(bad) > ManyBad * static_cast<double>(mesh.Tetrahedra.size());
+}
 
 Walls::Type WallsOf(const CutMesh::Vertex& vertex, const Grid& grid)
 {
@@ -91,15 +105,24 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   options.Axes = AxesOf(input.World);
   options.CutEdges = CutEdgesOf(background);
   MovedVertices vertices(background);
-  const TetrahedronMesh plain =
-    input.Allowances.empty() ? TetrahedronMesh() : vertices.Cut(parallelFor);
+  const bool getsCoarser = !input.Allowances.empty();
+  const TetrahedronMesh plain = getsCoarser ? vertices.Cut(parallelFor) : TetrahedronMesh();
+  const CoarseningInput coarsening{ plain, input.Allowances, input.CanBeFiner, input.KeepsInside };
   vertices.MoveAll(parallelFor);
   StuffedMesh result;
-  result.Mesh = Improve(vertices.Cut(parallelFor), options, parallelFor);
-  if (!input.Allowances.empty())
+  result.Mesh = vertices.Cut(parallelFor);
+  if (getsCoarser && AreManyBad(result.Mesh, options))
   {
-    result.FarLeaves = Coarsen(
-      result.Mesh, { plain, input.Allowances, input.CanBeFiner, input.KeepsInside }, parallelFor);
+    // Nearly all that will be too far away is so by now: to improve it would be for nothing.
+    result.FarLeaves = FarLeaves(result.Mesh, coarsening, parallelFor);
+  }
+  if (result.FarLeaves.empty())
+  {
+    result.Mesh = Improve(std::move(result.Mesh), options, parallelFor);
+    if (getsCoarser)
+    {
+      result.FarLeaves = Coarsen(result.Mesh, coarsening, parallelFor);
+    }
   }
   return result;
 }
