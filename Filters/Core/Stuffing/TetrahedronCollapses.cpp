@@ -9,8 +9,12 @@ namespace isodiamond
 namespace
 {
 
-/** How much longer an edge may be than the longest one that one of its ends had. */
-constexpr double MostGrowth = 1.5;
+///@{
+/** How much longer an edge may be than the longest one that one of its ends had: what a solution is
+ *  like is told by cells inside, and where a surface is flat it needs few. */
+constexpr double MostGrowthInside = 1.25;
+constexpr double MostGrowthOnSurfaces = 2.0;
+///@}
 
 /** The part of the volume that may come or go. */
 constexpr double MostOfVolume = 0.005;
@@ -42,10 +46,11 @@ TetrahedronCollapses::TetrahedronCollapses(TetrahedronMesh mesh, double leastAng
   }
 }
 
-bool TetrahedronCollapses::IsLong(std::uint32_t a, std::uint32_t b) const
+/** Whether an edge would be too long. @param growth how much longer than those around it may be */
+bool TetrahedronCollapses::IsLong(std::uint32_t a, std::uint32_t b, double growth) const
 {
   const Vector edge = this->Mesh.At(b) - this->Mesh.At(a);
-  return Dot(edge, edge) > MostGrowth * MostGrowth * std::max(this->Longest[a], this->Longest[b]);
+  return Dot(edge, edge) > growth * growth * std::max(this->Longest[a], this->Longest[b]);
 }
 
 double TetrahedronCollapses::SineNeeded(std::uint32_t vertex) const
@@ -58,6 +63,8 @@ double TetrahedronCollapses::SineNeeded(std::uint32_t vertex) const
 double TetrahedronCollapses::SineAfter(
   std::uint32_t vertex, std::uint32_t target, double needed) const
 {
+  const double growth =
+    this->Mesh.Mesh().Surfaces[vertex] == 0 ? MostGrowthInside : MostGrowthOnSurfaces;
   double sine = 1.0;
   for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
   {
@@ -70,7 +77,7 @@ double TetrahedronCollapses::SineAfter(
     sine = std::min(sine, this->Mesh.SineOf(corners));
     if (sine < needed ||
       std::any_of(corners.begin(), corners.end(),
-        [&](std::uint32_t corner) { return this->IsLong(corner, target); }))
+        [&](std::uint32_t corner) { return this->IsLong(corner, target, growth); }))
     {
       return -1.0;
     }

@@ -57,7 +57,7 @@ private:
   double SineAfter(std::uint32_t vertex, std::uint32_t target, double needed) const;
   double GainOf(std::uint32_t vertex, std::uint32_t target) const;
   bool KeepsVolume(double gain) const;
-  bool IsLong(std::uint32_t a, std::uint32_t b) const;
+  bool IsLong(std::uint32_t a, std::uint32_t b, double growth) const;
   void FindTargets(std::uint32_t vertex, double needed);
 
   LocalMesh Mesh;
