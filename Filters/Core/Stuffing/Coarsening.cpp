@@ -21,8 +21,8 @@ constexpr double LeastAngle = 16.0;
 constexpr int CollapsePasses = 6;
 
 /** See FarLeaves(). @param distance of the surfaces' part, which is measured */
-std::vector<std::uint32_t> FindFarLeaves(const MeasuredSurfaces& surfaces, PartDistance& distance,
-  const std::vector<bool>& canBeFiner)
+std::vector<std::uint32_t> FindFarLeaves(
+  const MeasuredSurfaces& surfaces, PartDistance& distance, const std::vector<bool>& canBeFiner)
 {
   const PartDistance::Faults faults = distance.Find(surfaces.Part.Simple, surfaces.Homes(),
     std::vector<bool>(surfaces.Part.Simple.Triangles.size(), true));
@@ -92,8 +92,7 @@ std::vector<std::uint32_t> Coarsen(
   }
   do
   {
-    const PartDistance::Faults faults =
-      distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched);
+    const PartDistance::Faults faults = distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched);
     isTouched = faults.Any() ? edges.Undo(faults.Triangles, faults.Points) : std::vector<bool>();
   } while (std::find(isTouched.begin(), isTouched.end(), true) != isTouched.end());
   mesh = tetrahedra.Take();

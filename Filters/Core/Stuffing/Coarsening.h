@@ -21,7 +21,8 @@ struct CoarseningInput
   double UsedPart = 0.75;
 };
 
-/** The leaves where a surface of a stuffed mesh is too far away, and which could be finer, sorted. */
+/** The leaves where a surface of a stuffed mesh is too far away, and which could be finer, sorted.
+ */
 std::vector<std::uint32_t> FarLeaves(
   const TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor);
 

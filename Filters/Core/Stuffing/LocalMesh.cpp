@@ -112,7 +112,8 @@ bool LocalMesh::CanCollapse(std::uint32_t from, std::uint32_t to) const
       }
     }
   }
-  return HaveOnlyTheirEdgeInCommon(*this, from, to) && HaveOnlyTheirEdgeOnTheBoundary(*this, from, to);
+  return HaveOnlyTheirEdgeInCommon(*this, from, to) &&
+    HaveOnlyTheirEdgeOnTheBoundary(*this, from, to);
 }
 
 bool LocalMesh::FindRing(std::uint32_t a, std::uint32_t b, std::size_t most, Ring& ring) const

@@ -56,8 +56,7 @@ public:
 
 private:
   template <typename Triangles>
-  std::uint32_t NearerOf(
-    const Triangles& triangles, const Vector& position, std::uint32_t nearest)
+  std::uint32_t NearerOf(const Triangles& triangles, const Vector& position, std::uint32_t nearest)
   {
     for (const std::uint32_t triangle : triangles)
     {
@@ -83,8 +82,7 @@ class SampleHomes
 public:
   /** @param anyIn by triangle of the original: one of the simpler mesh in the same leaf and on
    *         the same surface, or None */
-  SampleHomes(
-    MeshPart& part, const Connectivity& simple, const std::vector<std::uint32_t>& anyIn)
+  SampleHomes(MeshPart& part, const Connectivity& simple, const std::vector<std::uint32_t>& anyIn)
     : Part(part)
     , Simple(simple)
     , AnyAt(AnyTriangleAt(part.Positions.size(), part.Simple))
