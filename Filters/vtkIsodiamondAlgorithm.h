@@ -68,7 +68,7 @@ public:
    * 165 degrees wherever possible. Points on surfaces stay where they are, or go; a few, where a
    * surface nearly touches itself, move by a quarter of their edge at most. Pieces, holes and
    * tunnels stay, and tetrahedra positive and conforming. By the distance metric the mesh begins at
-   * two thirds of the tolerance and is made as coarse as all of it allows, which holds, measured
+   * 0.65 of the tolerance and is made as coarse as all of it allows, which holds, measured
    * both ways, but for cells of full resolution, which move their part of a surface by up to a
    * voxel; with an interior tolerance points inside stay. With spacings that differ between the
    * axes angles are worse.

@@ -11,7 +11,8 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** Each time leaves that are too far away become finer by a level; few need more than three. */
+/** Each time leaves that are too far away become finer by a level; smooth volumes need three to
+ *  eight. */
 constexpr int MostRounds = 10;
 
 }

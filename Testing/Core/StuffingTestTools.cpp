@@ -21,7 +21,7 @@ namespace
 {
 
 /** By tetrahedron of the volume's mesh: the leaf that it is a part of, the one that has its points,
- *  at its vertices or on its edges. */
+ *  at its vertices or on its edges; None where leaves are hidden. */
 std::vector<std::uint32_t> LeavesOf(const Volume& plain, const CutMesh& leaves)
 {
   std::vector<std::vector<std::uint32_t>> at(plain.Points.size());
@@ -95,6 +95,7 @@ TetrahedronMesh Stuffed::PlainMesh() const
         static_cast<std::uint32_t>(corners[2]), static_cast<std::uint32_t>(corners[3]) });
   }
   plain.Origins = this->PlainOrigins;
+  EXPECT_EQ(std::count(plain.Origins.begin(), plain.Origins.end(), CutMesh::None), 0);
   return plain;
 }
 

@@ -32,7 +32,7 @@ struct Stuffed
     const isodiamond::HiddenCells* hidden = nullptr,
     const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
 
-  /** The volume's mesh, of the same points and leaves. */
+  /** The volume's mesh, of the same points and leaves. @pre nothing is hidden */
   isodiamond::TetrahedronMesh PlainMesh() const;
 
   /** As a volume with the points that are used. */

@@ -46,7 +46,7 @@ private:
   {
     const std::size_t last = this->Slots.size() - 1;
     // The product's highest bits are those that all coordinates have a say in.
-    std::size_t i = (key * 0x9e3779b97f4a7c15U) >> this->UnusedBits;
+    std::size_t i = (key * 0x9e3779b97f4a7c15U) >> (64 - this->Bits);
     while (this->Slots[i].Key != key && this->Slots[i].Key != NoKey)
     {
       i = (i + 1) & last;
@@ -57,8 +57,8 @@ private:
   void Grow()
   {
     const std::vector<Slot> before = std::move(this->Slots);
-    --this->UnusedBits;
-    this->Slots.assign(std::size_t{ 1 } << (64 - this->UnusedBits), {});
+    ++this->Bits;
+    this->Slots.assign(std::size_t{ 1 } << this->Bits, {});
     for (const Slot& slot : before)
     {
       if (slot.Key != NoKey)
@@ -69,7 +69,7 @@ private:
   }
 
   std::vector<Slot> Slots;
-  int UnusedBits = 55; ///< of 64, all but those of the number of slots
+  int Bits = 9; ///< of the number of slots, once there are any
   std::uint32_t Count = 0;
 };
 

@@ -72,9 +72,7 @@ public:
   bool IsOver(const Vector& point) const
   {
     const Vector p = point - this->Corner;
-    const double first = Dot(p, this->AlongFirst);
-    const double second = Dot(p, this->AlongSecond);
-    return !this->IsDegenerate && first >= 0.0 && second >= 0.0 && first + second <= 1.0;
+    return this->IsOver(Dot(p, this->AlongFirst), Dot(p, this->AlongSecond));
   }
 
   /** Normal to the triangle, of some length; nothing if it has no area. */
@@ -84,10 +82,11 @@ public:
   Vector Nearest(const Vector& point) const
   {
     const Vector p = point - this->Corner;
-    if (this->IsOver(point))
+    const double first = Dot(p, this->AlongFirst);
+    const double second = Dot(p, this->AlongSecond);
+    if (this->IsOver(first, second))
     {
-      return this->Corner + Dot(p, this->AlongFirst) * this->First +
-        Dot(p, this->AlongSecond) * this->Second;
+      return this->Corner + first * this->First + second * this->Second;
     }
     const std::array<Vector, 3> onSides = { PlaceOnSide(p, this->First, this->Inverse[0]),
       PlaceOnSide(p, this->Second, this->Inverse[1]),
@@ -112,6 +111,11 @@ public:
   }
 
 private:
+  /** By barycentric coordinates. */
+  bool IsOver(double first, double second) const
+  {
+    return !this->IsDegenerate && first >= 0.0 && second >= 0.0 && first + second <= 1.0;
+  }
   /** @param inverse of the squared length; infinite if there is none */
   static double SquaredToSide(const Vector& p, const Vector& side, double inverse)
   {

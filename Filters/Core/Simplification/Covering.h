@@ -267,7 +267,7 @@ private:
     }
   };
 
-  double SquaredDistance(const Piece& piece, std::uint32_t triangle)
+  double SquaredDistance(std::uint32_t triangle, const Piece& piece)
   {
     const TriangleDistance& distance = this->Of(triangle).Distance;
     double squared = 0.0;
@@ -285,7 +285,7 @@ private:
     {
       return false;
     }
-    double squared = this->SquaredDistance(piece, triangle);
+    double squared = this->SquaredDistance(triangle, piece);
     if (squared > way.Near)
     {
       way.Triangles[way.Length++] = triangle;
@@ -313,7 +313,7 @@ private:
         }
       }
       --way.Length;
-      squared = this->SquaredDistance(piece, triangle);
+      squared = this->SquaredDistance(triangle, piece);
     }
     return use(triangle, std::sqrt(squared), piece);
   }

@@ -24,7 +24,7 @@ public:
   virtual bool Allows(std::uint32_t vertex, std::uint32_t target) = 0;
   /** A vertex may go nowhere, as things are. */
   virtual void NoteRefusal(std::uint32_t vertex) = 0;
-  /** Whether anything around a vertex has changed since. */
+  /** Whether anything has changed around a vertex since the last NoteRefusal() of it. */
   virtual bool IsWorthATry(std::uint32_t vertex) const = 0;
   /** It does. */
   virtual void Collapse(std::uint32_t vertex, std::uint32_t target) = 0;
@@ -53,10 +53,12 @@ class EdgeCollapses
 public:
   /** @param part stays as it is, and must outlive it
    *  @param usedPart of allowances, by samples: between them the surface may be a bit farther off
-   *  @param guard is asked last, and told; null if there is none. Must outlive it */
+   *  @param guard is asked whether a vertex is worth a try, and last; and told. Null if there is
+   * none. Must outlive it */
   EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuard* guard = nullptr);
 
-  /** Collapses all that it can. @return by number: whether a triangle is another one now, or gone
+  /** Collapses all that it can, but for what the guard knows to be no use. @return by number:
+   * whether a triangle is another one now, or gone
    */
   std::vector<bool> Run();
 

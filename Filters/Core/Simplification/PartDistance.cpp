@@ -7,6 +7,7 @@
 
 namespace isodiamond
 {
+
 PartDistance::PartDistance(MeshPart& part)
   : Part(part)
   , Cover(part.Positions, part.Original)

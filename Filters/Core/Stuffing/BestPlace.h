@@ -37,14 +37,14 @@ public:
     return isodiamond::SmallestSine(place, this->Corners[0], this->Corners[1], this->Corners[2]);
   }
 
-  /** The smallest sine with the point at a place; any that is small enough, if it is not more than
-   *  what is of interest: most are not, which takes no root and no division. */
+  /** The smallest sine with the point at a place; 0 of what is not positive, if only more than a
+   *  sine that is not negative is of interest. */
   double SmallestSine(const Vector& place, double interesting) const
   {
     const std::array<Vector, 3> edges = { this->Corners[0] - place, this->Corners[1] - place,
       this->Corners[2] - place };
     const double volume = Dot(this->Across, edges[0]);
-    if (interesting < 0.0 || !(volume > 0.0))
+    if (!(volume > 0.0))
     {
       return interesting < 0.0 ? this->SmallestSine(place) : 0.0;
     }

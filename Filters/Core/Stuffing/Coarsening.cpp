@@ -21,7 +21,7 @@ constexpr double LeastAngle = 16.0;
 constexpr int CollapsePasses = 6;
 
 /** See FarLeaves(). @param distance of the surfaces' part, which is measured */
-std::vector<std::uint32_t> FindFarLeaves(
+std::vector<std::uint32_t> FarLeavesOf(
   const MeasuredSurfaces& surfaces, PartDistance& distance, const std::vector<bool>& canBeFiner)
 {
   const PartDistance::Faults faults = distance.Find(surfaces.Part.Simple, surfaces.Homes(),
@@ -51,13 +51,17 @@ std::vector<std::uint32_t> FindFarLeaves(
 std::vector<std::uint32_t> FarLeaves(
   const TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor)
 {
+  if (std::find(input.CanBeFiner.begin(), input.CanBeFiner.end(), true) == input.CanBeFiner.end())
+  {
+    return {};
+  }
   MeasuredSurfaces surfaces(input.Plain, mesh, input.Allowances, parallelFor);
   if (!surfaces.AreSound)
   {
     return {};
   }
   PartDistance distance(surfaces.Part);
-  return FindFarLeaves(surfaces, distance, input.CanBeFiner);
+  return FarLeavesOf(surfaces, distance, input.CanBeFiner);
 }
 
 std::vector<std::uint32_t> Coarsen(
@@ -70,7 +74,7 @@ std::vector<std::uint32_t> Coarsen(
     return {};
   }
   PartDistance distance(part);
-  if (std::vector<std::uint32_t> far = FindFarLeaves(surfaces, distance, input.CanBeFiner);
+  if (std::vector<std::uint32_t> far = FarLeavesOf(surfaces, distance, input.CanBeFiner);
       !far.empty())
   {
     return far;

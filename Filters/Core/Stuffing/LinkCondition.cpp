@@ -202,8 +202,7 @@ bool HaveOnlyTheirEdgeOnTheBoundary(const LocalMesh& mesh, std::uint32_t from, s
     }
   }
   std::sort(across.begin(), across.end());
-  return across.size() == 2 && across[0] != across[1] &&
-    Common(EndsOf(link), EndsOf(BoundaryLink(mesh, to))) == across &&
+  return across.size() == 2 && Common(EndsOf(link), EndsOf(BoundaryLink(mesh, to))) == across &&
     PlacesAround(mesh, from, link) ==
     (mesh.PlaceOfFace(from, to, across[0]) | mesh.PlaceOfFace(from, to, across[1]));
 }

@@ -167,7 +167,10 @@ private:
           SurfaceSample& sample = this->MiddleOf(neighbour);
           sample.Home = walker.NearestTo(
             sample.Position, std::array<std::uint32_t, 1>{ this->MiddleOf(waiting[at]).Home });
-          waiting.push_back(neighbour);
+          if (sample.Home != None) // no distance is finite, if it is
+          {
+            waiting.push_back(neighbour);
+          }
         }
       }
     }

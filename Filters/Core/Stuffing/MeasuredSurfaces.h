@@ -25,8 +25,8 @@ Surfaces SurfacesOf(const TetrahedronMesh& mesh);
  */
 struct MeasuredSurfaces
 {
-  /** @param allowances by origin: how far from its triangles of the first mesh the second one may
-   * be */
+  /** @param allowances by origin, of either mesh: how far from its triangles of the first mesh the
+   * second one may be */
   MeasuredSurfaces(const TetrahedronMesh& plain, const TetrahedronMesh& stuffed,
     const std::vector<double>& allowances, const ParallelFor& parallelFor);
 

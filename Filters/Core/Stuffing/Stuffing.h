@@ -47,7 +47,8 @@ struct StuffingInput
 struct StuffedMesh
 {
   TetrahedronMesh Mesh;
-  std::vector<std::uint32_t> FarLeaves; ///< that have to be finer, see Coarsen()
+  /** That have to be finer, see Coarsening.h. If there are any the mesh is not done. */
+  std::vector<std::uint32_t> FarLeaves;
 };
 /** @param parallelFor is given the work in steps, one after the other: it can tell, and abort */
 StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor);

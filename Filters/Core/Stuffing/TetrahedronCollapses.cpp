@@ -10,10 +10,10 @@ namespace
 {
 
 ///@{
-/** How much longer an edge may be than the longest one that one of its ends had: what a solution is
- *  like is told by cells inside, and where a surface is flat it needs few. */
-constexpr double MostGrowthInside = 1.25;
-constexpr double MostGrowthOnSurfaces = 2.0;
+/** How many times as long as the longest edge that one of its ends had an edge may get, by where
+ * the vertex that goes is: a solution needs cells inside, a surface that is flat hardly any. */
+constexpr double MostTimesInside = 1.25;
+constexpr double MostTimesOnSurfaces = 2.0;
 ///@}
 
 /** The part of the volume that may come or go. */
@@ -32,6 +32,7 @@ TetrahedronCollapses::TetrahedronCollapses(TetrahedronMesh mesh, double leastAng
   , MostChange(std::max(MostOfVolume * volume, std::abs(this->Volume - volume)))
   , Longest(this->Mesh.Mesh().Positions.size())
   , IsTried(this->Longest.size())
+  , IsShortOfVolume(this->Longest.size())
 {
   for (const Corners& corners : this->Mesh.Mesh().Tetrahedra)
   {
@@ -46,11 +47,11 @@ TetrahedronCollapses::TetrahedronCollapses(TetrahedronMesh mesh, double leastAng
   }
 }
 
-/** Whether an edge would be too long. @param growth how much longer than those around it may be */
-bool TetrahedronCollapses::IsLong(std::uint32_t a, std::uint32_t b, double growth) const
+/** Whether an edge would be too long. @param mostTimes as long as the longest one around was */
+bool TetrahedronCollapses::IsLong(std::uint32_t a, std::uint32_t b, double mostTimes) const
 {
   const Vector edge = this->Mesh.At(b) - this->Mesh.At(a);
-  return Dot(edge, edge) > growth * growth * std::max(this->Longest[a], this->Longest[b]);
+  return Dot(edge, edge) > mostTimes * mostTimes * std::max(this->Longest[a], this->Longest[b]);
 }
 
 double TetrahedronCollapses::SineNeeded(std::uint32_t vertex) const
@@ -63,8 +64,8 @@ double TetrahedronCollapses::SineNeeded(std::uint32_t vertex) const
 double TetrahedronCollapses::SineAfter(
   std::uint32_t vertex, std::uint32_t target, double needed) const
 {
-  const double growth =
-    this->Mesh.Mesh().Surfaces[vertex] == 0 ? MostGrowthInside : MostGrowthOnSurfaces;
+  const double mostTimes =
+    this->Mesh.Mesh().Surfaces[vertex] == 0 ? MostTimesInside : MostTimesOnSurfaces;
   double sine = 1.0;
   for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
   {
@@ -77,7 +78,7 @@ double TetrahedronCollapses::SineAfter(
     sine = std::min(sine, this->Mesh.SineOf(corners));
     if (sine < needed ||
       std::any_of(corners.begin(), corners.end(),
-        [&](std::uint32_t corner) { return this->IsLong(corner, target, growth); }))
+        [&](std::uint32_t corner) { return this->IsLong(corner, target, mostTimes); }))
     {
       return -1.0;
     }
@@ -113,8 +114,23 @@ bool TetrahedronCollapses::KeepsVolume(double gain) const
 bool TetrahedronCollapses::Allows(std::uint32_t vertex, std::uint32_t target)
 {
   const double needed = this->SineNeeded(vertex);
-  return this->SineAfter(vertex, target, needed) >= needed &&
-    this->KeepsVolume(this->GainOf(vertex, target)) && this->Mesh.CanCollapse(vertex, target);
+  if (this->SineAfter(vertex, target, needed) < needed)
+  {
+    return false;
+  }
+  if (!this->KeepsVolume(this->GainOf(vertex, target)))
+  {
+    this->IsShortOfVolume[vertex] = true;
+    return false;
+  }
+  return this->Mesh.CanCollapse(vertex, target);
+}
+
+/** What was refused for the volume of the whole may be allowed soon, whatever there is around. */
+void TetrahedronCollapses::NoteRefusal(std::uint32_t vertex)
+{
+  this->IsTried[vertex] = !this->IsShortOfVolume[vertex];
+  this->IsShortOfVolume[vertex] = false;
 }
 
 void TetrahedronCollapses::Collapse(std::uint32_t vertex, std::uint32_t target)

@@ -14,9 +14,10 @@ namespace isodiamond
 
 /**
  * Collapses edges of a tetrahedral mesh into one of their ends, wherever that leaves tetrahedra of
- * good shape and the topology as it is, no edge much longer than those around were, and the whole
- * volume nearly the same. Inside it finds the edges itself; on surfaces others do, who see to it
- * that these stay near, and ask whether they may (CollapseGuard). Whatever was done can be undone.
+ * good shape and the topology as it is, no edge much longer than those around were (by a quarter
+ * inside, twice as long on surfaces), and the whole volume nearly the same. Inside it finds the
+ * edges itself; on surfaces others do, who see to it that these stay near, and ask whether they may
+ * (CollapseGuard). Whatever was done can be undone.
  */
 class TetrahedronCollapses : public CollapseGuard
 {
@@ -37,7 +38,7 @@ public:
   TetrahedronMesh Take() { return this->Mesh.Take(); }
 
   bool Allows(std::uint32_t vertex, std::uint32_t target) override;
-  void NoteRefusal(std::uint32_t vertex) override { this->IsTried[vertex] = true; }
+  void NoteRefusal(std::uint32_t vertex) override;
   bool IsWorthATry(std::uint32_t vertex) const override { return !this->IsTried[vertex]; }
   void Collapse(std::uint32_t vertex, std::uint32_t target) override;
   std::vector<std::uint32_t> Undo(const std::vector<std::uint32_t>& vertices) override;
@@ -57,7 +58,7 @@ private:
   double SineAfter(std::uint32_t vertex, std::uint32_t target, double needed) const;
   double GainOf(std::uint32_t vertex, std::uint32_t target) const;
   bool KeepsVolume(double gain) const;
-  bool IsLong(std::uint32_t a, std::uint32_t b, double growth) const;
+  bool IsLong(std::uint32_t a, std::uint32_t b, double mostTimes) const;
   void FindTargets(std::uint32_t vertex, double needed);
 
   LocalMesh Mesh;
@@ -67,7 +68,8 @@ private:
   double MostChange;           ///< of it
   std::vector<double> Longest; ///< by point: the longest edge, squared, as it was at first
   std::vector<Step> Steps;
-  std::vector<bool> IsTried; ///< by point: and nothing has changed around it since
+  std::vector<bool> IsTried;         ///< by point: and nothing has changed around it since
+  std::vector<bool> IsShortOfVolume; ///< by point: refused for what others may give back
   /** Of one vertex: the smallest sine, negative, so that the best comes first. */
   std::vector<std::pair<double, std::uint32_t>> Targets;
 };
