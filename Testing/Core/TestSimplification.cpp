@@ -587,7 +587,7 @@ TEST(EdgeCollapses, CanBeUndone)
       for (std::uint32_t i = 0; i < before.Mesh.Positions.size(); ++i)
       {
         const std::uint32_t home = collapses.SampleHomes()[i];
-        ASSERT_EQ(home == None, nowLinks.IsUsed(i) || !links.IsUsed(i));
+        ASSERT_EQ(home == None, !nowLinks.At(i).empty() || links.At(i).empty());
         ASSERT_TRUE(home == None || left.count(home) == 1);
       }
     }

@@ -22,12 +22,12 @@ public:
   virtual ~CollapseGuard() = default;
   /** Whether a vertex may go into another one. */
   virtual bool Allows(std::uint32_t vertex, std::uint32_t target) = 0;
-  /** A vertex may go nowhere, as things are. */
-  virtual void NoteRefusal(std::uint32_t vertex) = 0;
-  /** Whether anything has changed around a vertex since the last NoteRefusal() of it. */
-  virtual bool IsWorthATry(std::uint32_t vertex) const = 0;
   /** It does. */
   virtual void Collapse(std::uint32_t vertex, std::uint32_t target) = 0;
+  /** A vertex may go nowhere, as things are. */
+  virtual void NoteRefusal(std::uint32_t vertex) = 0;
+  /** Whether a vertex may have somewhere to go since the last NoteRefusal() of it. */
+  virtual bool IsWorthATry(std::uint32_t vertex) const = 0;
   /** Undoes collapses. @return the vertices that are there again: these, and all whose collapses
    *  built on theirs */
   virtual std::vector<std::uint32_t> Undo(const std::vector<std::uint32_t>& vertices) = 0;

@@ -94,7 +94,6 @@ public:
 
   /** The triangles at a point. */
   IdRange At(std::uint32_t point) const { return this->Cells[point]; }
-  bool IsUsed(std::uint32_t point) const { return !this->At(point).empty(); }
 
   /** The mesh's triangles, linked. */
   const LinkedTriangles& Linked() const { return this->Links; }

@@ -369,11 +369,6 @@ private:
 
 }
 
-double WantedSine(const ImprovementOptions& options)
-{
-  return std::sin(options.WantedAngle / DegreesOfRadian);
-}
-
 Change BestChange(
   const LocalMesh& mesh, const ImprovementOptions& options, std::uint32_t tetrahedron)
 {

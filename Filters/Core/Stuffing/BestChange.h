@@ -47,9 +47,6 @@ struct Change
 Change BestChange(
   const LocalMesh& mesh, const ImprovementOptions& options, std::uint32_t tetrahedron);
 
-/** The sine of the angle that is wanted. */
-double WantedSine(const ImprovementOptions& options);
-
 }
 
 #endif

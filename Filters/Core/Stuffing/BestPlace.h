@@ -41,28 +41,20 @@ public:
    *  sine that is not negative is of interest. */
   double SmallestSine(const Vector& place, double interesting) const
   {
-    const std::array<Vector, 3> edges = { this->Corners[0] - place, this->Corners[1] - place,
-      this->Corners[2] - place };
-    const double volume = Dot(this->Across, edges[0]);
-    if (!(volume > 0.0))
+    const Vector b = this->Corners[0] - place;
+    const Vector c = this->Corners[1] - place;
+    const Vector d = this->Corners[2] - place;
+    const double sixVolumes = Dot(this->Across, b);
+    if (!(sixVolumes > 0.0))
     {
       return interesting < 0.0 ? this->SmallestSine(place) : 0.0;
     }
-    std::array<double, 3> squaredAreas{}; // of the other faces, by the corner that they do not have
-    for (int i = 0; i < 3; ++i)
-    {
-      const Vector across = Cross(edges[(i + 1) % 3], edges[(i + 2) % 3]);
-      squaredAreas[i] = Dot(across, across);
-    }
-    double least = HUGE_VAL;
-    for (int i = 0; i < 3; ++i)
-    {
-      const double beside = squaredAreas[(i + 1) % 3] * squaredAreas[(i + 2) % 3];
-      least = std::min({ least, this->SquaredSides[i] / (squaredAreas[i] * this->SquaredAcross),
-        Dot(edges[i], edges[i]) / beside });
-    }
-    const double sine = volume * std::sqrt(least);
-    return std::isfinite(sine) ? sine : 0.0;
+    const Vector toB = Cross(c, d); // normals of the other faces
+    const Vector toC = Cross(d, b);
+    const Vector toD = Cross(b, c);
+    const auto& [cd, bd, bc] = this->SquaredSides;
+    return isodiamond::SmallestSine(sixVolumes, { Dot(b, b), Dot(c, c), Dot(d, d), bc, bd, cd },
+      { this->SquaredAcross, Dot(toB, toB), Dot(toC, toC), Dot(toD, toD) });
   }
 
 private:

@@ -5,6 +5,7 @@
 #include "Stuffing/LocalMesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -260,6 +261,11 @@ private:
   std::vector<int> Touched; ///< by point, likewise
 };
 
+}
+
+double WantedSine(const ImprovementOptions& options)
+{
+  return std::sin(options.WantedAngle / DegreesOfRadian);
 }
 
 TetrahedronMesh Improve(

@@ -24,6 +24,9 @@ struct ImprovementOptions
   std::array<Vector, 3> Axes{};
 };
 
+/** The sine of the angle that is wanted. */
+double WantedSine(const ImprovementOptions& options);
+
 /**
  * Improves the worst tetrahedra of a mesh, by changes of their neighbourhood.
  *

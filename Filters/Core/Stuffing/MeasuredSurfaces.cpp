@@ -5,6 +5,7 @@
 #include "Simplification/Covering.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -82,11 +83,11 @@ class SampleHomes
 public:
   /** @param anyIn by triangle of the original: one of the simpler mesh in the same leaf and on
    *         the same surface, or None */
-  SampleHomes(MeshPart& part, const Connectivity& simple, const std::vector<std::uint32_t>& anyIn)
+  SampleHomes(MeshPart& part, const Connectivity& simple, std::vector<std::uint32_t> anyIn)
     : Part(part)
     , Simple(simple)
     , AnyAt(AnyTriangleAt(part.Positions.size(), part.Simple))
-    , AnyIn(anyIn)
+    , AnyIn(std::move(anyIn))
   {
   }
 
@@ -179,7 +180,7 @@ private:
   MeshPart& Part;
   const Connectivity& Simple;
   std::vector<std::uint32_t> AnyAt; ///< by point: a triangle of the simpler mesh, or None
-  const std::vector<std::uint32_t>& AnyIn;
+  std::vector<std::uint32_t> AnyIn; ///< by triangle of the original, see above
 };
 
 /** Points, and then the middles of the original's triangles. */
@@ -267,21 +268,29 @@ MeasuredSurfaces::MeasuredSurfaces(const TetrahedronMesh& plain, const Tetrahedr
     part.Allowances.push_back(allowances[origin]);
   }
   AddSamples(part.Allowances, part);
-  // Of the same surface: a leaf may have both.
+  SampleHomes(part, simple, this->AnyInLeaves(stuffed.Surfaces, allowances.size()))
+    .Find(parallelFor);
+}
+
+/** By triangle of the first mesh: one of the second in the same leaf and on the same surface, as a
+ *  leaf may have both; None if there is none. @param surfaces by point */
+std::vector<std::uint32_t> MeasuredSurfaces::AnyInLeaves(
+  const std::vector<std::int8_t>& surfaces, std::size_t leafCount) const
+{
   const auto placeOf = [&](std::uint32_t leaf, const Triangle& triangle)
-  { return 2 * std::size_t{ leaf } + (stuffed.Surfaces[triangle[0]] > 0 ? 1 : 0); };
-  std::vector<std::uint32_t> inLeaf(2 * allowances.size(), None);
+  { return 2 * std::size_t{ leaf } + (surfaces[triangle[0]] > 0 ? 1 : 0); };
+  std::vector<std::uint32_t> inLeaf(2 * leafCount, None);
   for (std::uint32_t i = 0; i < this->SimpleOrigins.size(); ++i)
   {
-    inLeaf[placeOf(this->SimpleOrigins[i], part.Simple.Triangles[i])] = i;
+    inLeaf[placeOf(this->SimpleOrigins[i], this->Part.Simple.Triangles[i])] = i;
   }
-  std::vector<std::uint32_t> anyIn;
-  anyIn.reserve(this->Origins.size());
+  std::vector<std::uint32_t> any;
+  any.reserve(this->Origins.size());
   for (std::uint32_t i = 0; i < this->Origins.size(); ++i)
   {
-    anyIn.push_back(inLeaf[placeOf(this->Origins[i], part.Original.Triangles[i])]);
+    any.push_back(inLeaf[placeOf(this->Origins[i], this->Part.Original.Triangles[i])]);
   }
-  SampleHomes(part, simple, anyIn).Find(parallelFor);
+  return any;
 }
 
 std::vector<std::uint32_t> MeasuredSurfaces::Homes() const

@@ -38,6 +38,10 @@ struct MeasuredSurfaces
   MeshPart Part;                            ///< the first one is the original; if they are sound
   std::vector<std::uint32_t> Origins;       ///< by triangle of the first mesh
   std::vector<std::uint32_t> SimpleOrigins; ///< of the second
+
+private:
+  std::vector<std::uint32_t> AnyInLeaves(
+    const std::vector<std::int8_t>& surfaces, std::size_t leafCount) const;
 };
 
 }

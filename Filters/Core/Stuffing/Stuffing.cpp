@@ -2,7 +2,6 @@
 #include "Stuffing/Stuffing.h"
 
 #include "Stuffing/Background.h"
-#include "Stuffing/BestChange.h"
 #include "Stuffing/Coarsening.h"
 #include "Stuffing/Improvement.h"
 #include "Stuffing/MovedVertices.h"

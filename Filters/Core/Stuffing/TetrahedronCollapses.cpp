@@ -126,13 +126,6 @@ bool TetrahedronCollapses::Allows(std::uint32_t vertex, std::uint32_t target)
   return this->Mesh.CanCollapse(vertex, target);
 }
 
-/** What was refused for the volume of the whole may be allowed soon, whatever there is around. */
-void TetrahedronCollapses::NoteRefusal(std::uint32_t vertex)
-{
-  this->IsTried[vertex] = !this->IsShortOfVolume[vertex];
-  this->IsShortOfVolume[vertex] = false;
-}
-
 void TetrahedronCollapses::Collapse(std::uint32_t vertex, std::uint32_t target)
 {
   const LocalMesh::Star star = this->Mesh.StarOf(vertex);
@@ -147,6 +140,13 @@ void TetrahedronCollapses::Collapse(std::uint32_t vertex, std::uint32_t target)
     }
   }
   this->Steps.push_back(std::move(step));
+}
+
+/** What was refused for the volume of the whole may be allowed soon, whatever there is around. */
+void TetrahedronCollapses::NoteRefusal(std::uint32_t vertex)
+{
+  this->IsTried[vertex] = !this->IsShortOfVolume[vertex];
+  this->IsShortOfVolume[vertex] = false;
 }
 
 /** The other ends of a vertex's edges into which it could go, the best first. */

@@ -38,9 +38,9 @@ public:
   TetrahedronMesh Take() { return this->Mesh.Take(); }
 
   bool Allows(std::uint32_t vertex, std::uint32_t target) override;
+  void Collapse(std::uint32_t vertex, std::uint32_t target) override;
   void NoteRefusal(std::uint32_t vertex) override;
   bool IsWorthATry(std::uint32_t vertex) const override { return !this->IsTried[vertex]; }
-  void Collapse(std::uint32_t vertex, std::uint32_t target) override;
   std::vector<std::uint32_t> Undo(const std::vector<std::uint32_t>& vertices) override;
 
 private:

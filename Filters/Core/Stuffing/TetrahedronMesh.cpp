@@ -19,17 +19,9 @@ double SmallestSine(const Vector& a, const Vector& b, const Vector& c, const Vec
   const Vector toB = Cross(ad, ac);
   const Vector toC = Cross(ab, ad);
   const Vector toD = Cross(ac, ab);
-  const double squareA = Dot(toA, toA);
-  const double squareB = Dot(toB, toB);
-  const double squareC = Dot(toC, toC);
-  const double squareD = Dot(toD, toD);
-  // At an edge the sine is its length times six volumes by both areas, doubled.
-  const double least =
-    std::min({ Dot(ab, ab) / (squareC * squareD), Dot(ac, ac) / (squareB * squareD),
-      Dot(ad, ad) / (squareB * squareC), Dot(bc, bc) / (squareA * squareD),
-      Dot(bd, bd) / (squareA * squareC), Dot(cd, cd) / (squareA * squareB) });
-  const double sine = Dot(Cross(ab, ac), ad) * std::sqrt(least);
-  return std::isfinite(sine) ? sine : 0.0;
+  return SmallestSine(Dot(Cross(ab, ac), ad),
+    { Dot(ab, ab), Dot(ac, ac), Dot(ad, ad), Dot(bc, bc), Dot(bd, bd), Dot(cd, cd) },
+    { Dot(toA, toA), Dot(toB, toB), Dot(toC, toC), Dot(toD, toD) });
 }
 
 std::array<double, 2> DihedralAngles(

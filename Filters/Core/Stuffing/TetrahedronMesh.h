@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -83,6 +84,22 @@ inline Walls::Type WallsOfFace(const TetrahedronMesh& mesh, const Face& face)
   return mesh.OnWalls[face[0]] & mesh.OnWalls[face[1]] & mesh.OnWalls[face[2]];
 }
 ///@}
+
+/** The smallest sine of the six dihedral angles of (a, b, c, d), from what is known of it; NaN
+ * never.
+ *  @param squaredEdges ab, ac, ad, bc, bd, cd
+ *  @param squaredAreas of the faces opposite to a, b, c and d, of twice the areas */
+inline double SmallestSine(double sixVolumes, const std::array<double, 6>& squaredEdges,
+  const std::array<double, 4>& squaredAreas)
+{
+  const auto& [ab, ac, ad, bc, bd, cd] = squaredEdges;
+  const auto& [toA, toB, toC, toD] = squaredAreas;
+  // At an edge the sine is its length times six volumes by both areas, doubled.
+  const double least = std::min({ ab / (toC * toD), ac / (toB * toD), ad / (toB * toC),
+    bc / (toA * toD), bd / (toA * toC), cd / (toA * toB) });
+  const double sine = sixVolumes * std::sqrt(least);
+  return std::isfinite(sine) ? sine : 0.0;
+}
 
 /** The smallest sine of the six dihedral angles: large if none is near 0 or 180 degrees. Negative
  *  if the tetrahedron is, NaN never. */
