@@ -17,6 +17,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace vtkIsodiamond
 {
@@ -34,7 +35,7 @@ struct WorldQuery
 {
   double ErrorTolerance = 0.0;
   bool HasTarget = false;    ///< whether that tolerance is yet to be found
-  bool OneTolerance = false; ///< whether errors are to be measured for that alone
+  bool OneTolerance = false; ///< whether errors are to be measured for this alone
   double InteriorTolerance = HUGE_VAL;
   /** In the world; the tolerances hold there. */
   std::optional<isodiamond::Box> Region;
@@ -198,10 +199,10 @@ void RefineState(const State& state, const WorldQuery& query, int numberOfThread
           *state.Isodiamonds, CoreQuery(query, *state.Isodiamonds, state.World), parallelFor));
         return;
       }
-      const isodiamond::Encoding answer =
+      isodiamond::Encoded answer =
         isodiamond::EncodeQuery(*state.Scalars, query.Override(state.Chosen).Region(),
           CoreQuery(query, *state.Scalars, state.World), state.ExactIsovertices, parallelFor);
-      const isodiamond::IsodiamondHierarchy hierarchy(answer, parallelFor);
+      const isodiamond::IsodiamondHierarchy hierarchy(answer.Encoding, std::move(answer.Edges));
       use(isodiamond::RefinedSet(hierarchy, {}, parallelFor));
     });
 }

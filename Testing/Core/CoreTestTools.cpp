@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 namespace test
 {
@@ -161,6 +162,19 @@ Built::Built(isodiamond::Encoding encoding, const isodiamond::ParallelFor& paral
   : Encoding(std::move(encoding))
   , Hierarchy(std::make_unique<isodiamond::IsodiamondHierarchy>(this->Encoding, parallelFor))
 {
+}
+
+Built::Built(isodiamond::Encoded encoded, const isodiamond::ParallelFor& parallelFor)
+  : Built(std::move(encoded.Encoding), parallelFor)
+{
+  const isodiamond::IsodiamondHierarchy handedOver(this->Encoding, std::move(encoded.Edges));
+  const bool isVolume = handedOver.Region().IsVolume();
+  for (std::int64_t rank = 0; rank < handedOver.Diamonds().Size(); ++rank)
+  {
+    EXPECT_EQ(handedOver.Edges(rank), this->Hierarchy->Edges(rank));
+    EXPECT_EQ(handedOver.KindOf(rank), this->Hierarchy->KindOf(rank));
+    EXPECT_TRUE(!isVolume || handedOver.UpperEdges(rank) == this->Hierarchy->UpperEdges(rank));
+  }
 }
 
 Built Build(isodiamond::Model model, const Field& field, const isodiamond::BuildOptions& options)

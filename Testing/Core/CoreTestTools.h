@@ -63,6 +63,8 @@ struct Built
   std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy;
 
   Built(isodiamond::Encoding encoding, const isodiamond::ParallelFor& parallelFor);
+  /** Expects that who encoded found the edges that the encoding implies. */
+  Built(isodiamond::Encoded encoded, const isodiamond::ParallelFor& parallelFor);
 };
 Built Build(
   isodiamond::Model model, const Field& field, const isodiamond::BuildOptions& options = {});

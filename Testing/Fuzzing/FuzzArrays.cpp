@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 using namespace isodiamond;
 
@@ -112,9 +113,9 @@ void QueryScalars(const fuzz::Arrays& arrays)
   for (const Query& query : { Query{}, Query{ arrays.Tolerance, arrays.InteriorTolerance },
          RegionQuery(arrays, hierarchy.SampleGrid()) })
   {
-    const Encoding answer =
+    Encoded answer =
       EncodeQuery(hierarchy, header.Region, query, header.ExactIsovertices, SerialFor);
-    Extract(IsodiamondHierarchy(answer, SerialFor), Query{});
+    Extract(IsodiamondHierarchy(answer.Encoding, std::move(answer.Edges)), Query{});
   }
   BuildIsodiamonds(Model::Minimal, hierarchy, header.Region, SerialFor);
 }

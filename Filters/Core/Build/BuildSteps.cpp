@@ -167,7 +167,7 @@ BuildSteps::BuildSteps(const Source& source, SignLattice signs, const Isoregion&
   this->Header.RelevantCount = this->Members.Size() - 8 - this->Header.ActiveCount;
 }
 
-Encoding BuildSteps::PlaceIsovertices(double begin, double end) const
+Encoded BuildSteps::PlaceIsovertices(double begin, double end) const
 {
   Tell(this->Options, "Placing isovertices", begin, end);
   return Encode(this->Header, this->Origin.SampleGrid, this->Origin.Samples, this->Members,

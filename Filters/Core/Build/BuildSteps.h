@@ -33,7 +33,7 @@ public:
   const SignLattice* SignsIfKept() const { return this->Signs ? &*this->Signs : nullptr; }
 
   /** An RI without errors. */
-  Encoding PlaceIsovertices(double begin, double end) const;
+  Encoded PlaceIsovertices(double begin, double end) const;
 
   /** Once isovertices are placed, signs are needed for what lies inside an interval volume only. */
   void DropSigns();

@@ -20,7 +20,7 @@ Encoding BuildByField(Model model, const Source& source, const Isoregion& region
   DiamondCodes codes = steps.MeasureField();
   steps.FindThresholds(codes);
   // Last: less memory at once.
-  return steps.Complete(model, steps.PlaceIsovertices(0.9, 1.0), std::move(codes));
+  return steps.Complete(model, steps.PlaceIsovertices(0.9, 1.0).Encoding, std::move(codes));
 }
 
 Encoding BuildByDistance(Model model, const Source& source, const Isoregion& region,
@@ -30,11 +30,11 @@ Encoding BuildByDistance(Model model, const Source& source, const Isoregion& reg
   const double errorScale = DistanceErrorScale(source.SampleGrid, options.World);
   const BuildSteps steps(source, region, options, errorScale, parallelFor);
   // Distances are measured on it.
-  Encoding relevant = steps.PlaceIsovertices(0.2, 0.25);
-  DiamondCodes codes =
-    steps.MeasureDistances(IsodiamondHierarchy(relevant, parallelFor), Finiteness(source.Samples));
+  Encoded relevant = steps.PlaceIsovertices(0.2, 0.25);
+  DiamondCodes codes = steps.MeasureDistances(
+    IsodiamondHierarchy(relevant.Encoding, std::move(relevant.Edges)), Finiteness(source.Samples));
   steps.FindThresholds(codes);
-  return steps.Complete(model, std::move(relevant), std::move(codes));
+  return steps.Complete(model, std::move(relevant.Encoding), std::move(codes));
 }
 
 Encoding Build(Model model, const Source& source, const Isoregion& region,

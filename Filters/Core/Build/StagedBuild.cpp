@@ -35,10 +35,10 @@ struct StagedBuild::State
       : this->From.FieldScale;
   }
 
-  void SetRelevant(Encoding relevant)
+  void SetRelevant(Encoded relevant)
   {
-    this->Relevant = std::move(relevant);
-    this->Hierarchy.emplace(this->Relevant, this->For);
+    this->Relevant = std::move(relevant.Encoding);
+    this->Hierarchy.emplace(this->Relevant, std::move(relevant.Edges));
   }
 
   /** Goes on with the samples, wherever they are now. */
@@ -255,7 +255,7 @@ StagedBuild StreamedBuild::Finish()
   InStep(peers,
     [&]
     {
-      Encoding relevant = this->Current->Encoder->Finish();
+      Encoded relevant = this->Current->Encoder->Finish();
       this->Current.reset();
       this->Kept->Done->DropSigns();
       this->Kept->SetRelevant(std::move(relevant));

@@ -36,7 +36,7 @@ inline bool HasNoInterpolant(const Grid& grid, const Finiteness& isFinite, const
   if (!has && !isFinite.All())
   {
     const TypeTable& shape = ShapeOf(diamond.Position);
-    ForEachBit(SampledVertices(grid, diamond, shape),
+    ForEachBit(SampledVertices(grid, diamond),
       [&](int i) { has = has || !isFinite(VertexAt(diamond, shape.Offsets[i])); });
   }
   return has;
@@ -48,7 +48,7 @@ template <typename Lengths>
 double SquaredDiameter(const Grid& grid, const Lengths& lengths, const Place& diamond)
 {
   const TypeTable& shape = ShapeOf(diamond.Position);
-  const std::uint32_t vertices = SampledVertices(grid, diamond, shape);
+  const std::uint32_t vertices = SampledVertices(grid, diamond);
   double largest = 0.0;
   const auto vertexAt = [&](int i) { return VertexAt(diamond, shape.Offsets[i]); };
   const auto measure = [&](int a, int b)

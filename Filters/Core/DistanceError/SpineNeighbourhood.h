@@ -118,7 +118,7 @@ private:
   bool IsSampled(const HalfPlace& tetrahedron) const
   {
     const Grid& grid = this->Hierarchy.SampleGrid();
-    const std::uint32_t sampled = SampledVertices(grid, tetrahedron.Parent, tetrahedron.Shape());
+    const std::uint32_t sampled = SampledVertices(grid, tetrahedron.Parent);
     return (tetrahedron.Half->Mask & ~sampled) == 0 && grid.IsSampled(Centre(tetrahedron.Parent));
   }
 

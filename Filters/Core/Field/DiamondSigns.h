@@ -35,6 +35,16 @@ public:
   {
   }
 
+  /** @param above by surface, the sampled vertices that lie above */
+  DiamondSigns(const Isoregion& region, int centreSign, std::uint32_t sampled,
+    const std::array<std::uint32_t, 2>& above)
+    : Surfaces(region.SurfaceCount())
+    , CentreSign(centreSign)
+    , Sampled(sampled)
+    , Above(above)
+  {
+  }
+
   /** By samples. */
   DiamondSigns(
     const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)

@@ -153,27 +153,21 @@ SignLattice::Row SignLattice::Load(int scale, int x0, int y, int z) const
 {
   const Level& level = this->Levels[scale];
   Row row;
-  if (y < 0 || z < 0 || y >= level.Count[1] || z >= level.Count[2])
+  if (y < 0 || z < 0 || y >= level.Count[1] || z >= level.Count[2] || x0 > level.Count[0])
   {
     return row;
   }
-  const std::int64_t first = level.RowIndex(y, z);
-  for (int i = 0; i < 3; ++i) // the sign before the brick's row, its eight, the one after
+  row.Sampled = (1U << std::min(10, level.Count[0] - x0 + 1)) - (x0 == 0 ? 2U : 1U);
+  const std::int64_t word = x0 >> 6;
+  const int bit = x0 & 63;
+  for (int surface = 0; surface < this->Surfaces; ++surface)
   {
-    const int x = i == 0 ? x0 - 1 : (i == 1 ? x0 : x0 + 8);
-    if (x < 0 || x >= level.Count[0])
-    {
-      continue;
-    }
-    const int at = i == 0 ? 0 : (i == 1 ? 1 : 9);
-    const int count = i == 1 ? std::min(8, level.Count[0] - x0) : 1;
-    const std::uint32_t mask = (1U << count) - 1U;
-    for (int surface = 0; surface < this->Surfaces; ++surface)
-    {
-      const std::uint64_t word = level.Bits[surface][first + (x >> 6)];
-      row.Above[surface] |= (static_cast<std::uint32_t>(word >> (x & 63)) & mask) << at;
-    }
-    row.Sampled |= mask << at;
+    const std::uint64_t* const words = level.Bits[surface].data() + level.RowIndex(y, z);
+    const std::uint64_t from = word < level.Words ? words[word] >> bit << 1 : 0; // from x0 on
+    const bool isNext = bit == 56 && word + 1 < level.Words;
+    const std::uint64_t after = isNext ? words[word + 1] << 9 : 0;
+    const std::uint64_t before = x0 > 0 ? words[(x0 - 1) >> 6] >> ((x0 - 1) & 63) & 1U : 0;
+    row.Above[surface] = static_cast<std::uint32_t>(before | from | after) & row.Sampled;
   }
   return row;
 }

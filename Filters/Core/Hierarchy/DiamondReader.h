@@ -5,10 +5,8 @@
 #include "Hierarchy/IsodiamondHierarchy.h"
 #include "Hierarchy/IsovertexPlacement.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 
 namespace isodiamond
 {
@@ -66,8 +64,8 @@ private:
   const SignLattice& Signs;
 };
 
-/** Reads signs, isovertices and inside values of diamonds off the samples, or off those of a slab:
- *  of diamonds all of whose vertices it has. */
+/** Reads signs, inside values and the samples along edges of diamonds off the samples, or off those
+ * of a slab: of diamonds all of whose vertices it has. */
 template <typename T, typename Signs>
 class DiamondReader
 {
@@ -103,86 +101,34 @@ public:
     return this->TheGrid.IsSampled(centre) ? this->SignOf(centre, this->IndexOf(centre)) : 0;
   }
 
-  bool IsInside(const Place& place) const
-  {
-    return this->Region.IsVolume() && this->Sign(place) == InsideSign;
-  }
-
   /** The sample at the centre. */
   T ValueAt(const Place& place) const
   {
     return this->Samples.Pointer()[this->IndexOf(Centre(place))];
   }
 
-  /** The edges of a diamond with an isovertex. */
-  std::uint16_t CrossedEdges(const Place& place) const
+  /** The signs of a diamond's vertices. @param sign its Sign() */
+  DiamondSigns SignsOf(const Place& place, int sign) const
   {
-    std::uint32_t crossed = 0;
     const Point centre = Centre(place);
-    if (this->TheGrid.IsSampled(centre))
-    {
-      const int half = 1 << place.Scale;
-      const bool isWhole = this->TheGrid.IsSampled(centre + Point{ half, half, half }) &&
-        this->TheGrid.IsSampled(centre + Point{ -half, -half, -half });
-      const int sign = this->Sign(place);
-      const int parity = Parity(place.Position);
-      const ParityTable& shape = tables::Parities[parity];
-      for (int i = 0; i < shape.VertexCount; ++i)
-      {
-        if (isWhole || this->TheGrid.IsSampled(centre + half * shape.Offsets[i]))
-        {
-          crossed |= (this->SignOfVertex(place, i) != sign ? 1U : 0U) << i;
-        }
-      }
-    }
-    return static_cast<std::uint16_t>(crossed);
-  }
-
-  /** The number of isovertices of a diamond. @param crossed its CrossedEdges() */
-  int CountIsovertices(const Place& place, std::uint16_t crossed) const
-  {
-    int count = PopCount(crossed);
-    if (this->Region.IsVolume() && crossed != 0)
-    {
-      const int sign = this->Sign(place);
-      ForEachBit(crossed,
-        [&](int vertex)
-        { count += std::abs(sign - this->SignOfVertex(place, vertex)) == 2 ? 1 : 0; });
-    }
-    return count;
-  }
-
-  /** Writes the coefficients of a diamond: those on surface 0, then 1.
-   *  @param edgeOf called with a vertex: the samples along that edge
-   *  @return the end */
-  template <typename EdgeOf>
-  std::uint8_t* WriteIsovertices(
-    const Place& place, std::uint16_t crossed, std::uint8_t* next, const EdgeOf& edgeOf) const
-  {
-    std::array<std::uint8_t, MaximumVertices> upper{};
-    int upperCount = 0;
-    const int sign = this->Sign(place);
-    ForEachBit(crossed,
+    const int half = 1 << place.Scale;
+    const int parity = Parity(place.Position);
+    const ParityTable& shape = tables::Parities[parity];
+    const bool isWhole = this->TheGrid.IsSampled(centre + Point{ half, half, half }) &&
+      this->TheGrid.IsSampled(centre + Point{ -half, -half, -half });
+    const std::uint32_t sampled =
+      isWhole ? (1U << shape.VertexCount) - 1U : SampledVertices(this->TheGrid, place);
+    const std::int64_t index = this->IndexOf(centre);
+    std::array<std::uint32_t, 2> above{};
+    ForEachBit(sampled,
       [&](int vertex)
       {
-        const int otherSign = this->SignOfVertex(place, vertex);
-        const auto edge = edgeOf(vertex);
-        if (std::abs(sign - otherSign) == 2)
-        {
-          const std::array<std::uint8_t, 2> both = IsovertexCoefficients(edge, this->Region);
-          *next++ = both[0];
-          upper[upperCount++] = both[1];
-        }
-        else if (std::min(sign, otherSign) == 0)
-        {
-          *next++ = IsovertexCoefficient(edge, this->Region, 0);
-        }
-        else
-        {
-          upper[upperCount++] = IsovertexCoefficient(edge, this->Region, 1);
-        }
+        const int signOfVertex = this->SignOf(
+          centre + half * shape.Offsets[vertex], index + half * this->Strides[parity][vertex]);
+        above[0] |= static_cast<std::uint32_t>(signOfVertex > 0) << vertex;
+        above[1] |= static_cast<std::uint32_t>(signOfVertex > 1) << vertex;
       });
-    return std::copy(upper.begin(), upper.begin() + upperCount, next);
+    return { this->Region, this->TheGrid.IsSampled(centre) ? sign : -1, sampled, above };
   }
 
   /** An edge in unit steps, or for linear isovertices in one. */
@@ -198,16 +144,6 @@ public:
   }
 
 private:
-  /** The sign of a vertex that has a sample. */
-  int SignOfVertex(const Place& place, int vertex) const
-  {
-    const Point centre = Centre(place);
-    const int half = 1 << place.Scale;
-    const int parity = Parity(place.Position);
-    return this->SignOf(centre + half * tables::Parities[parity].Offsets[vertex],
-      this->IndexOf(centre) + half * this->Strides[parity][vertex]);
-  }
-
   std::int64_t IndexOf(const Point& point) const
   {
     return this->Samples.Index(point) - this->Before;

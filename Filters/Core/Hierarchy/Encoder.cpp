@@ -7,7 +7,7 @@
 namespace isodiamond
 {
 
-Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
+Encoded Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
   const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor,
   const SignLattice* signs)
 {
@@ -19,8 +19,8 @@ Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples
       const auto encode = [&](const auto& signOf)
       {
         const DiamondReader reader(header, grid, view, signOf);
-        passes.Count(reader);
-        passes.WriteIsovertices(0, set.ScaleCount(), EncodingPasses::AllSlices, code, reader,
+        passes.Count(code, reader);
+        passes.WriteIsovertices(0, set.ScaleCount(), EncodingPasses::AllSlices,
           [&](const Place& place, int vertex) { return reader.Edge(place, vertex); });
         passes.MakeRoomForValues<Value>();
         passes.WriteInsideValues(EncodingPasses::AllSlices, reader);

@@ -16,7 +16,7 @@ namespace isodiamond
  * @param signs those to go by where small pieces were removed; null for the samples'. Values inside
  *        are samples all the same
  */
-Encoding Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
+Encoded Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
   const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor,
   const SignLattice* signs = nullptr);
 

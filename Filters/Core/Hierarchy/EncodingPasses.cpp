@@ -13,8 +13,10 @@ EncodingPasses::EncodingPasses(
   , For(parallelFor)
   , Bricks(AllBricks(set))
   , Next(this->Bricks.size() + 1)
+  , Edges(set.Size(), header.Region)
 {
   this->Result.Header = header;
+  this->Result.Arrays.Records.resize(set.Size());
   this->WriteBricks();
 }
 
@@ -34,6 +36,16 @@ void EncodingPasses::WriteBricks()
         arrays.BrickMasks.end(), brick.Occupancy.begin(), brick.Occupancy.end());
     }
   }
+}
+
+void EncodingPasses::Skip(int endScale, const Slices& slices)
+{
+  this->ForEach(0, this->Set.ScaleCount(), slices,
+    [&](std::int64_t brick, const Place& place, std::uint32_t rank)
+    {
+      this->Next[brick].Isovertices += place.Scale < endScale ? this->CountIsovertices(rank) : 0;
+      this->Next[brick].InsideValues += this->IsInside(rank) ? 1 : 0;
+    });
 }
 
 void EncodingPasses::Merge(Peers& peers)

@@ -4,6 +4,7 @@
 
 #include "Field/Peers.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
+#include "Hierarchy/IsovertexPlacement.h"
 
 #include <cstdint>
 #include <utility>
@@ -26,18 +27,18 @@ public:
   EncodingPasses(
     const EncodingHeader& header, const DiamondSet& set, const ParallelFor& parallelFor);
 
-  /** Counts, and makes room. Records hold the crossed edges until they are written. */
+  /** Counts, and makes room; and writes records, all with one code, which need signs only. */
   template <typename Reader>
-  void Count(const Reader& reader)
+  void Count(ErrorCode::Type code, const Reader& reader)
   {
-    this->Result.Arrays.Records.resize(this->Set.Size());
     this->ForEach(0, this->Set.ScaleCount(), AllSlices,
       [&](std::int64_t brick, const Place& place, std::uint32_t rank)
       {
-        const std::uint16_t crossed = reader.CrossedEdges(place);
-        this->Result.Arrays.Records[rank] = crossed;
-        this->Next[brick + 1].Isovertices += reader.CountIsovertices(place, crossed);
-        this->Next[brick + 1].InsideValues += reader.IsInside(place) ? 1 : 0;
+        const int sign = reader.Sign(place);
+        this->Result.Arrays.Records[rank] = Record::Pack(code, sign);
+        this->Edges.Set(rank, reader.SignsOf(place, sign));
+        this->Next[brick + 1].Isovertices += this->CountIsovertices(rank);
+        this->Next[brick + 1].InsideValues += this->IsInside(rank) ? 1 : 0;
       });
     this->MakeRoom();
   }
@@ -50,41 +51,25 @@ public:
   };
   static constexpr Slices AllSlices{ 0, 2 << Grid::MaximumDepth };
 
-  /** Writes isovertices and records of some scales.
+  /** Writes isovertices of some scales.
    *  @param edgeOf called with a place and one of its vertices, the samples along that edge */
-  template <typename Reader, typename EdgeOf>
-  void WriteIsovertices(int firstScale, int endScale, const Slices& slices, ErrorCode::Type code,
-    const Reader& reader, const EdgeOf& edgeOf)
+  template <typename EdgeOf>
+  void WriteIsovertices(int firstScale, int endScale, const Slices& slices, const EdgeOf& edgeOf)
   {
     std::uint8_t* const isovertices = this->Result.Arrays.Isovertices.data();
     this->ForEach(firstScale, endScale, slices,
       [&](std::int64_t brick, const Place& place, std::uint32_t rank)
       {
-        std::uint16_t& record = this->Result.Arrays.Records[rank];
         std::int64_t& next = this->Next[brick].Isovertices;
-        next = reader.WriteIsovertices(place, record, isovertices + next,
-                 [&](int vertex) { return edgeOf(place, vertex); }) -
+        next = PlaceIsovertices(
+                 this->Result.Header.Region, this->Edges.LowerOf(rank), this->Edges.UpperOf(rank),
+                 [&](int vertex) { return edgeOf(place, vertex); }, isovertices + next) -
           isovertices;
-        record = Record::Pack(code, reader.Sign(place));
       });
   }
 
-  /** Passes over what peers write: places are kept free, but for records, which need signs only. */
-  template <typename Reader>
-  void Skip(int endScale, const Slices& slices, ErrorCode::Type code, const Reader& reader)
-  {
-    this->ForEach(0, this->Set.ScaleCount(), slices,
-      [&](std::int64_t brick, const Place& place, std::uint32_t rank)
-      {
-        std::uint16_t& record = this->Result.Arrays.Records[rank];
-        if (place.Scale < endScale)
-        {
-          this->Next[brick].Isovertices += reader.CountIsovertices(place, record);
-          record = Record::Pack(code, reader.Sign(place));
-        }
-        this->Next[brick].InsideValues += reader.IsInside(place) ? 1 : 0;
-      });
-  }
+  /** Passes over what peers write: places are kept free. */
+  void Skip(int endScale, const Slices& slices);
 
   /** Puts together what peers have written. */
   void Merge(Peers& peers);
@@ -106,17 +91,17 @@ public:
     }
     auto& values = std::get<std::vector<typename Reader::Value>>(this->Result.InsideValues);
     this->ForEach(0, this->Set.ScaleCount(), slices,
-      [&](std::int64_t brick, const Place& place, std::uint32_t /*rank*/)
+      [&](std::int64_t brick, const Place& place, std::uint32_t rank)
       {
-        if (reader.IsInside(place))
+        if (this->IsInside(rank))
         {
           values[this->Next[brick].InsideValues++] = reader.ValueAt(place);
         }
       });
   }
 
-  /** Calls body(place, mask of its crossed edges) for diamonds from a scale on that are counted,
-   * but not written yet, one after the other. */
+  /** Calls body(place, mask of the edges with isovertices) for diamonds from a scale on that are
+   *  counted, one after the other. */
   template <typename Body>
   void ForEachCounted(int firstScale, const Body& body) const
   {
@@ -126,12 +111,12 @@ public:
       {
         this->Set.ForEachInBrick(scale, brick,
           [&](const Place& place, std::uint32_t rank)
-          { body(place, this->Result.Arrays.Records[rank]); });
+          { body(place, this->Edges.LowerOf(rank) | this->Edges.UpperOf(rank)); });
       }
     }
   }
 
-  Encoding Take() { return std::move(this->Result); }
+  Encoded Take() { return { std::move(this->Result), std::move(this->Edges) }; }
 
 private:
   /** What the bricks before a brick hold; while writing, also what it has written. */
@@ -143,6 +128,16 @@ private:
 
   void WriteBricks();
   void MakeRoom();
+
+  int CountIsovertices(std::int64_t rank) const
+  {
+    return PopCount(this->Edges.LowerOf(rank)) + PopCount(this->Edges.UpperOf(rank));
+  }
+  bool IsInside(std::int64_t rank) const
+  {
+    return this->Result.Header.Region.IsVolume() &&
+      Record::Sign(this->Result.Arrays.Records[rank]) == InsideSign;
+  }
 
   /** Calls body(number of the brick, place, rank) for the diamonds of some scales with their centre
    *  in some slices; those of a brick in order. */
@@ -177,6 +172,7 @@ private:
   std::vector<BrickPlace> Bricks;
   std::vector<Offset> Next; ///< by brick, and the sums
   Encoding Result;
+  DiamondEdges Edges;
 };
 
 }

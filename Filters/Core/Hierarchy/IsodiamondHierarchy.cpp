@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace isodiamond
 {
@@ -71,6 +72,18 @@ std::int64_t EncodingView::StorageSize() const
 
 IsodiamondHierarchy::IsodiamondHierarchy(
   const EncodingView& encoding, const ParallelFor& parallelFor)
+  : IsodiamondHierarchy(encoding)
+{
+  this->Complete(this->DeriveEdges(parallelFor));
+}
+
+IsodiamondHierarchy::IsodiamondHierarchy(const EncodingView& encoding, DiamondEdges edges)
+  : IsodiamondHierarchy(encoding)
+{
+  this->Complete(std::move(edges));
+}
+
+IsodiamondHierarchy::IsodiamondHierarchy(const EncodingView& encoding)
   : View(encoding)
   , TheGrid(CheckedGrid(encoding))
   , Set(this->TheGrid)
@@ -86,8 +99,11 @@ IsodiamondHierarchy::IsodiamondHierarchy(
   this->ReadBricks();
   this->CheckRecords();
   this->CheckFollowers();
+}
 
-  this->DeriveAllEdges(parallelFor);
+void IsodiamondHierarchy::Complete(DiamondEdges edges)
+{
+  this->DerivedEdges = std::move(edges);
   this->CountByKind();
   this->CheckOrderOnEdges();
   this->CountInsideValues();
@@ -109,67 +125,101 @@ public:
     const int h = 1 << scale;
     this->IsWhole = hierarchy.TheGrid.IsSampled(h * low) && hierarchy.TheGrid.IsSampled(h * high);
     this->First = Index(low);
-    this->Signs.fill(Unknown);
+    this->Above.fill(Unknown);
     hierarchy.Set.ForEachInBrick(scale, brick,
-      [&](const Place& place, std::uint32_t rank) {
-        this->Signs[this->IndexOf(place.Position)] = static_cast<std::int8_t>(hierarchy.Sign(rank));
-      });
+      [&](const Place& place, std::uint32_t rank)
+      { this->Above[this->IndexOf(place.Position)] = AboveOf(hierarchy.Sign(rank)); });
   }
 
   /** Of the vertices of a diamond that have samples. */
   DiamondSigns Of(const Place& diamond, std::int64_t rank)
   {
     const Grid& grid = this->Hierarchy.TheGrid;
+    const int parity = Parity(diamond.Position);
+    const ParityTable& shape = tables::Parities[parity];
     const bool hasCentre = this->IsWhole || grid.IsSampled(Centre(diamond));
-    DiamondSigns signs(this->Hierarchy.Region(), hasCentre ? this->Hierarchy.Sign(rank) : -1);
-    const ParityTable& shape = tables::Parities[Parity(diamond.Position)];
-    const int index = this->IndexOf(diamond.Position);
-    for (int i = 0; i < shape.VertexCount; ++i)
-    {
-      if (this->IsWhole || grid.IsSampled(VertexAt(diamond, shape.Offsets[i])))
-      {
-        std::int8_t& sign = this->Signs[index + Index(shape.Offsets[i])];
-        if (sign == Unknown)
-        {
-          sign = this->LookUp(diamond.Position + shape.Offsets[i]);
-        }
-        signs.AddVertex(i, sign);
-      }
-    }
-    return signs;
+    const std::uint32_t sampled =
+      this->IsWhole ? (1U << shape.VertexCount) - 1U : SampledVertices(grid, diamond);
+    return { this->Hierarchy.Region(), hasCentre ? this->Hierarchy.Sign(rank) : -1, sampled,
+      this->AboveAround(diamond.Position, shape, Distances[parity], sampled) };
   }
 
 private:
-  static constexpr std::int8_t Unknown = -1;
   static constexpr int Width = 10;
+  /** A point lies above the surfaces whose bits are set. */
+  static constexpr std::uint8_t Unknown = 0x80;
 
-  std::int8_t LookUp(const Point& position) const
+  static std::uint8_t AboveOf(int sign) { return static_cast<std::uint8_t>((1 << sign) - 1); }
+
+  /** By surface, the vertices that lie above. */
+  std::array<std::uint32_t, 2> AboveAround(const Point& position, const ParityTable& shape,
+    const std::array<std::int16_t, MaximumVertices>& distances, std::uint32_t sampled)
+  {
+    std::uint8_t* const centre = this->Above.data() + this->IndexOf(position);
+    std::array<std::uint32_t, 2> above{};
+    std::uint32_t unknown = 0;
+    for (int i = 0; i < MaximumVertices; ++i) // those beyond the last vertex repeat the centre
+    {
+      const std::uint32_t bits = centre[distances[i]];
+      above[0] |= (bits & 1U) << i;
+      above[1] |= ((bits >> 1) & 1U) << i;
+      unknown |= (bits >> 7) << i;
+    }
+    ForEachBit(unknown & sampled,
+      [&](int vertex)
+      {
+        const std::uint8_t bits = AboveOf(this->LookUp(position + shape.Offsets[vertex]));
+        centre[distances[vertex]] = bits;
+        above[0] |= (bits & 1U) << vertex;
+        above[1] |= ((bits >> 1) & 1U) << vertex;
+      });
+    return { above[0] & sampled, above[1] & sampled };
+  }
+
+  int LookUp(const Point& position) const
   {
     const std::int64_t rank =
       Parity(position) != 0 ? this->Window.Rank(position) : std::int64_t{ DiamondSet::None };
-    return static_cast<std::int8_t>(rank != DiamondSet::None
-        ? this->Hierarchy.Sign(rank)
-        : this->Hierarchy.SignAt({ this->Scale, position }));
+    return rank != DiamondSet::None ? this->Hierarchy.Sign(rank)
+                                    : this->Hierarchy.SignAt({ this->Scale, position });
   }
 
-  static int Index(const Point& offset)
+  static constexpr int Index(const Point& offset)
   {
     return offset[0] + Width * (offset[1] + Width * offset[2]);
   }
   int IndexOf(const Point& position) const { return Index(position) - this->First; }
 
+  /** From a diamond to its vertices, by parity. */
+  static constexpr std::array<std::array<std::int16_t, MaximumVertices>, 8> MakeDistances()
+  {
+    std::array<std::array<std::int16_t, MaximumVertices>, 8> distances{};
+    for (int parity = 1; parity < 8; ++parity)
+    {
+      for (int i = 0; i < tables::Parities[parity].VertexCount; ++i)
+      {
+        distances[parity][i] =
+          static_cast<std::int16_t>(Index(tables::Parities[parity].Offsets[i]));
+      }
+    }
+    return distances;
+  }
+  static const std::array<std::array<std::int16_t, MaximumVertices>, 8> Distances;
+
   const IsodiamondHierarchy& Hierarchy;
   int Scale;
   BrickWindow Window;
-  int First = 0;        ///< Index() of the first point
-  bool IsWhole = false; ///< whether all points have samples
-  std::array<std::int8_t, Width * Width * Width> Signs;
+  int First = 0;                                         ///< Index() of the first point
+  bool IsWhole = false;                                  ///< whether all points have samples
+  std::array<std::uint8_t, Width * Width * Width> Above; ///< or Unknown
 };
 
-void IsodiamondHierarchy::DeriveAllEdges(const ParallelFor& parallelFor)
+constexpr std::array<std::array<std::int16_t, MaximumVertices>, 8>
+  IsodiamondHierarchy::BrickSigns::Distances = BrickSigns::MakeDistances();
+
+DiamondEdges IsodiamondHierarchy::DeriveEdges(const ParallelFor& parallelFor) const
 {
-  this->EdgesAndKinds.resize(this->Set.Size());
-  this->EdgesOfUpper.resize(this->Region().IsVolume() ? this->Set.Size() : 0);
+  DiamondEdges edges(this->Set.Size(), this->Region());
   for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
   {
     const std::vector<Brick>& bricks = this->Set.Level(scale).Bricks;
@@ -178,18 +228,10 @@ void IsodiamondHierarchy::DeriveAllEdges(const ParallelFor& parallelFor)
       {
         BrickSigns signs(*this, scale, bricks[i]);
         this->Set.ForEachInBrick(scale, bricks[i],
-          [&](const Place& place, std::uint32_t rank)
-          {
-            const DiamondSigns ofDiamond = signs.Of(place, rank);
-            this->EdgesAndKinds[rank] = static_cast<std::uint16_t>(ofDiamond.CrossedEdges(0) |
-              (static_cast<std::uint32_t>(ofDiamond.KindOfDiamond()) << 12));
-            if (this->Region().IsVolume())
-            {
-              this->EdgesOfUpper[rank] = static_cast<std::uint16_t>(ofDiamond.CrossedEdges(1));
-            }
-          });
+          [&](const Place& place, std::uint32_t rank) { edges.Set(rank, signs.Of(place, rank)); });
       });
   }
+  return edges;
 }
 
 /** Where each diamond's isovertices begin, and the counts by kind. */
@@ -278,9 +320,9 @@ void IsodiamondHierarchy::FindHighestThresholds()
 
 std::int64_t IsodiamondHierarchy::DerivedSize() const
 {
-  std::int64_t size = static_cast<std::int64_t>(2 * this->EdgesAndKinds.size() +
-    2 * this->EdgesOfUpper.size() + 8 * this->FirstInside.size() + 4 * this->FirstIsovertex.size() +
-    sizeof(Thresholds) * this->Highest.size());
+  std::int64_t size = static_cast<std::int64_t>(2 * this->DerivedEdges.LowerAndKinds.size() +
+    2 * this->DerivedEdges.Upper.size() + 8 * this->FirstInside.size() +
+    4 * this->FirstIsovertex.size() + sizeof(Thresholds) * this->Highest.size());
   for (int scale = 0; scale < this->Set.ScaleCount(); ++scale)
   {
     const BrickLevel& level = this->Set.Level(scale);

@@ -2,8 +2,8 @@
 #ifndef isodiamond_IsodiamondHierarchy_h
 #define isodiamond_IsodiamondHierarchy_h
 
-#include "Field/DiamondSigns.h"
 #include "Field/Parallel.h"
+#include "Hierarchy/DiamondEdges.h"
 #include "Hierarchy/ErrorCode.h"
 #include "Lattice/DiamondSet.h"
 
@@ -160,6 +160,13 @@ struct Encoding
   AnyValues InsideValues;
 };
 
+/** What encoding comes to. */
+struct Encoded
+{
+  isodiamond::Encoding Encoding;
+  DiamondEdges Edges;
+};
+
 struct EncodingView
 {
   EncodingHeader Header;
@@ -187,6 +194,9 @@ public:
   /** Checks the encoding and derives what it implies.
    *  @throws std::invalid_argument naming what is wrong with the encoding. */
   IsodiamondHierarchy(const EncodingView& encoding, const ParallelFor& parallelFor);
+
+  /** The same, by who has just encoded it. */
+  IsodiamondHierarchy(const EncodingView& encoding, DiamondEdges edges);
 
   const EncodingHeader& Header() const { return this->View.Header; }
   const Grid& SampleGrid() const { return this->TheGrid; }
@@ -223,10 +233,10 @@ public:
   const Thresholds& HighestOfBrick(std::int64_t brick) const { return this->Highest[brick]; }
 
   /** Mask of the subdivision edges that the isosurface, or the lower surface, crosses. */
-  std::uint32_t Edges(std::int64_t rank) const { return this->EdgesAndKinds[rank] & AllEdges; }
+  std::uint32_t Edges(std::int64_t rank) const { return this->DerivedEdges.LowerOf(rank); }
 
   /** Mask of the subdivision edges that the upper surface crosses; interval volumes only. */
-  std::uint32_t UpperEdges(std::int64_t rank) const { return this->EdgesOfUpper[rank]; }
+  std::uint32_t UpperEdges(std::int64_t rank) const { return this->DerivedEdges.Upper[rank]; }
 
   /** The subdivision edges that make a half-tetrahedron carry something: it does if it has one of
    *  them. All if the centre lies inside the interval volume. */
@@ -238,10 +248,7 @@ public:
     }
     return this->Sign(rank) == InsideSign ? AllEdges : this->Edges(rank) | this->UpperEdges(rank);
   }
-  Kind KindOf(std::int64_t rank) const
-  {
-    return static_cast<Kind>(this->EdgesAndKinds[rank] >> 12);
-  }
+  Kind KindOf(std::int64_t rank) const { return this->DerivedEdges.KindOf(rank); }
 
   /** The coefficients of a diamond's isovertices, in the order of its edges: those on surface 0,
    *  then those on surface 1. */
@@ -276,10 +283,12 @@ public:
 private:
   class BrickSigns;
 
+  explicit IsodiamondHierarchy(const EncodingView& encoding);
   void ReadBricks();
   void CheckRecords() const;
   void CheckFollowers() const;
-  void DeriveAllEdges(const ParallelFor& parallelFor);
+  DiamondEdges DeriveEdges(const ParallelFor& parallelFor) const;
+  void Complete(DiamondEdges edges);
   void CountByKind();
   void CheckOrderOnEdges() const;
   void CountInsideValues();
@@ -291,9 +300,8 @@ private:
   DiamondSet Set;
   isodiamond::ErrorCode Code;
   isodiamond::ErrorCode InteriorCode;
-  std::vector<std::uint16_t> EdgesAndKinds;
-  std::vector<std::uint16_t> EdgesOfUpper; ///< interval volumes only
-  std::vector<std::int64_t> FirstInside;   ///< interval volumes only: by brick, and the total
+  DiamondEdges DerivedEdges;
+  std::vector<std::int64_t> FirstInside; ///< interval volumes only: by brick, and the total
   std::vector<std::uint32_t> FirstIsovertex;
   std::vector<Thresholds> Highest; ///< by brick
   std::array<std::int64_t, 3> Counts{};

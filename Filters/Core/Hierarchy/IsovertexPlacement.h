@@ -137,7 +137,7 @@ double Crossing(const Edge& edge, int i, double isovalue)
 /** A position on an edge, in steps, as coefficient. */
 inline std::uint8_t Code(double position, int steps)
 {
-  const double code = std::floor(256.0 * position / steps + 0.5);
+  const double code = 256.0 * position / steps + 0.5; // what is positive is rounded by being cut
   return static_cast<std::uint8_t>(std::clamp(code, 1.0, 255.0));
 }
 
@@ -156,11 +156,13 @@ std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int
   const int steps = edge.Steps();
   const double isovalue = region.Isovalue(surface);
   const bool isBracketed = placement::IsBracketed(edge, region, surface, 0, steps);
-  if (steps == 1 || !placement::HasFiniteEnds(edge))
+  if (!placement::HasFiniteEnds(edge) || (steps == 1 && !isBracketed))
   {
-    return isBracketed && placement::HasFiniteEnds(edge)
-      ? placement::Code(placement::Crossing(edge, 0, isovalue), 1)
-      : std::uint8_t{ 128 };
+    return 128;
+  }
+  if (steps == 1)
+  {
+    return placement::Code(placement::Crossing(edge, 0, isovalue), 1);
   }
   const double along = (isovalue - edge(0)) / (edge(steps) - edge(0));
   const double guess = steps * (isBracketed && along == along ? along : 0.5); // or NaN by overflow
@@ -229,6 +231,34 @@ std::array<std::uint8_t, 2> IsovertexCoefficients(const Edge& edge, const Isoreg
     farther = static_cast<std::uint8_t>(nearer + 1);
   }
   return both;
+}
+
+/** Writes the coefficients of a diamond's isovertices: those on surface 0, then 1.
+ *  @param lower, upper masks of the edges that these cross
+ *  @param edgeOf called with a vertex: that edge @return the end */
+template <typename EdgeOf>
+std::uint8_t* PlaceIsovertices(const Isoregion& region, std::uint32_t lower, std::uint32_t upper,
+  const EdgeOf& edgeOf, std::uint8_t* next)
+{
+  std::uint8_t* nextUpper = next + PopCount(lower);
+  ForEachBit(lower | upper,
+    [&](int vertex)
+    {
+      const bool isOnLower = ((lower >> vertex) & 1U) != 0;
+      const bool isOnUpper = ((upper >> vertex) & 1U) != 0;
+      if (isOnLower && isOnUpper)
+      {
+        const std::array<std::uint8_t, 2> both = IsovertexCoefficients(edgeOf(vertex), region);
+        *next++ = both[0];
+        *nextUpper++ = both[1];
+      }
+      else
+      {
+        (isOnLower ? *next++ : *nextUpper++) =
+          IsovertexCoefficient(edgeOf(vertex), region, isOnLower ? 0 : 1);
+      }
+    });
+  return nextUpper;
 }
 
 }

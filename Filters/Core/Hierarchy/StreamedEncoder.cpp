@@ -5,33 +5,21 @@
 
 namespace isodiamond
 {
-namespace
-{
-
-/** For what only signs are needed of. */
-template <typename Signs>
-DiamondReader<std::uint8_t, Signs> ReaderOfSigns(
-  const EncodingHeader& header, const Grid& grid, const Signs& signs)
-{
-  return { header, grid, SampleView<std::uint8_t>(nullptr, grid.Dimensions()), signs };
-}
-
-}
-
 StreamedEncoder::StreamedEncoder(const EncodingHeader& header, const Grid& grid,
   const DiamondSet& set, ErrorCode::Type code, const SignLattice& signs,
   const ParallelFor& parallelFor)
   : Header(header)
   , TheGrid(grid)
   , Set(set)
-  , Code(code)
   , Signs(signs)
   , Passes(header, set, parallelFor)
   , Gathered(grid.Dimensions(), {})
 {
   static_assert(1 << (FirstLongScale - 1) == Overlap, "a slab has all of the short edges");
   const LatticeSigns<std::uint8_t> signOf(signs);
-  this->Passes.Count(ReaderOfSigns(header, grid, signOf));
+  this->Passes.Count(code,
+    DiamondReader(
+      header, grid, SampleView<std::uint8_t>(nullptr, grid.Dimensions()), signOf)); // signs only
   this->Gathered = this->WantedSamples();
 }
 
@@ -49,7 +37,7 @@ GatheredSamples StreamedEncoder::WantedSamples() const
 {
   std::vector<std::int64_t> wanted;
   this->Passes.ForEachCounted(FirstLongScale,
-    [&](const Place& place, std::uint16_t crossed)
+    [&](const Place& place, std::uint32_t crossed)
     {
       ForEachBit(crossed,
         [&](int vertex)
@@ -76,7 +64,7 @@ void StreamedEncoder::Add(const SampleSlab& slab, const EncodingPasses::Slices& 
         this->Passes.MakeRoomForValues<Value>();
         this->HasValues = true;
       }
-      this->Passes.WriteIsovertices(0, FirstLongScale, slices, this->Code, reader,
+      this->Passes.WriteIsovertices(0, FirstLongScale, slices,
         [&](const Place& place, int vertex) { return reader.Edge(place, vertex); });
       this->Passes.WriteInsideValues(slices, reader);
     },
@@ -85,9 +73,7 @@ void StreamedEncoder::Add(const SampleSlab& slab, const EncodingPasses::Slices& 
 
 void StreamedEncoder::Skip(const EncodingPasses::Slices& slices)
 {
-  const LatticeSigns<std::uint8_t> signOf(this->Signs);
-  this->Passes.Skip(
-    FirstLongScale, slices, this->Code, ReaderOfSigns(this->Header, this->TheGrid, signOf));
+  this->Passes.Skip(FirstLongScale, slices);
 }
 
 void StreamedEncoder::Merge(Peers& peers)
@@ -96,11 +82,9 @@ void StreamedEncoder::Merge(Peers& peers)
   this->Gathered.Merge(peers);
 }
 
-Encoding StreamedEncoder::Finish()
+Encoded StreamedEncoder::Finish()
 {
-  const LatticeSigns<std::uint8_t> signOf(this->Signs);
   this->Passes.WriteIsovertices(FirstLongScale, this->Set.ScaleCount(), EncodingPasses::AllSlices,
-    this->Code, ReaderOfSigns(this->Header, this->TheGrid, signOf),
     [&](const Place& place, int vertex) { return this->LongEdge(&this->Gathered, place, vertex); });
   return this->Passes.Take();
 }

@@ -38,7 +38,7 @@ public:
   void Merge(Peers& peers);
 
   /** Once all slices have come. */
-  Encoding Finish();
+  Encoded Finish();
 
 private:
   /** Scales from this on have long edges. */
@@ -50,7 +50,6 @@ private:
   const EncodingHeader Header;
   const Grid& TheGrid;
   const DiamondSet& Set;
-  ErrorCode::Type Code;
   const SignLattice& Signs;
   EncodingPasses Passes;
   GatheredSamples Gathered;

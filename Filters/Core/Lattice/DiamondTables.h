@@ -513,8 +513,9 @@ inline constexpr Place ParentPlace(const TypeTable& shape, const Place& child, i
 }
 
 /** The vertices of a diamond that have a sample, as an edge mask. */
-inline std::uint32_t SampledVertices(const Grid& grid, const Place& place, const TypeTable& shape)
+inline std::uint32_t SampledVertices(const Grid& grid, const Place& place)
 {
+  const ParityTable& shape = tables::Parities[Parity(place.Position)];
   std::uint32_t mask = 0;
   for (int i = 0; i < shape.VertexCount; ++i)
   {

@@ -149,8 +149,7 @@ inline LeafParent MakeLeafParent(const RefinedBrick& brick, const Place& place, 
   HalfTetrahedronMask leaves = HalvesOfChildren(children) & HalvesWithAny(masks(wanted));
   if (!brick.IsInner(place))
   {
-    const std::uint32_t sampled =
-      SampledVertices(brick.Hierarchy().SampleGrid(), place, tables::Types[type]);
+    const std::uint32_t sampled = SampledVertices(brick.Hierarchy().SampleGrid(), place);
     leaves &= ~HalvesWithAny(masks(AllEdges & ~sampled));
   }
   return { place, rank, type, leaves };

@@ -52,7 +52,7 @@ DiamondMask RefineScalars(const ScalarHierarchy& hierarchy, const Isoregion& reg
 
 }
 
-Encoding EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, const Query& query,
+Encoded EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, const Query& query,
   bool exactIsovertices, const ParallelFor& parallelFor)
 {
   const Grid& grid = hierarchy.SampleGrid();

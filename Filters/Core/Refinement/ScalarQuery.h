@@ -14,7 +14,7 @@ namespace isodiamond
  * Extracting it, at any tolerance, gives the query's mesh. The set is closed, so all vertices of
  * its diamonds are centres of diamonds of the set.
  */
-Encoding EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, const Query& query,
+Encoded EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, const Query& query,
   bool exactIsovertices, const ParallelFor& parallelFor);
 
 }

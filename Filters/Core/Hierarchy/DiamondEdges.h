@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DiamondEdges_h
+#define isodiamond_DiamondEdges_h
+
+#include "Field/DiamondSigns.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** What the signs of vertices say of the diamonds of a hierarchy, by rank. No encoding has it: who
+ *  encodes finds it on the way, else it is derived. */
+struct DiamondEdges
+{
+  /** Mask of the subdivision edges that the isosurface, or the lower surface, crosses; and from bit
+   *  12 on the kind. */
+  std::vector<std::uint16_t> LowerAndKinds;
+  std::vector<std::uint16_t> Upper; ///< those that the upper one crosses; interval volumes only
+
+  DiamondEdges() = default;
+  DiamondEdges(std::int64_t size, const Isoregion& region)
+    : LowerAndKinds(size)
+    , Upper(region.IsVolume() ? size : 0)
+  {
+  }
+
+  void Set(std::int64_t rank, const DiamondSigns& signs)
+  {
+    this->LowerAndKinds[rank] = static_cast<std::uint16_t>(
+      signs.CrossedEdges(0) | (static_cast<std::uint32_t>(signs.KindOfDiamond()) << 12));
+    if (!this->Upper.empty())
+    {
+      this->Upper[rank] = static_cast<std::uint16_t>(signs.CrossedEdges(1));
+    }
+  }
+
+  std::uint32_t LowerOf(std::int64_t rank) const { return this->LowerAndKinds[rank] & AllEdges; }
+  /** None of an isosurface. */
+  std::uint32_t UpperOf(std::int64_t rank) const
+  {
+    return this->Upper.empty() ? 0 : this->Upper[rank];
+  }
+  Kind KindOf(std::int64_t rank) const
+  {
+    return static_cast<Kind>(this->LowerAndKinds[rank] >> 12);
+  }
+};
+
+}
+
+#endif
