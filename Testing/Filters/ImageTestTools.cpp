@@ -3,6 +3,7 @@
 
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
+#include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkCell.h"
 #include "vtkDataArray.h"
@@ -222,6 +223,17 @@ void AddWrongColours(vtkMapper* mapper, std::vector<ViewFault>& faults)
   }
 }
 
+/** Not those of points that no cell has: VTK 9.1's vtkExtractGeometry leaves some. */
+vtkBoundingBox BoundsOfCells(vtkDataSet* data)
+{
+  vtkBoundingBox box;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    box.AddBounds(data->GetCell(cell)->GetBounds());
+  }
+  return box;
+}
+
 }
 
 Scene::Scene(int views)
@@ -242,6 +254,7 @@ vtkActor* Scene::Add(vtkAlgorithmOutput* data)
   vtkNew<vtkDataSetMapper> mapper;
   mapper->SetInputConnection(data);
   mapper->ScalarVisibilityOff();
+  mapper->Update();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(PlainColour[0], PlainColour[1], PlainColour[2]);
@@ -249,7 +262,9 @@ vtkActor* Scene::Add(vtkAlgorithmOutput* data)
   renderer->GetActiveCamera()->SetPosition(Camera[0], Camera[1], Camera[2]);
   renderer->GetActiveCamera()->SetFocalPoint(0, 0, 0);
   renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
-  renderer->ResetCamera();
+  double bounds[6];
+  BoundsOfCells(mapper->GetInput()).GetBounds(bounds);
+  renderer->ResetCamera(bounds);
   renderer->GetActiveCamera()->Zoom(1.1);
   this->Window->AddRenderer(renderer);
   this->AllActors.emplace_back(actor);
