@@ -41,20 +41,6 @@ bool AreVolumes(const std::vector<isodiamond::Isoregion>& regions)
   return !regions.empty() && regions.front().IsVolume();
 }
 
-/** The tolerance of the hierarchy's mesh, if a query asks for one alone, and nothing else depends
- * on errors. */
-std::optional<double> OnlyTolerance(
-  const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::Volume& volume, bool refinesInterior)
-{
-  if (!query.OneTolerance || query.IsFull() || query.HasTarget || query.Region || query.View ||
-    query.SimulationQuality || refinesInterior)
-  {
-    return std::nullopt;
-  }
-  return vtkIsodiamond::HierarchyTolerance(
-    query, isodiamond::ErrorMetric::Distance, volume.Placement.World);
-}
-
 /** Which hierarchy a query needs. Interior tolerances from the extent of the values on need nothing
  *  inside. */
 vtkIsodiamond::Cache::Need NeedOf(
@@ -67,8 +53,15 @@ vtkIsodiamond::Cache::Need NeedOf(
   };
   const bool refinesInterior =
     query.InteriorTolerance < VTK_DOUBLE_MAX && query.InteriorTolerance < extent();
-  const std::optional<double> only = OnlyTolerance(query, volume, refinesInterior);
-  return { !query.IsFull() && !only, refinesInterior, only };
+  vtkIsodiamond::Cache::Need need{ !query.IsFull(), refinesInterior };
+  // Tetrahedra for simulations are refined once more where they are too far away.
+  if (need.AllErrors && query.OneTolerance && !query.HasTarget && !query.SimulationQuality &&
+    !refinesInterior)
+  {
+    need.AllErrors = false;
+    need.Only = query;
+  }
+  return need;
 }
 
 }

@@ -91,15 +91,14 @@ public:
 
   ///@{
   /**
-   * Measure errors no farther than the mesh of the tolerance that is set needs: it comes in a fifth
-   * to two fifths of the time that it takes with all of them, but so does every other tolerance,
-   * where all are there at once else. For scripts, and for time steps that are looked at once. The
-   * mesh keeps the tolerance as any does, mostly with a few cells less. The field data have no
-   * table of tolerances.
+   * Measure errors no farther than the mesh that is asked for needs: it comes in a fifth to two
+   * fifths of the time that it takes with all of them, but so does that of every other tolerance,
+   * region of interest or viewpoint, where all are there at once else. For scripts, and for time
+   * steps that are looked at once. The mesh keeps the tolerances as any does, mostly with a few
+   * cells less. The field data have no table of tolerances.
    *
-   * By the distance metric, for uniform tolerances. Without effect with a target, a region of
-   * interest, a viewpoint, an interior tolerance, of interval volumes with SimulationQuality or
-   * hidden cells: these need all errors. Default: off.
+   * By the distance metric. Without effect with a target, an interior tolerance, of interval
+   * volumes with SimulationQuality or hidden cells: these need all errors. Default: off.
    */
   vtkSetMacro(OneTolerance, bool);
   vtkGetMacro(OneTolerance, bool);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Cache.h"
 
+#include "Private/HierarchyQuery.h"
 #include "Private/Slabs.h"
+#include "Refinement/LocalTolerance.h"
 
 #include "vtkUnsignedCharArray.h"
 
@@ -32,6 +34,34 @@ bool HaveSameLengths(const isodiamond::GridGeometry& a, const isodiamond::GridGe
   return std::equal(mapA->Rows.begin(), mapA->Rows.end(), mapB->Rows.begin(),
     [](const auto& rowA, const auto& rowB)
     { return std::equal(rowA.begin(), rowA.begin() + 3, rowB.begin()); });
+}
+
+/** Whether two worlds are the same, but for the padding of grids. */
+bool AreSame(const isodiamond::GridGeometry& a, const isodiamond::GridGeometry& b)
+{
+  const isodiamond::AffineMap* mapA = a.Affine();
+  const isodiamond::AffineMap* mapB = b.Affine();
+  return mapA && mapB ? mapA->Rows == mapB->Rows : HaveSameLengths(a, b);
+}
+
+/** Whether two queries tolerate the same of a hierarchy, everywhere in the world. */
+bool TolerateTheSame(const WorldQuery& a, const WorldQuery& b)
+{
+  const auto haveSameRegion = [&]
+  {
+    return a.Region.has_value() == b.Region.has_value() &&
+      (!a.Region ||
+        (a.Region->Minimum == b.Region->Minimum && a.Region->Maximum == b.Region->Maximum &&
+          a.OutsideErrorTolerance == b.OutsideErrorTolerance));
+  };
+  const auto haveSameView = [&]
+  {
+    return a.View.has_value() == b.View.has_value() &&
+      (!a.View ||
+        (a.View->Position == b.View->Position &&
+          a.View->TolerancePerDistance == b.View->TolerancePerDistance));
+  };
+  return a.ErrorTolerance == b.ErrorTolerance && haveSameRegion() && haveSameView();
 }
 
 /** Whether hierarchies built in one way can stand for those built in another. */
@@ -130,15 +160,29 @@ void Cache::MeasureErrors(const Volume& volume, Task& task)
     });
 }
 
-void Cache::RefineTo(double tolerance, const Volume& volume, Task& task)
+void Cache::RefineTo(const WorldQuery& only, const Volume& volume, Task& task)
 {
+  const isodiamond::GridGeometry& world = volume.Placement.World;
+  const Entry& first = this->Entries.front();
+  const isodiamond::IsodiamondHierarchy& hierarchy = first.Current();
+  const WorldQuery query = HierarchyQuery(only, Measure(hierarchy), world);
+  const bool isKnown = first.RefinedTo && TolerateTheSame(*first.RefinedTo, query) &&
+    ((!query.Region && !query.View) || AreSame(first.RefinedIn, world));
+  if (!isodiamond::IsAnywhere(PeersOf(volume), !isKnown))
+  {
+    return;
+  }
   this->ChangeFirst(PeersOf(volume),
     [&](Entry& entry)
     {
       entry.RefinedTo.reset();
-      entry.Staged->RefineTo([&](const isodiamond::Place&) { return tolerance; }, volume.Samples,
-        task.For(), this->OptionsFor(volume, entry.RefineInterior, task));
-      entry.RefinedTo = tolerance;
+      const isodiamond::Query inCore = CoreQuery(query, hierarchy, world);
+      const isodiamond::LocalTolerance tolerance(inCore, hierarchy.SampleGrid());
+      entry.Staged->RefineTo([&](const isodiamond::Place& place)
+        { return tolerance.At(place).Surface; },
+        volume.Samples, task.For(), this->OptionsFor(volume, entry.RefineInterior, task));
+      entry.RefinedTo = query;
+      entry.RefinedIn = world;
     });
 }
 
@@ -154,7 +198,7 @@ std::list<Cache::Entry>::iterator Cache::Find(const isodiamond::Isoregion& regio
           (entry.Staged ? mayBeStaged : mayBeDone) && entry.From == this->Current;
       });
   };
-  // A mesh of one tolerance does not depend on whether other errors are known.
+  // One mesh only does not depend on whether other errors are known.
   const auto done = find(false, !need.Only);
   return done != this->Entries.end() ? done : find(true, false);
 }
@@ -187,8 +231,7 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
   {
     this->MeasureErrors(volume, task);
   }
-  if (need.Only &&
-    isodiamond::IsAnywhere(PeersOf(volume), this->Entries.front().RefinedTo != need.Only))
+  if (need.Only)
   {
     this->RefineTo(*need.Only, volume, task);
   }

@@ -8,6 +8,7 @@
 #include "Private/Input.h"
 #include "Private/PointData.h"
 #include "Private/Task.h"
+#include "Private/WorldQuery.h"
 
 #include "vtkType.h"
 
@@ -37,11 +38,11 @@ public:
   /** What of a hierarchy a query needs. */
   struct Need
   {
-    bool AllErrors = true; ///< else it asks for full resolution, or for the mesh of one tolerance
+    bool AllErrors = true; ///< else it asks for full resolution, or for one mesh only
     bool RefinedInterior = false;
-    /** By the distance metric, without all errors: that tolerance. Not of an interval volume with
-     *  hidden cells, which is refined inside. */
-    std::optional<double> Only = std::nullopt;
+    /** By the distance metric, without all errors: what that mesh is asked for with. Not of an
+     *  interval volume with hidden cells, which is refined inside. */
+    std::optional<WorldQuery> Only = std::nullopt;
   };
 
   /** The hierarchy of a region; built if there is none yet, and its errors measured when a query
@@ -88,7 +89,8 @@ private:
     bool RefineInterior = false;
     bool IsUsed = true;                            ///< since the last time of trimming
     std::optional<isodiamond::StagedBuild> Staged; ///< as long as nobody needs all errors
-    std::optional<double> RefinedTo;               ///< the tolerance that it was told last
+    std::optional<WorldQuery> RefinedTo;           ///< what it was told last, and in which world
+    isodiamond::GridGeometry RefinedIn{ isodiamond::AffineMap() };
     isodiamond::Encoding Encoding;
     std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy; ///< of the encoding
     std::optional<isodiamond::CellCounts> Counts;
@@ -117,8 +119,8 @@ private:
   std::list<Entry>::iterator Find(const isodiamond::Isoregion& region, const Need& need);
   /** Finishes the one in front. */
   void MeasureErrors(const Volume& volume, Task& task);
-  /** Makes the one in front show the mesh of one tolerance. */
-  void RefineTo(double tolerance, const Volume& volume, Task& task);
+  /** Makes the one in front show one mesh, unless it does. */
+  void RefineTo(const WorldQuery& only, const Volume& volume, Task& task);
   /** Does something with the one in front. Where that fails it is forgotten if it cannot go on, and
    *  among peers: others may have come farther, so all begin anew. */
   template <typename Change>

@@ -34,14 +34,6 @@ double PartForHierarchy(
                     : std::min(LargestPartOfSimplify, 0.4 * tolerance / world.SmallestStep());
 }
 
-double HierarchyTolerance(
-  const WorldQuery& query, isodiamond::ErrorMetric metric, const isodiamond::GridGeometry& world)
-{
-  const double tolerance = query.ErrorTolerance;
-  return GetsCoarser(query, metric) ? tolerance * PartForHierarchy(query, tolerance, world)
-                                    : tolerance;
-}
-
 WorldQuery HierarchyQuery(
   const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
 {
@@ -52,7 +44,7 @@ WorldQuery HierarchyQuery(
   }
   const auto partOf = [&](double tolerance)
   { return tolerance * PartForHierarchy(query, tolerance, world); };
-  part.ErrorTolerance = HierarchyTolerance(query, measure.Metric, world);
+  part.ErrorTolerance = partOf(query.ErrorTolerance);
   part.OutsideErrorTolerance = partOf(OutsideOf(query, measure, world));
   if (part.View)
   {

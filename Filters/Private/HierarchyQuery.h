@@ -21,10 +21,6 @@ bool GetsCoarser(const WorldQuery& query, isodiamond::ErrorMetric metric);
 double PartForHierarchy(
   const WorldQuery& query, double tolerance, const isodiamond::GridGeometry& world);
 
-/** The error tolerance of the query whose mesh is made coarser; of one that is not, its own. */
-double HierarchyTolerance(
-  const WorldQuery& query, isodiamond::ErrorMetric metric, const isodiamond::GridGeometry& world);
-
 /** The query whose mesh is made coarser; the same where it is not. */
 WorldQuery HierarchyQuery(
   const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world);
