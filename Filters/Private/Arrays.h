@@ -2,6 +2,8 @@
 #ifndef vtkIsodiamond_Arrays_h
 #define vtkIsodiamond_Arrays_h
 
+#include "Private/LargePages.h"
+
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
@@ -32,11 +34,13 @@ inline void AllocateTuples(vtkDataArray* array, vtkIdType count)
     array->SetNumberOfTuples(0);
     return;
   }
-  void* memory = std::malloc(static_cast<std::size_t>(values) * array->GetDataTypeSize());
+  const std::size_t bytes = static_cast<std::size_t>(values) * array->GetDataTypeSize();
+  void* memory = std::malloc(bytes);
   if (!memory)
   {
     throw std::bad_alloc();
   }
+  PreferLargePages(memory, bytes);
   array->SetVoidArray(memory, values, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
 }
 

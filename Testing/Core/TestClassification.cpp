@@ -15,6 +15,35 @@
 using namespace isodiamond;
 using ReferenceKind = reference::Kind;
 
+// Words have 64 signs; ten of a row may lie in two, and go beyond both ends.
+TEST(Classification, RowsOfSignsAreThoseOfTheSamples)
+{
+  for (const int length : { 2, 7, 8, 9, 63, 64, 65, 72, 73, 128, 129, 140 })
+  {
+    const test::Field field = test::NoiseField({ length, 3, 2 }, 41);
+    const Grid grid(field.Dims);
+    for (const Isoregion& region : { Isoregion(0.0), Isoregion(-0.3, 0.3) })
+    {
+      const SignLattice signs(grid, field.View(), region, SerialFor);
+      for (int x0 = 0; x0 <= length + 8; x0 += 8)
+      {
+        const SignLattice::Row row = signs.Load(0, x0, 1, 1);
+        for (int bit = 0; bit < 10; ++bit)
+        {
+          const Point point = { x0 - 1 + bit, 1, 1 };
+          const bool isSampled = point[0] >= 0 && point[0] < length;
+          const int sign = isSampled ? region.SignOf(SampleAt(field.View(), point)) : 0;
+          EXPECT_EQ((row.Sampled >> bit) & 1U, isSampled ? 1U : 0U) << length << " " << point[0];
+          EXPECT_EQ((row.Above[0] >> bit) & 1U, sign > 0 ? 1U : 0U) << length << " " << point[0];
+          EXPECT_EQ((row.Above[1] >> bit) & 1U, sign > 1 ? 1U : 0U) << length << " " << point[0];
+        }
+        EXPECT_EQ((row.Sampled | row.Above[0] | row.Above[1]) >> 10, 0U);
+      }
+      EXPECT_EQ(signs.Load(0, 0, -1, 0).Sampled | signs.Load(0, 0, 0, 2).Sampled, 0U);
+    }
+  }
+}
+
 TEST(Classification, KindsEqualTheReference)
 {
   for (const test::Field& field : test::SmallFields())

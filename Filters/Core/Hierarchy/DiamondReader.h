@@ -120,14 +120,16 @@ public:
       isWhole ? (1U << shape.VertexCount) - 1U : SampledVertices(this->TheGrid, place);
     const std::int64_t index = this->IndexOf(centre);
     std::array<std::uint32_t, 2> above{};
-    ForEachBit(sampled,
-      [&](int vertex)
+    for (int i = 0; i < shape.VertexCount; ++i)
+    {
+      if (isWhole || ((sampled >> i) & 1U) != 0)
       {
-        const int signOfVertex = this->SignOf(
-          centre + half * shape.Offsets[vertex], index + half * this->Strides[parity][vertex]);
-        above[0] |= static_cast<std::uint32_t>(signOfVertex > 0) << vertex;
-        above[1] |= static_cast<std::uint32_t>(signOfVertex > 1) << vertex;
-      });
+        const int signOfVertex =
+          this->SignOf(centre + half * shape.Offsets[i], index + half * this->Strides[parity][i]);
+        above[0] |= static_cast<std::uint32_t>(signOfVertex > 0) << i;
+        above[1] |= static_cast<std::uint32_t>(signOfVertex > 1) << i;
+      }
+    }
     return { this->Region, this->TheGrid.IsSampled(centre) ? sign : -1, sampled, above };
   }
 

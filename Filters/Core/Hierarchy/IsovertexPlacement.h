@@ -147,25 +147,15 @@ bool HasFiniteEnds(const Edge& edge)
   return std::isfinite(edge(0)) && std::isfinite(edge(edge.Steps()));
 }
 
-}
-
-/** The coefficient of the isovertex on an edge whose ends lie on both sides of one surface. */
+/** The coefficient of the isovertex on an edge of several steps, whose ends are finite. */
 template <typename Edge>
-std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int surface = 0)
+std::uint8_t CoefficientOfLongEdge(const Edge& edge, const Isoregion& region, int surface)
 {
   const int steps = edge.Steps();
   const double isovalue = region.Isovalue(surface);
-  const bool isBracketed = placement::IsBracketed(edge, region, surface, 0, steps);
-  if (!placement::HasFiniteEnds(edge) || (steps == 1 && !isBracketed))
-  {
-    return 128;
-  }
-  if (steps == 1)
-  {
-    return placement::Code(placement::Crossing(edge, 0, isovalue), 1);
-  }
-  const double along = (isovalue - edge(0)) / (edge(steps) - edge(0));
-  const double guess = steps * (isBracketed && along == along ? along : 0.5); // or NaN by overflow
+  const double along = (isovalue - edge(0)) / (edge(steps) - edge(0)); // may overflow to NaN
+  const bool isKnown = IsBracketed(edge, region, surface, 0, steps) && along == along;
+  const double guess = steps * (isKnown ? along : 0.5);
   constexpr double tie = 1e-9; // equal distances may differ by rounding: the first crossing wins
   double nearest = guess;
   double distance = HUGE_VAL;
@@ -175,8 +165,8 @@ std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int
     const bool nextAbove = edge.IsAbove(region, surface, i + 1);
     if (above != nextAbove)
     {
-      assert(placement::IsBracketed(edge, region, surface, i, i + 1));
-      const double crossing = placement::Crossing(edge, i, isovalue);
+      assert(IsBracketed(edge, region, surface, i, i + 1));
+      const double crossing = Crossing(edge, i, isovalue);
       if (std::fabs(crossing - guess) < distance - tie)
       {
         nearest = crossing;
@@ -185,7 +175,26 @@ std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int
     }
     above = nextAbove;
   }
-  return placement::Code(nearest, steps);
+  return Code(nearest, steps);
+}
+
+}
+
+/** The coefficient of the isovertex on an edge whose ends lie on both sides of one surface. */
+template <typename Edge>
+std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int surface = 0)
+{
+  if (!placement::HasFiniteEnds(edge))
+  {
+    return 128;
+  }
+  if (edge.Steps() > 1)
+  {
+    return placement::CoefficientOfLongEdge(edge, region, surface);
+  }
+  return placement::IsBracketed(edge, region, surface, 0, 1)
+    ? placement::Code(placement::Crossing(edge, 0, region.Isovalue(surface)), 1)
+    : std::uint8_t{ 128 };
 }
 
 /**
