@@ -122,7 +122,8 @@ def main():
         dict(UseRegionOfInterest=1, RegionOfInterest=(0, 20, 0, 20, 0, 40), ErrorTolerance=0.1)])
     check("contour of one tolerance", contour, [
         dict(values, OneTolerance=1, ErrorTolerance=0.4), dict(ErrorTolerance=1.0), dict(ErrorTolerance=0.0),
-        dict(ErrorTolerance=0.3, Simplify=1), dict(OneTolerance=0)])
+        dict(ErrorTolerance=0.3, Simplify=1), dict(OneTolerance=0),
+        dict(OneTolerance=1, UseRegionOfInterest=1, RegionOfInterest=(0, 20, 0, 20, 0, 40), ErrorTolerance=0.1)])
     check("contour with a target", contour, [dict(values, TargetNumberOfTriangles=2000)])
     check("two contours in nine slabs", contour, [
         dict(Value=(0, 0.0)), dict(Value=(1, 4.0), MinimumPieceSize=10, ErrorTolerance=0.3),

@@ -167,11 +167,11 @@ BuildSteps::BuildSteps(const Source& source, SignLattice signs, const Isoregion&
   this->Header.RelevantCount = this->Members.Size() - 8 - this->Header.ActiveCount;
 }
 
-Encoded BuildSteps::PlaceIsovertices(double begin, double end) const
+Encoded BuildSteps::PlaceIsovertices(double begin, double end, bool withEdges) const
 {
   Tell(this->Options, "Placing isovertices", begin, end);
   return Encode(this->Header, this->Origin.SampleGrid, this->Origin.Samples, this->Members,
-    ErrorCode::Always, this->For, this->SignsIfKept());
+    ErrorCode::Always, this->For, this->SignsIfKept(), withEdges);
 }
 
 DiamondCodes BuildSteps::MeasureField() const

@@ -32,8 +32,9 @@ public:
   const DiamondSet& Relevant() const { return this->Members; }
   const SignLattice* SignsIfKept() const { return this->Signs ? &*this->Signs : nullptr; }
 
-  /** An RI without errors. */
-  Encoded PlaceIsovertices(double begin, double end) const;
+  /** An RI without errors. @param begin, end of its part of the whole @param withEdges see Encode()
+   */
+  Encoded PlaceIsovertices(double begin, double end, bool withEdges = true) const;
 
   /** Once isovertices are placed, signs are needed for what lies inside an interval volume only. */
   void DropSigns();

@@ -20,7 +20,7 @@ Encoding BuildByField(Model model, const Source& source, const Isoregion& region
   DiamondCodes codes = steps.MeasureField();
   steps.FindThresholds(codes);
   // Last: less memory at once.
-  return steps.Complete(model, steps.PlaceIsovertices(0.9, 1.0).Encoding, std::move(codes));
+  return steps.Complete(model, steps.PlaceIsovertices(0.9, 1.0, false).Encoding, std::move(codes));
 }
 
 Encoding BuildByDistance(Model model, const Source& source, const Isoregion& region,

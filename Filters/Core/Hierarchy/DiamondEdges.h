@@ -14,8 +14,8 @@ namespace isodiamond
  *  encodes finds it on the way, else it is derived. */
 struct DiamondEdges
 {
-  /** Mask of the subdivision edges that the isosurface, or the lower surface, crosses; and from bit
-   *  12 on the kind. */
+  /** Mask of the subdivision edges that the isosurface, or the lower surface, crosses; from bit 12
+   *  on the kind, and from 14 on the sign of the centre. */
   std::vector<std::uint16_t> LowerAndKinds;
   std::vector<std::uint16_t> Upper; ///< those that the upper one crosses; interval volumes only
 
@@ -26,10 +26,12 @@ struct DiamondEdges
   {
   }
 
-  void Set(std::int64_t rank, const DiamondSigns& signs)
+  /** @param sign of the centre, 0 if it has no sample */
+  void Set(std::int64_t rank, int sign, const DiamondSigns& signs)
   {
-    this->LowerAndKinds[rank] = static_cast<std::uint16_t>(
-      signs.CrossedEdges(0) | (static_cast<std::uint32_t>(signs.KindOfDiamond()) << 12));
+    this->LowerAndKinds[rank] = static_cast<std::uint16_t>(signs.CrossedEdges(0) |
+      (static_cast<std::uint32_t>(signs.KindOfDiamond()) << 12) |
+      (static_cast<std::uint32_t>(sign) << 14));
     if (!this->Upper.empty())
     {
       this->Upper[rank] = static_cast<std::uint16_t>(signs.CrossedEdges(1));
@@ -44,8 +46,11 @@ struct DiamondEdges
   }
   Kind KindOf(std::int64_t rank) const
   {
-    return static_cast<Kind>(this->LowerAndKinds[rank] >> 12);
+    return static_cast<Kind>((this->LowerAndKinds[rank] >> 12) & 3);
   }
+  int SignOf(std::int64_t rank) const { return SignIn(this->LowerAndKinds[rank]); }
+  /** The same, in an element of LowerAndKinds. */
+  static int SignIn(std::uint16_t element) { return element >> 14; }
 };
 
 }

@@ -9,7 +9,7 @@ namespace isodiamond
 
 Encoded Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
   const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor,
-  const SignLattice* signs)
+  const SignLattice* signs, bool withEdges)
 {
   EncodingPasses passes(header, set, parallelFor);
   std::visit(
@@ -19,7 +19,7 @@ Encoded Encode(const EncodingHeader& header, const Grid& grid, const AnySamples&
       const auto encode = [&](const auto& signOf)
       {
         const DiamondReader reader(header, grid, view, signOf);
-        passes.Count(code, reader);
+        passes.Count(reader);
         passes.WriteIsovertices(0, set.ScaleCount(), EncodingPasses::AllSlices,
           [&](const Place& place, int vertex) { return reader.Edge(place, vertex); });
         passes.MakeRoomForValues<Value>();
@@ -35,7 +35,7 @@ Encoded Encode(const EncodingHeader& header, const Grid& grid, const AnySamples&
       }
     },
     samples);
-  return passes.Take();
+  return passes.Take(code, withEdges);
 }
 
 }

@@ -15,10 +15,11 @@ namespace isodiamond
  * @param set the isodiamonds and the corners of the base cube
  * @param signs those to go by where small pieces were removed; null for the samples'. Values inside
  *        are samples all the same
+ * @param withEdges whether the edges are wanted that it finds on the way; else less memory is used
  */
 Encoded Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
   const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor,
-  const SignLattice* signs = nullptr);
+  const SignLattice* signs = nullptr, bool withEdges = true);
 
 }
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace isodiamond
 {
@@ -16,7 +17,6 @@ EncodingPasses::EncodingPasses(
   , Edges(set.Size(), header.Region)
 {
   this->Result.Header = header;
-  this->Result.Arrays.Records.resize(set.Size());
   this->WriteBricks();
 }
 
@@ -52,6 +52,18 @@ void EncodingPasses::Merge(Peers& peers)
 {
   peers.Or(this->Result.Arrays.Isovertices);
   std::visit([&](auto& values) { peers.Or(values); }, this->Result.InsideValues);
+}
+
+Encoded EncodingPasses::Take(ErrorCode::Type code, bool withEdges)
+{
+  std::vector<std::uint16_t>& edges = this->Edges.LowerAndKinds;
+  std::vector<std::uint16_t> records = withEdges ? edges : std::move(edges);
+  for (std::uint16_t& record : records)
+  {
+    record = Record::Pack(code, DiamondEdges::SignIn(record));
+  }
+  this->Result.Arrays.Records = std::move(records);
+  return { std::move(this->Result), withEdges ? std::move(this->Edges) : DiamondEdges() };
 }
 
 void EncodingPasses::MakeRoom()

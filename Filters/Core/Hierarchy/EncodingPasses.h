@@ -27,16 +27,15 @@ public:
   EncodingPasses(
     const EncodingHeader& header, const DiamondSet& set, const ParallelFor& parallelFor);
 
-  /** Counts, and makes room; and writes records, all with one code, which need signs only. */
+  /** Finds signs and edges, counts, and makes room. */
   template <typename Reader>
-  void Count(ErrorCode::Type code, const Reader& reader)
+  void Count(const Reader& reader)
   {
     this->ForEach(0, this->Set.ScaleCount(), AllSlices,
       [&](std::int64_t brick, const Place& place, std::uint32_t rank)
       {
         const int sign = reader.Sign(place);
-        this->Result.Arrays.Records[rank] = Record::Pack(code, sign);
-        this->Edges.Set(rank, reader.SignsOf(place, sign));
+        this->Edges.Set(rank, sign, reader.SignsOf(place, sign));
         this->Next[brick + 1].Isovertices += this->CountIsovertices(rank);
         this->Next[brick + 1].InsideValues += this->IsInside(rank) ? 1 : 0;
       });
@@ -116,7 +115,9 @@ public:
     }
   }
 
-  Encoded Take() { return { std::move(this->Result), std::move(this->Edges) }; }
+  /** In the end: writes the records, all with one code. @param withEdges without, records take
+   *  their place in memory */
+  Encoded Take(ErrorCode::Type code, bool withEdges);
 
 private:
   /** What the bricks before a brick hold; while writing, also what it has written. */
@@ -135,8 +136,7 @@ private:
   }
   bool IsInside(std::int64_t rank) const
   {
-    return this->Result.Header.Region.IsVolume() &&
-      Record::Sign(this->Result.Arrays.Records[rank]) == InsideSign;
+    return this->Result.Header.Region.IsVolume() && this->Edges.SignOf(rank) == InsideSign;
   }
 
   /** Calls body(number of the brick, place, rank) for the diamonds of some scales with their centre

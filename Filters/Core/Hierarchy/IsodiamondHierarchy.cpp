@@ -228,7 +228,8 @@ DiamondEdges IsodiamondHierarchy::DeriveEdges(const ParallelFor& parallelFor) co
       {
         BrickSigns signs(*this, scale, bricks[i]);
         this->Set.ForEachInBrick(scale, bricks[i],
-          [&](const Place& place, std::uint32_t rank) { edges.Set(rank, signs.Of(place, rank)); });
+          [&](const Place& place, std::uint32_t rank)
+          { edges.Set(rank, this->Sign(rank), signs.Of(place, rank)); });
       });
   }
   return edges;

@@ -160,7 +160,7 @@ struct Encoding
   AnyValues InsideValues;
 };
 
-/** What encoding comes to. */
+/** What encoding comes to; without edges if nobody wants them. */
 struct Encoded
 {
   isodiamond::Encoding Encoding;

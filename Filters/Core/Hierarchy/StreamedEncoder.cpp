@@ -11,15 +11,15 @@ StreamedEncoder::StreamedEncoder(const EncodingHeader& header, const Grid& grid,
   : Header(header)
   , TheGrid(grid)
   , Set(set)
+  , Code(code)
   , Signs(signs)
   , Passes(header, set, parallelFor)
   , Gathered(grid.Dimensions(), {})
 {
   static_assert(1 << (FirstLongScale - 1) == Overlap, "a slab has all of the short edges");
   const LatticeSigns<std::uint8_t> signOf(signs);
-  this->Passes.Count(code,
-    DiamondReader(
-      header, grid, SampleView<std::uint8_t>(nullptr, grid.Dimensions()), signOf)); // signs only
+  this->Passes.Count(DiamondReader(
+    header, grid, SampleView<std::uint8_t>(nullptr, grid.Dimensions()), signOf)); // signs only
   this->Gathered = this->WantedSamples();
 }
 
@@ -86,7 +86,7 @@ Encoded StreamedEncoder::Finish()
 {
   this->Passes.WriteIsovertices(FirstLongScale, this->Set.ScaleCount(), EncodingPasses::AllSlices,
     [&](const Place& place, int vertex) { return this->LongEdge(&this->Gathered, place, vertex); });
-  return this->Passes.Take();
+  return this->Passes.Take(this->Code, true);
 }
 
 }

@@ -50,6 +50,7 @@ private:
   const EncodingHeader Header;
   const Grid& TheGrid;
   const DiamondSet& Set;
+  ErrorCode::Type Code;
   const SignLattice& Signs;
   EncodingPasses Passes;
   GatheredSamples Gathered;
