@@ -44,24 +44,20 @@ bool AreSame(const isodiamond::GridGeometry& a, const isodiamond::GridGeometry& 
   return mapA && mapB ? mapA->Rows == mapB->Rows : HaveSameLengths(a, b);
 }
 
-/** Whether two queries tolerate the same of a hierarchy, everywhere in the world. */
-bool TolerateTheSame(const WorldQuery& a, const WorldQuery& b)
+bool HaveSameRegion(const WorldQuery& a, const WorldQuery& b)
 {
-  const auto haveSameRegion = [&]
-  {
-    return a.Region.has_value() == b.Region.has_value() &&
-      (!a.Region ||
-        (a.Region->Minimum == b.Region->Minimum && a.Region->Maximum == b.Region->Maximum &&
-          a.OutsideErrorTolerance == b.OutsideErrorTolerance));
-  };
-  const auto haveSameView = [&]
-  {
-    return a.View.has_value() == b.View.has_value() &&
-      (!a.View ||
-        (a.View->Position == b.View->Position &&
-          a.View->TolerancePerDistance == b.View->TolerancePerDistance));
-  };
-  return a.ErrorTolerance == b.ErrorTolerance && haveSameRegion() && haveSameView();
+  return a.Region.has_value() == b.Region.has_value() &&
+    (!a.Region ||
+      (a.Region->Minimum == b.Region->Minimum && a.Region->Maximum == b.Region->Maximum &&
+        a.OutsideErrorTolerance == b.OutsideErrorTolerance));
+}
+
+bool HaveSameView(const WorldQuery& a, const WorldQuery& b)
+{
+  return a.View.has_value() == b.View.has_value() &&
+    (!a.View ||
+      (a.View->Position == b.View->Position &&
+        a.View->TolerancePerDistance == b.View->TolerancePerDistance));
 }
 
 /** Whether hierarchies built in one way can stand for those built in another. */
@@ -80,6 +76,14 @@ bool Cache::Source::operator==(const Source& other) const
   return this->Samples == other.Samples && this->HiddenPoints == other.HiddenPoints &&
     this->HiddenCells == other.HiddenCells && this->Dimensions == other.Dimensions &&
     this->Padding == other.Padding && AreAlike(this->Options, other.Options);
+}
+
+bool Cache::Refinement::operator==(const Refinement& other) const
+{
+  const bool isUniform = !this->Query.Region && !this->Query.View;
+  return this->Query.ErrorTolerance == other.Query.ErrorTolerance &&
+    HaveSameRegion(this->Query, other.Query) && HaveSameView(this->Query, other.Query) &&
+    (isUniform || AreSame(this->World, other.World));
 }
 
 void Cache::Prepare(
@@ -165,10 +169,8 @@ void Cache::RefineTo(const WorldQuery& only, const Volume& volume, Task& task)
   const isodiamond::GridGeometry& world = volume.Placement.World;
   const Entry& first = this->Entries.front();
   const isodiamond::IsodiamondHierarchy& hierarchy = first.Current();
-  const WorldQuery query = HierarchyQuery(only, Measure(hierarchy), world);
-  const bool isKnown = first.RefinedTo && TolerateTheSame(*first.RefinedTo, query) &&
-    ((!query.Region && !query.View) || AreSame(first.RefinedIn, world));
-  if (!isodiamond::IsAnywhere(PeersOf(volume), !isKnown))
+  const Refinement wanted{ HierarchyQuery(only, Measure(hierarchy), world), world };
+  if (!isodiamond::IsAnywhere(PeersOf(volume), !(first.RefinedTo == wanted)))
   {
     return;
   }
@@ -176,13 +178,12 @@ void Cache::RefineTo(const WorldQuery& only, const Volume& volume, Task& task)
     [&](Entry& entry)
     {
       entry.RefinedTo.reset();
-      const isodiamond::Query inCore = CoreQuery(query, hierarchy, world);
+      const isodiamond::Query inCore = CoreQuery(wanted.Query, hierarchy, world);
       const isodiamond::LocalTolerance tolerance(inCore, hierarchy.SampleGrid());
       entry.Staged->RefineTo([&](const isodiamond::Place& place)
         { return tolerance.At(place).Surface; },
         volume.Samples, task.For(), this->OptionsFor(volume, entry.RefineInterior, task));
-      entry.RefinedTo = query;
-      entry.RefinedIn = world;
+      entry.RefinedTo = wanted;
     });
 }
 

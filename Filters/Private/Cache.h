@@ -82,6 +82,15 @@ private:
     bool operator==(const Source& other) const;
   };
 
+  /** What a mesh was refined for: tolerances, and where in the world they hold. */
+  struct Refinement
+  {
+    WorldQuery Query;
+    isodiamond::GridGeometry World;
+
+    bool operator==(const Refinement& other) const;
+  };
+
   struct Entry
   {
     Source From;
@@ -89,8 +98,7 @@ private:
     bool RefineInterior = false;
     bool IsUsed = true;                            ///< since the last time of trimming
     std::optional<isodiamond::StagedBuild> Staged; ///< as long as nobody needs all errors
-    std::optional<WorldQuery> RefinedTo;           ///< what it was told last, and in which world
-    isodiamond::GridGeometry RefinedIn{ isodiamond::AffineMap() };
+    std::optional<Refinement> RefinedTo;           ///< what it was told last
     isodiamond::Encoding Encoding;
     std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy; ///< of the encoding
     std::optional<isodiamond::CellCounts> Counts;

@@ -3,7 +3,7 @@
 #define isodiamond_DiamondSigns_h
 
 #include "Field/Isoregion.h"
-#include "Lattice/DiamondTables.h"
+#include "Lattice/DiamondSet.h"
 
 #include <array>
 #include <cstdint>
@@ -28,14 +28,8 @@ enum class Kind : int
 class DiamondSigns
 {
 public:
-  /** @param centreSign -1 if the centre has no sample */
-  DiamondSigns(const Isoregion& region, int centreSign)
-    : Surfaces(region.SurfaceCount())
-    , CentreSign(centreSign)
-  {
-  }
-
-  /** @param above by surface, the sampled vertices that lie above */
+  /** @param centreSign -1 if the centre has no sample
+   *  @param above by surface, the sampled vertices that lie above */
   DiamondSigns(const Isoregion& region, int centreSign, std::uint32_t sampled,
     const std::array<std::uint32_t, 2>& above)
     : Surfaces(region.SurfaceCount())
@@ -48,26 +42,31 @@ public:
   /** By samples. */
   DiamondSigns(
     const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
-    : DiamondSigns(region,
-        grid.IsSampled(Centre(place)) ? region.SignOf(SampleAt(samples, Centre(place))) : -1)
+    : DiamondSigns(Read(region,
+        grid.IsSampled(Centre(place)) ? region.SignOf(SampleAt(samples, Centre(place))) : -1,
+        SampledVertices(grid, place),
+        [&](int vertex)
+        {
+          const Point& offset = tables::Parities[Parity(place.Position)].Offsets[vertex];
+          return region.SignOf(SampleAt(samples, VertexAt(place, offset)));
+        }))
   {
-    const ParityTable& shape = tables::Parities[Parity(place.Position)];
-    for (int i = 0; i < shape.VertexCount; ++i)
-    {
-      const Point vertex = VertexAt(place, shape.Offsets[i]);
-      if (grid.IsSampled(vertex))
-      {
-        this->AddVertex(i, region.SignOf(SampleAt(samples, vertex)));
-      }
-    }
   }
 
-  /** Tells the sign of a vertex that has a sample. */
-  void AddVertex(int vertex, int sign)
+  /** @param signOf called with each sampled vertex */
+  template <typename SignOf>
+  static DiamondSigns Read(
+    const Isoregion& region, int centreSign, std::uint32_t sampled, const SignOf& signOf)
   {
-    this->Sampled |= 1U << vertex;
-    this->Above[0] |= (sign > 0 ? 1U : 0U) << vertex;
-    this->Above[1] |= (sign > 1 ? 1U : 0U) << vertex;
+    std::array<std::uint32_t, 2> above{};
+    ForEachBit(sampled,
+      [&](int vertex)
+      {
+        const int sign = signOf(vertex);
+        above[0] |= (sign > 0 ? 1U : 0U) << vertex;
+        above[1] |= (sign > 1 ? 1U : 0U) << vertex;
+      });
+    return { region, centreSign, sampled, above };
   }
 
   /** The subdivision edges that cross a surface. */
@@ -101,8 +100,8 @@ public:
 private:
   int Surfaces;
   int CentreSign;
-  std::uint32_t Sampled = 0;
-  std::array<std::uint32_t, 2> Above{}; ///< by surface
+  std::uint32_t Sampled;
+  std::array<std::uint32_t, 2> Above; ///< by surface
 };
 
 /** The same as DiamondSigns::HasAllVerticesInside(): knows at the first vertex that is not.

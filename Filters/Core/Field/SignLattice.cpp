@@ -158,7 +158,7 @@ SignLattice::Row SignLattice::Load(int scale, int x0, int y, int z) const
     return row;
   }
   row.Sampled = (1U << std::min(10, level.Count[0] - x0 + 1)) - (x0 == 0 ? 2U : 1U);
-  const std::int64_t word = x0 >> 6;
+  const std::int64_t word = x0 >> 6; // has the eight; one before or after may lie in another
   const int bit = x0 & 63;
   for (int surface = 0; surface < this->Surfaces; ++surface)
   {

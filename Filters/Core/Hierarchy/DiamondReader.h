@@ -114,23 +114,14 @@ public:
     const int half = 1 << place.Scale;
     const int parity = Parity(place.Position);
     const ParityTable& shape = tables::Parities[parity];
-    const bool isWhole = this->TheGrid.IsSampled(centre + Point{ half, half, half }) &&
-      this->TheGrid.IsSampled(centre + Point{ -half, -half, -half });
-    const std::uint32_t sampled =
-      isWhole ? (1U << shape.VertexCount) - 1U : SampledVertices(this->TheGrid, place);
     const std::int64_t index = this->IndexOf(centre);
-    std::array<std::uint32_t, 2> above{};
-    for (int i = 0; i < shape.VertexCount; ++i)
-    {
-      if (isWhole || ((sampled >> i) & 1U) != 0)
+    return DiamondSigns::Read(this->Region, this->TheGrid.IsSampled(centre) ? sign : -1,
+      SampledVertices(this->TheGrid, place),
+      [&](int vertex)
       {
-        const int signOfVertex =
-          this->SignOf(centre + half * shape.Offsets[i], index + half * this->Strides[parity][i]);
-        above[0] |= static_cast<std::uint32_t>(signOfVertex > 0) << i;
-        above[1] |= static_cast<std::uint32_t>(signOfVertex > 1) << i;
-      }
-    }
-    return { this->Region, this->TheGrid.IsSampled(centre) ? sign : -1, sampled, above };
+        return this->SignOf(
+          centre + half * shape.Offsets[vertex], index + half * this->Strides[parity][vertex]);
+      });
   }
 
   /** An edge in unit steps, or for linear isovertices in one. */

@@ -60,7 +60,7 @@ public:
       [&](std::int64_t brick, const Place& place, std::uint32_t rank)
       {
         std::int64_t& next = this->Next[brick].Isovertices;
-        next = PlaceIsovertices(
+        next = WriteCoefficients(
                  this->Result.Header.Region, this->Edges.LowerOf(rank), this->Edges.UpperOf(rank),
                  [&](int vertex) { return edgeOf(place, vertex); }, isovertices + next) -
           isovertices;

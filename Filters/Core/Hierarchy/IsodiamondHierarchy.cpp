@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/IsodiamondHierarchy.h"
 
+#include "Lattice/OccupancyWindow.h"
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -124,7 +126,7 @@ public:
     const Point high = low + Point{ Width - 1, Width - 1, Width - 1 };
     const int h = 1 << scale;
     this->IsWhole = hierarchy.TheGrid.IsSampled(h * low) && hierarchy.TheGrid.IsSampled(h * high);
-    this->First = Index(low);
+    this->First = OccupancyWindow<Width>::Distance(low);
     this->Above.fill(Unknown);
     hierarchy.Set.ForEachInBrick(scale, brick,
       [&](const Place& place, std::uint32_t rank)
@@ -146,9 +148,9 @@ public:
 
 private:
   static constexpr int Width = 10;
-  /** A point lies above the surfaces whose bits are set. */
-  static constexpr std::uint8_t Unknown = 0x80;
+  static constexpr std::uint8_t Unknown = 0x80; ///< beside the bits of AboveOf()
 
+  /** A bit for each surface that a point of a sign lies above. */
   static std::uint8_t AboveOf(int sign) { return static_cast<std::uint8_t>((1 << sign) - 1); }
 
   /** By surface, the vertices that lie above. */
@@ -184,38 +186,20 @@ private:
                                     : this->Hierarchy.SignAt({ this->Scale, position });
   }
 
-  static constexpr int Index(const Point& offset)
+  int IndexOf(const Point& position) const
   {
-    return offset[0] + Width * (offset[1] + Width * offset[2]);
+    return OccupancyWindow<Width>::Distance(position) - this->First;
   }
-  int IndexOf(const Point& position) const { return Index(position) - this->First; }
 
-  /** From a diamond to its vertices, by parity. */
-  static constexpr std::array<std::array<std::int16_t, MaximumVertices>, 8> MakeDistances()
-  {
-    std::array<std::array<std::int16_t, MaximumVertices>, 8> distances{};
-    for (int parity = 1; parity < 8; ++parity)
-    {
-      for (int i = 0; i < tables::Parities[parity].VertexCount; ++i)
-      {
-        distances[parity][i] =
-          static_cast<std::int16_t>(Index(tables::Parities[parity].Offsets[i]));
-      }
-    }
-    return distances;
-  }
-  static const std::array<std::array<std::int16_t, MaximumVertices>, 8> Distances;
+  static constexpr auto Distances = MakeVertexDistances<Width>();
 
   const IsodiamondHierarchy& Hierarchy;
   int Scale;
   BrickWindow Window;
-  int First = 0;                                         ///< Index() of the first point
+  int First = 0;                                         ///< Distance() of the first point
   bool IsWhole = false;                                  ///< whether all points have samples
-  std::array<std::uint8_t, Width * Width * Width> Above; ///< or Unknown
+  std::array<std::uint8_t, Width * Width * Width> Above; ///< AboveOf(), or Unknown
 };
-
-constexpr std::array<std::array<std::int16_t, MaximumVertices>, 8>
-  IsodiamondHierarchy::BrickSigns::Distances = BrickSigns::MakeDistances();
 
 DiamondEdges IsodiamondHierarchy::DeriveEdges(const ParallelFor& parallelFor) const
 {

@@ -246,7 +246,7 @@ std::array<std::uint8_t, 2> IsovertexCoefficients(const Edge& edge, const Isoreg
  *  @param lower, upper masks of the edges that these cross
  *  @param edgeOf called with a vertex: that edge @return the end */
 template <typename EdgeOf>
-std::uint8_t* PlaceIsovertices(const Isoregion& region, std::uint32_t lower, std::uint32_t upper,
+std::uint8_t* WriteCoefficients(const Isoregion& region, std::uint32_t lower, std::uint32_t upper,
   const EdgeOf& edgeOf, std::uint8_t* next)
 {
   std::uint8_t* nextUpper = next + PopCount(lower);

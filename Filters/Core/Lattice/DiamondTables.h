@@ -516,6 +516,11 @@ inline constexpr Place ParentPlace(const TypeTable& shape, const Place& child, i
 inline std::uint32_t SampledVertices(const Grid& grid, const Place& place)
 {
   const ParityTable& shape = tables::Parities[Parity(place.Position)];
+  if (grid.IsSampled(VertexAt(place, { -1, -1, -1 })) &&
+    grid.IsSampled(VertexAt(place, { 1, 1, 1 })))
+  {
+    return (1U << shape.VertexCount) - 1U;
+  }
   std::uint32_t mask = 0;
   for (int i = 0; i < shape.VertexCount; ++i)
   {

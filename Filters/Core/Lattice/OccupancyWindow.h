@@ -82,6 +82,23 @@ private:
   std::array<std::uint8_t, std::size_t{ Width } * Width * Width> Bytes{};
 };
 
+/** In a cube of a width, by parity: from a diamond to its vertices. */
+template <int Width>
+constexpr std::array<std::array<std::int16_t, MaximumVertices>, 8> MakeVertexDistances()
+{
+  std::array<std::array<std::int16_t, MaximumVertices>, 8> distances{};
+  for (std::size_t parity = 1; parity < distances.size(); ++parity)
+  {
+    const ParityTable& shape = tables::Parities[parity];
+    for (int i = 0; i < shape.VertexCount; ++i)
+    {
+      distances[parity][i] =
+        static_cast<std::int16_t>(OccupancyWindow<Width>::Distance(shape.Offsets[i]));
+    }
+  }
+  return distances;
+}
+
 }
 
 #endif

@@ -24,24 +24,11 @@ namespace isodiamond
 using SameScaleWindow = OccupancyWindow<9>;
 
 /** Those of the next finer scale around the doubled positions. */
-using FinerWindow = OccupancyWindow<17>;
+inline constexpr int FinerWidth = 17;
+using FinerWindow = OccupancyWindow<FinerWidth>;
 
 namespace tables
 {
-
-inline constexpr std::array<std::array<std::int16_t, MaximumVertices>, 8> MakeMiddleDistances()
-{
-  std::array<std::array<std::int16_t, MaximumVertices>, 8> distances{};
-  for (std::size_t parity = 1; parity < distances.size(); ++parity)
-  {
-    for (int i = 0; i < Parities[parity].VertexCount; ++i)
-    {
-      distances[parity][i] =
-        static_cast<std::int16_t>(FinerWindow::Distance(Parities[parity].Offsets[i]));
-    }
-  }
-  return distances;
-}
 
 inline constexpr std::array<std::array<std::int16_t, MaximumChildren>, 64> MakeChildDistances()
 {
@@ -60,7 +47,7 @@ inline constexpr std::array<std::array<std::int16_t, MaximumChildren>, 64> MakeC
 }
 
 /** In a FinerWindow, by parity: from a diamond to the middles of its edges. */
-inline constexpr auto MiddleDistances = MakeMiddleDistances();
+inline constexpr auto MiddleDistances = MakeVertexDistances<FinerWidth>();
 
 /** By type: from a diamond to its children, in the window of their scale. */
 inline constexpr auto ChildDistances = MakeChildDistances();
