@@ -7,19 +7,6 @@
 
 namespace isodiamond
 {
-namespace
-{
-
-/** The sine of a triangle's smallest angle, opposite to its shortest side. */
-double SmallestSine(const Vector& a, const Vector& b, const Vector& c)
-{
-  const Vector across = Cross(b - a, c - a);
-  std::array<double, 3> sides = { Dot(b - a, b - a), Dot(c - b, c - b), Dot(a - c, a - c) };
-  std::sort(sides.begin(), sides.end()); // squared
-  return sides[1] > 0.0 ? std::sqrt(Dot(across, across) / (sides[1] * sides[2])) : 0.0;
-}
-
-}
 
 EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuard* guard)
   : Guard(guard)
@@ -232,19 +219,18 @@ bool EdgeCollapses::IsNear(
  *  that it replaces. */
 bool EdgeCollapses::KeepsShape(std::uint32_t vertex, const Hole& hole) const
 {
-  const auto sineOf = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c)
-  { return SmallestSine(this->Positions[a], this->Positions[b], this->Positions[c]); };
   double needed = this->LeastSine;
   for (int i = 0; i < hole.Count && needed > 0.0; ++i)
   {
     if (hole.Triangles[i] != None)
     {
-      needed = std::min(needed, sineOf(vertex, hole.Points[i], hole.Points[(i + 1) % hole.Count]));
+      needed = std::min(
+        needed, this->SineOf({ vertex, hole.Points[i], hole.Points[(i + 1) % hole.Count] }));
     }
   }
   for (int i = 1; i + 1 < hole.Count && needed > 0.0; ++i)
   {
-    if (sineOf(hole.Points[0], hole.Points[i], hole.Points[i + 1]) < needed)
+    if (this->SineOf({ hole.Points[0], hole.Points[i], hole.Points[i + 1] }) < needed)
     {
       return false;
     }
@@ -453,6 +439,10 @@ std::vector<bool> EdgeCollapses::Run()
     {
       this->Offer(at.Vertex, at.Cost, at.Target);
     }
+  }
+  if (this->Guard == nullptr)
+  {
+    this->FlipEdges();
   }
   std::vector<bool> isChanged(this->Triangles.size());
   for (const std::uint32_t triangle : this->TrianglesOfSteps)

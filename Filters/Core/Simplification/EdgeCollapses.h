@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <queue>
+#include <unordered_set>
 #include <vector>
 
 namespace isodiamond
@@ -47,6 +48,9 @@ public:
  * wall: what is put in their place is so, too. Where no walls are known the border stays. No new
  * edge joins two vertices that are fixed: a neighbouring part that has these, too, might make the
  * same.
+ *
+ * Last, edges that are left are flipped where that brings samples nearer, all in all: quadrics tell
+ * which vertices to keep, but not which of two diagonals follows a ridge or a groove between them.
  */
 class EdgeCollapses
 {
@@ -57,8 +61,8 @@ public:
    * none. Must outlive it */
   EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuard* guard = nullptr);
 
-  /** Collapses all that it can, but for what the guard knows to be no use. @return by number:
-   * whether a triangle is another one now, or gone
+  /** Collapses all that it can, but for what the guard knows to be no use. Flips edges only if
+   * there is no guard. @return by number: whether a triangle is another one now, or gone
    */
   std::vector<bool> Run();
 
@@ -68,8 +72,9 @@ public:
   /** By sample: the number of the triangle that it lies over now; None for points in use. */
   const std::vector<std::uint32_t>& SampleHomes() const { return this->Homes; }
 
-  /** Undoes the last collapse that made a triangle what it is, and those that removed points, with
-   *  all that came later and built on them. @return by number: which triangles that changed */
+  /** Undoes the last collapse or flip that made a triangle what it is, and those that removed
+   * points, with all that came later and built on them. @return by number: which triangles that
+   * changed */
   std::vector<bool> Undo(
     const std::vector<std::uint32_t>& triangles, const std::vector<std::uint32_t>& points);
 
@@ -119,17 +124,42 @@ private:
     Vector At() const { return { this->Position[0], this->Position[1], this->Position[2] }; }
   };
 
-  /** What was done, to be undone. */
+  /** What was done, to be undone: a vertex went, or an edge was flipped. */
   struct Step
   {
-    std::uint32_t Vertex;
-    std::size_t First; ///< of its triangles, and of its points
+    std::uint32_t Vertex; ///< None of a flip
+    std::size_t First;    ///< of its triangles, and of its points; of a flip A to D
     int Count;
+  };
+
+  /** Two triangles (A, B, C) and (B, A, D), which become (A, D, C) and (D, B, C). */
+  struct Flip
+  {
+    std::uint32_t First = None;
+    std::uint32_t Second = None;
+    std::uint32_t A = None;
+    std::uint32_t B = None;
+    std::uint32_t C = None;
+    std::uint32_t D = None;
+    Vector FirstNormal{}; ///< afterwards
+    Vector SecondNormal{};
+    Vector TowardB{}; ///< across the new edge, as it is seen
+
+    std::array<std::uint32_t, 6> Numbers() const
+    {
+      return { this->First, this->Second, this->A, this->B, this->C, this->D };
+    }
   };
 
   bool FindHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
   bool KeepsTopology(const Hole& hole);
   bool KeepsShape(std::uint32_t vertex, const Hole& hole) const;
+  /** Of a triangle's smallest angle. */
+  double SineOf(const Triangle& points) const
+  {
+    return SmallestSine(
+      this->Positions[points[0]], this->Positions[points[1]], this->Positions[points[2]]);
+  }
   bool Fill(std::uint32_t vertex, const Hole& hole);
   bool MayGo(std::uint32_t vertex) const
   {
@@ -139,7 +169,18 @@ private:
   void AddBorder(std::uint32_t from, std::uint32_t to, const Vector& normal);
   bool FindOpenHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
   bool IsNear(const Hole& hole, Watched& sample, std::uint32_t number, const Hole::Place& place);
+  void FlipEdges();
+  bool SeeFlip(std::uint32_t triangle, int edge, Flip& flip) const;
+  bool IsWorthIt(const Flip& flip) const;
+  bool IsNewEdge(const Flip& flip) const;
+  void Do(const Flip& flip);
+  void UndoFlip(const Step& step);
+  void SetSides(
+    std::uint32_t first, std::uint32_t second, const std::array<std::uint32_t, 4>& points);
+  void ShareSamples(
+    std::uint32_t first, std::uint32_t second, std::uint32_t point, const Vector& towardSecond);
   void Undo(const Step& step);
+  void UndoCollapse(const Step& step);
   void Forget(const std::vector<bool>& isUndone);
   void GiveBackSamples(const Step& step);
   void PutOver(std::uint32_t triangle, std::uint32_t sample);
@@ -191,6 +232,8 @@ private:
   std::vector<std::uint32_t> PointsOfSteps;
   std::vector<std::uint32_t> LastStep;  ///< by triangle
   std::vector<std::uint32_t> RemovedIn; ///< by point: the step
+  /** Edges that would be there again if flips were undone. */
+  std::unordered_set<std::uint64_t> FlippedAway;
 };
 
 template <typename Visit>

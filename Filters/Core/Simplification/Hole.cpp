@@ -6,13 +6,6 @@
 
 namespace isodiamond
 {
-namespace
-{
-
-/** A triangle may not lean more from the mean normal than to this cosine, unless one did before. */
-constexpr double UsualCosine = 0.2;
-
-}
 
 bool Hole::SeeFromAbove(
   const std::vector<Vector>& positions, const std::vector<Vector>& normals, std::uint32_t vertex)

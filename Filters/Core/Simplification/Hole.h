@@ -22,6 +22,9 @@ struct Hole
   /** Vertices with more neighbours leave none. */
   static constexpr int MostPoints = 32;
 
+  /** No triangle may lean more from the mean normal than to this cosine, unless one did before. */
+  static constexpr double UsualCosine = 0.2;
+
   /** As it is seen: the vertex is at 0. */
   using Place = std::array<double, 2>;
 

@@ -5,6 +5,7 @@
 #include "Field/Vector.h"
 #include "Simplification/CellsAtPoints.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -33,6 +34,15 @@ inline Vector Unit(const Vector& vector)
 {
   const double length = std::sqrt(Dot(vector, vector));
   return length > 0.0 ? (1.0 / length) * vector : Vector{};
+}
+
+/** The sine of a triangle's smallest angle, opposite to its shortest side; 0 of a point. */
+inline double SmallestSine(const Vector& a, const Vector& b, const Vector& c)
+{
+  const Vector across = Cross(b - a, c - a);
+  std::array<double, 3> sides = { Dot(b - a, b - a), Dot(c - b, c - b), Dot(a - c, a - c) };
+  std::sort(sides.begin(), sides.end()); // squared
+  return sides[1] > 0.0 ? std::sqrt(Dot(across, across) / (sides[1] * sides[2])) : 0.0;
 }
 
 /** Triangles by the ids of their points, with one orientation. */

@@ -8,6 +8,18 @@ namespace isodiamond
 
 void EdgeCollapses::Undo(const Step& step)
 {
+  if (step.Vertex == None)
+  {
+    this->UndoFlip(step);
+  }
+  else
+  {
+    this->UndoCollapse(step);
+  }
+}
+
+void EdgeCollapses::UndoCollapse(const Step& step)
+{
   const std::uint32_t* triangles = &this->TrianglesOfSteps[step.First];
   const std::uint32_t* points = &this->PointsOfSteps[step.First];
   const auto beyond = [&](int stays, std::uint32_t from)
@@ -192,7 +204,10 @@ void EdgeCollapses::Forget(const std::vector<bool>& isUndone)
     {
       const Step step = this->Steps[i];
       this->Steps[kept] = step;
-      this->RemovedIn[step.Vertex] = static_cast<std::uint32_t>(kept);
+      if (step.Vertex != None)
+      {
+        this->RemovedIn[step.Vertex] = static_cast<std::uint32_t>(kept);
+      }
       for (int k = 0; k < step.Count; ++k)
       {
         const std::uint32_t triangle = this->TrianglesOfSteps[step.First + k];
