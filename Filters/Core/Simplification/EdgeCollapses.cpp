@@ -38,6 +38,10 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuar
   std::vector<int> counts(this->Positions.size());
   for (std::uint32_t i = 0; i < this->Triangles.size(); ++i)
   {
+    if (!this->Links.IsThere(i))
+    {
+      continue;
+    }
     const Triangle& triangle = this->Triangles[i];
     const Vector across = Across(this->Positions, triangle);
     this->Normals[i] = Unit(across);

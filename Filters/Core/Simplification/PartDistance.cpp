@@ -8,8 +8,10 @@
 namespace isodiamond
 {
 
-PartDistance::PartDistance(MeshPart& part)
+PartDistance::PartDistance(MeshPart& part, bool isStartNear)
   : Part(part)
+  , IsStartNear(isStartNear)
+  , StartNear(part.Near)
   , Cover(part.Positions, part.Original)
   , Shadow(part.Positions, part.Original, part.Allowances)
   , OriginalAt(AnyTriangleAt(part.Positions.size(), part.Original))
@@ -22,7 +24,8 @@ class PartDistance::Comparison
 public:
   Comparison(PartDistance& all, const LinkedTriangles& simple,
     const std::vector<std::uint32_t>& homes, const std::vector<bool>& isTouched)
-    : Part(all.Part)
+    : All(all)
+    , Part(all.Part)
     , Cover(all.Cover)
     , Shadow(all.Shadow)
     , Simple(simple)
@@ -42,6 +45,33 @@ public:
   }
 
 private:
+  /** Whether a triangle is what it was at the start. */
+  bool IsAsAtStart(std::uint32_t number) const
+  {
+    const Triangle& start = this->Part.Simple.Triangles[number];
+    Triangle now = this->Simple.Triangles[number];
+    std::rotate(now.begin(), now.begin() + PlaceOf(now, start[0]), now.end());
+    return this->Simple.IsThere(number) && now == start;
+  }
+
+  /** Whether all that a triangle of the original was near to at the start is there again. */
+  bool IsNearAsAtStart(std::uint32_t original)
+  {
+    const IdRange near = this->All.StartNear[original];
+    const bool isSo = this->All.IsStartNear && !near.empty() &&
+      std::all_of(
+        near.begin(), near.end(), [&](std::uint32_t number) { return this->IsAsAtStart(number); });
+    if (isSo)
+    {
+      this->Part.Near.Begin(original);
+      for (const std::uint32_t number : near)
+      {
+        this->Part.Near.Add(original, number);
+      }
+    }
+    return isSo;
+  }
+
   /** Each triangle of the original that was near to what is another one now. */
   void GoForth()
   {
@@ -51,7 +81,7 @@ private:
       const bool isKnown = !near.empty() &&
         std::none_of(
           near.begin(), near.end(), [&](std::uint32_t number) { return this->IsTouched[number]; });
-      if (!isKnown && !this->IsNearForth(i))
+      if (!isKnown && !this->IsNearAsAtStart(i) && !this->IsNearForth(i))
       {
         this->MarkOriginal(i);
       }
@@ -143,7 +173,8 @@ private:
       [&](std::size_t original) { return this->Part.Near[original]; });
     for (std::uint32_t i = 0; i < this->Simple.Triangles.size(); ++i)
     {
-      if (this->Simple.IsThere(i) && this->IsTouched[i] && !this->IsNearBack(i, nearTo))
+      const bool isKnown = !this->IsTouched[i] || (this->All.IsStartNear && this->IsAsAtStart(i));
+      if (this->Simple.IsThere(i) && !isKnown && !this->IsNearBack(i, nearTo))
       {
         this->Found.Triangles.push_back(i);
       }
@@ -226,6 +257,7 @@ private:
     return isNear && Dot(mean, Cross(corners[1] - corners[0], corners[2] - corners[0])) >= 0.0;
   }
 
+  const PartDistance& All;
   MeshPart& Part;
   Covering& Cover;
   ShadowTest& Shadow;

@@ -20,13 +20,17 @@ namespace isodiamond
  * the simpler ones their shadow tells (ShadowTest.h). The others are cut in pieces (Covering.h).
  *
  * Of each original triangle is known which triangles it is near to, so where these have not been
- * touched it need not be looked at again.
+ * touched it need not be looked at again; nor where all are again what they were at the start, if
+ * that was near: what is near may be hard to find.
  */
 class PartDistance
 {
 public:
-  /** @param part must outlive it; its near lists are kept as they should be */
-  explicit PartDistance(MeshPart& part);
+  /** @param part must outlive it; its near lists are kept as they should be
+   *  @param isStartNear whether its simpler mesh is known to be near, and its near lists tell to
+   * what
+   */
+  explicit PartDistance(MeshPart& part, bool isStartNear = false);
 
   /** What is too far away. */
   struct Faults
@@ -50,6 +54,8 @@ private:
   class Comparison;
 
   MeshPart& Part;
+  bool IsStartNear;
+  NearLists StartNear;
   Covering Cover;                        ///< over the original
   ShadowTest Shadow;                     ///< of the original
   std::vector<std::uint32_t> OriginalAt; ///< by point: one of the original's triangles, or None

@@ -34,7 +34,7 @@ struct Pass
   double UsedPart; ///< of the allowances, by samples: where more was too much, less of it is tried
 };
 
-constexpr std::array<Pass, 2> Passes = { { { 0.5, 0.8 }, { 0.35, 0.65 } } };
+constexpr std::array<Pass, 2> Passes = { { { 0.5, 0.85 }, { 0.35, 0.75 } } };
 
 }
 

@@ -16,14 +16,27 @@ namespace isodiamond
 namespace
 {
 
-/** Makes a part simpler: collapses edges, measures, and undoes what leads too far, until nothing
- *  does. The part's triangles, near lists and samples are those of the result. */
-void CollapseEdges(MeshPart& part, double usedPart)
+/** Where more than this part of what collapses have saved had to be undone, less is tried. */
+constexpr double MuchUndone = 0.05;
+constexpr double LessOfUsedPart = 0.85;
+constexpr int MostTries = 3;
+
+std::size_t CountThere(const LinkedTriangles& mesh)
 {
-  PartDistance distance(part);
+  return std::count_if(mesh.Triangles.begin(), mesh.Triangles.end(),
+    [](const Triangle& triangle) { return triangle[0] != None; });
+}
+
+/** Makes a part simpler: collapses edges, measures, and undoes what leads too far, until nothing
+ *  does. The part's triangles, near lists and samples are those of the result.
+ *  @return whether much had to be undone: a collapse takes all with it that builds on it */
+bool CollapseOnce(MeshPart& part, double usedPart)
+{
+  PartDistance distance(part, true);
   const NearLists nearBefore = part.Near;
   EdgeCollapses collapses(part, usedPart);
   std::vector<bool> isTouched = collapses.Run();
+  const std::size_t tried = CountThere(collapses.Mesh());
   for (;;)
   {
     const PartDistance::Faults faults =
@@ -36,14 +49,26 @@ void CollapseEdges(MeshPart& part, double usedPart)
     if (std::find(isTouched.begin(), isTouched.end(), true) == isTouched.end())
     {
       part.Near = nearBefore; // nothing is left that could be wrong
-      return;
+      return true;
     }
   }
   for (std::size_t i = 0; i < part.Samples.size(); ++i)
   {
     part.Samples[i].Home = collapses.SampleHomes()[i];
   }
+  const std::size_t before = CountThere(part.Simple);
   part.Simple = collapses.Mesh();
+  const std::size_t undone = CountThere(part.Simple) - tried;
+  return static_cast<double>(undone) > MuchUndone * static_cast<double>(before - tried);
+}
+
+/** The same, with less of what is allowed as long as much has to be undone. */
+void CollapseEdges(MeshPart& part, double usedPart)
+{
+  for (int i = 0; i < MostTries && CollapseOnce(part, usedPart); ++i)
+  {
+    usedPart *= LessOfUsedPart;
+  }
 }
 
 /** What belongs to each part. @param partOf (number) -> part, or None */
