@@ -1,65 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simplification against brute force; what it would have to find, done by hand; and undone.
-#include "DistanceTestTools.h"
+// Simplification against brute force, and what it would have to find, done by hand.
 #include "RandomTestTools.h"
-#include "Simplification/Covering.h"
-#include "Simplification/EdgeCollapses.h"
 #include "Simplification/PartDistance.h"
-#include "Simplification/ShadowTest.h"
 #include "Simplification/Simplification.h"
 #include "Simplification/SimplifiedMesh.h"
+#include "SimplificationTestTools.h"
 #include "TopologyTestTools.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 #include <set>
 
 using namespace isodiamond;
 
 namespace
 {
-
-/** Surfaces with thin walls, holes and specks, and a border. */
-std::vector<test::Field> Fields()
-{
-  std::vector<test::Field> fields = { test::WaveField({ 21, 18, 13 }),
-    test::SphereField({ 17, 17, 17 }), test::NoiseField({ 9, 8, 9 }, 3) };
-  return fields;
-}
-
-AllowedMesh MeshOf(const test::Field& field, double tolerance, double allowed)
-{
-  BuildOptions options = test::Distance();
-  options.PreserveTopology = true;
-  const test::Built built = test::Build(Model::Minimal, field, options);
-  const test::Mesh mesh = test::Extract(*built.Hierarchy, tolerance);
-  AllowedMesh result;
-  for (const std::array<float, 3>& point : mesh.Points)
-  {
-    result.Mesh.Positions.push_back({ point[0], point[1], point[2] });
-    result.OnWalls.push_back(Walls::At(result.Mesh.Positions.back(), Grid(field.Dims)));
-  }
-  for (const std::array<std::int32_t, 3>& t : mesh.Triangles)
-  {
-    result.Mesh.Triangles.push_back({ static_cast<std::uint32_t>(t[0]),
-      static_cast<std::uint32_t>(t[1]), static_cast<std::uint32_t>(t[2]) });
-    result.Allowances.push_back(allowed);
-  }
-  return result;
-}
-
-test::SurfaceTriangles TrianglesOf(const TriangleMesh& mesh)
-{
-  test::SurfaceTriangles triangles;
-  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
-  {
-    triangles.push_back({ { mesh.Corner(i, 0), mesh.Corner(i, 1), mesh.Corner(i, 2) } });
-  }
-  return triangles;
-}
 
 /** Of some triangles, in degrees, by cosines. */
 double SmallestAngle(const TriangleMesh& mesh, std::size_t first, std::size_t last = SIZE_MAX)
@@ -84,134 +40,27 @@ std::string FaultBetween(const TriangleMesh& a, const TriangleMesh& b, double al
   test::Promise promise;
   promise.Tolerance = allowed;
   promise.Forth = false;
-  const std::string back = test::FaultOf(promise, TrianglesOf(a), TrianglesOf(b));
-  return back.empty() ? test::FaultOf(promise, TrianglesOf(b), TrianglesOf(a)) : back;
-}
-
-std::vector<std::array<std::int32_t, 3>> IdsOf(const TriangleMesh& mesh)
-{
-  std::vector<std::array<std::int32_t, 3>> ids;
-  for (const Triangle& t : mesh.Triangles)
-  {
-    ids.push_back({ static_cast<std::int32_t>(t[0]), static_cast<std::int32_t>(t[1]),
-      static_cast<std::int32_t>(t[2]) });
-  }
-  return ids;
-}
-
-std::vector<std::pair<std::uint32_t, std::uint32_t>> BorderOf(const TriangleMesh& mesh)
-{
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (const Triangle& t : mesh.Triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      ++edges[{ t[k], t[(k + 1) % 3] }];
-    }
-  }
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> border;
-  for (const auto& [edge, count] : edges)
-  {
-    EXPECT_EQ(count, 1) << "two triangles on one side of an edge";
-    if (edges.count({ edge.second, edge.first }) == 0)
-    {
-      border.push_back(edge);
-    }
-  }
-  return border;
-}
-
-/** Border edges are on walls, as they were, or the same. */
-void ExpectBorder(const AllowedMesh& before, const TriangleMesh& after)
-{
-  const auto was = BorderOf(before.Mesh);
-  for (const auto& edge : BorderOf(after))
-  {
-    const bool isOnWall =
-      !before.OnWalls.empty() && (before.OnWalls[edge.first] & before.OnWalls[edge.second]) != 0;
-    EXPECT_TRUE(isOnWall || std::binary_search(was.begin(), was.end(), edge))
-      << edge.first << " - " << edge.second;
-  }
+  const std::string back = test::FaultOf(promise, test::TrianglesOf(a), test::TrianglesOf(b));
+  return back.empty() ? test::FaultOf(promise, test::TrianglesOf(b), test::TrianglesOf(a)) : back;
 }
 
 /** What holds of every result. */
 void ExpectPromise(const AllowedMesh& before, const TriangleMesh& after, double allowed)
 {
   EXPECT_EQ(FaultBetween(before.Mesh, after, allowed), "");
-  EXPECT_EQ(test::TopologyOf(IdsOf(after)), test::TopologyOf(IdsOf(before.Mesh)));
-  ExpectBorder(before, after);
+  EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(before.Mesh)));
+  test::ExpectBorder(before, after);
   EXPECT_TRUE(after.Positions == before.Mesh.Positions);
-}
-
-/** A mesh as a part of itself of which nothing is known yet. */
-MeshPart Whole(const AllowedMesh& mesh)
-{
-  MeshPart part;
-  part.Positions = mesh.Mesh.Positions;
-  part.Original = Connectivity(part.Positions.size(), mesh.Mesh.Triangles).Linked();
-  part.Allowances = mesh.Allowances;
-  part.Simple = part.Original;
-  part.IsFixed.resize(part.Positions.size());
-  part.OnWalls = mesh.OnWalls;
-  part.OnWalls.resize(part.Positions.size());
-  for (const Vector& position : part.Positions)
-  {
-    part.Samples.push_back({ position, mesh.Allowances.front() });
-  }
-  for (std::uint32_t i = 0; i < mesh.Mesh.Triangles.size(); ++i)
-  {
-    part.Samples.push_back({ mesh.Mesh.Middle(i), mesh.Allowances[i], i });
-  }
-  part.Near = NearLists(mesh.Mesh.Triangles.size());
-  return part;
 }
 
 /** What is wrong with triangles in place of a mesh's, all of which are said to be touched. */
 PartDistance::Faults FaultsOf(const AllowedMesh& before, const std::vector<Triangle>& triangles)
 {
-  MeshPart part = Whole(before);
+  MeshPart part = test::WholePart(before);
   PartDistance distance(part);
   return distance.Find(Connectivity(part.Positions.size(), triangles).Linked(),
     std::vector<std::uint32_t>(part.Samples.size(), None),
     std::vector<bool>(triangles.size(), true));
-}
-
-/** The triangles that are left of some. @param numbers are given theirs */
-std::vector<Triangle> Left(
-  const LinkedTriangles& mesh, std::vector<std::uint32_t>* numbers = nullptr)
-{
-  std::vector<Triangle> left;
-  for (std::uint32_t i = 0; i < mesh.Triangles.size(); ++i)
-  {
-    if (mesh.IsThere(i))
-    {
-      left.push_back(mesh.Triangles[i]);
-      if (numbers != nullptr)
-      {
-        numbers->push_back(i);
-      }
-    }
-  }
-  return left;
-}
-
-/** Across each edge is what goes along it the other way, and knows of it. */
-void ExpectLinks(const LinkedTriangles& mesh)
-{
-  for (std::uint32_t i = 0; i < mesh.Triangles.size(); ++i)
-  {
-    for (int k = 0; k < 3 && mesh.IsThere(i); ++k)
-    {
-      const std::uint32_t beyond = mesh.Neighbours[i][k];
-      if (beyond != None)
-      {
-        const int place = PlaceOf(mesh.Triangles[beyond], mesh.Triangles[i][(k + 1) % 3]);
-        ASSERT_EQ(mesh.Triangles[beyond][place], mesh.Triangles[i][(k + 1) % 3]);
-        ASSERT_EQ(mesh.Triangles[beyond][(place + 1) % 3], mesh.Triangles[i][k]);
-        ASSERT_EQ(mesh.Neighbours[beyond][place], i);
-      }
-    }
-  }
 }
 
 std::uint32_t FarthestFrom(const TriangleMesh& mesh, std::uint32_t point)
@@ -254,13 +103,13 @@ std::vector<Triangle> WithoutPieceOf(std::vector<Triangle> triangles, const Tria
 
 TEST(Simplification, KeepsThePromise)
 {
-  for (const test::Field& field : Fields())
+  for (const test::Field& field : test::SurfacesToSimplify())
   {
     SCOPED_TRACE(field.Name);
     for (const double allowed : { 0.1, 0.4, 2.0 })
     {
       SCOPED_TRACE(allowed);
-      const AllowedMesh before = MeshOf(field, 0.1, allowed);
+      const AllowedMesh before = test::MeshOf(field, 0.1, allowed);
       for (const std::size_t most : { std::size_t{ 300 }, MostOfPart })
       {
         const TriangleMesh after = Simplify(before, SerialFor, most);
@@ -281,7 +130,7 @@ TEST(Simplification, KeepsThePromiseInNoise)
       const int size = 3 + test::Pick(random, 5);
       const double allowed = 0.1 * (1 + test::Pick(random, 20));
       const AllowedMesh before =
-        MeshOf(test::NoiseField({ size, size + 1, size }, seed), 0.0, allowed);
+        test::MeshOf(test::NoiseField({ size, size + 1, size }, seed), 0.0, allowed);
       if (!before.Mesh.Triangles.empty())
       {
         ExpectPromise(before, Simplify(before, SerialFor, 50 + test::Pick(random, 1000)), allowed);
@@ -293,10 +142,10 @@ TEST(Simplification, KeepsThePromiseInNoise)
 // Where samples allow much too much, everything depends on measuring and undoing.
 TEST(Simplification, KeepsThePromiseWhateverSamplesAllow)
 {
-  for (const test::Field& field : Fields())
+  for (const test::Field& field : test::SurfacesToSimplify())
   {
     SCOPED_TRACE(field.Name);
-    const AllowedMesh before = MeshOf(field, 0.0, 0.2);
+    const AllowedMesh before = test::MeshOf(field, 0.0, 0.2);
     SimplifiedMesh simplified(before);
     for (const double cut : { 0.5, 0.35, 0.6, 0.4 })
     {
@@ -311,7 +160,7 @@ TEST(Simplification, KeepsThePromiseWhateverSamplesAllow)
 
 TEST(Simplification, SavesMostTriangles)
 {
-  const AllowedMesh before = MeshOf(test::SphereField({ 33, 33, 33 }), 0.1, 0.4);
+  const AllowedMesh before = test::MeshOf(test::SphereField({ 33, 33, 33 }), 0.1, 0.4);
   const TriangleMesh whole = Simplify(before, SerialFor);
   EXPECT_LT(10 * whole.Triangles.size(), before.Mesh.Triangles.size());
   // Hardly more where the borders of parts were, as the second pass cuts elsewhere.
@@ -355,7 +204,7 @@ TEST(Simplification, MakesNoSmallAnglesIfItShallNot)
 
 TEST(Simplification, LosesMostSmallAngles)
 {
-  AllowedMesh mesh = MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 0.2);
+  AllowedMesh mesh = test::MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 0.2);
   const auto small = [](const TriangleMesh& triangles)
   {
     std::size_t count = 0;
@@ -376,20 +225,20 @@ TEST(Simplification, LosesMostSmallAngles)
 
 TEST(Simplification, GoesAlongTheWalls)
 {
-  AllowedMesh before = MeshOf(test::WaveField({ 33, 30, 33 }), 0.0, 0.4);
-  const std::size_t was = BorderOf(before.Mesh).size();
+  AllowedMesh before = test::MeshOf(test::WaveField({ 33, 30, 33 }), 0.0, 0.4);
+  const std::size_t was = test::BorderOf(before.Mesh).size();
   ASSERT_GT(was, 100U);
   for (const std::size_t most : { std::size_t{ 1000 }, MostOfPart })
   {
     const TriangleMesh after = Simplify(before, SerialFor, most);
     ExpectPromise(before, after, 0.4);
-    EXPECT_LT(2 * BorderOf(after).size(), was);
+    EXPECT_LT(2 * test::BorderOf(after).size(), was);
   }
   // Not where no walls are known.
   before.OnWalls.clear();
   const TriangleMesh after = Simplify(before, SerialFor);
   ExpectPromise(before, after, 0.4);
-  EXPECT_EQ(BorderOf(after), BorderOf(before.Mesh));
+  EXPECT_EQ(test::BorderOf(after), test::BorderOf(before.Mesh));
 }
 
 // Tubes that end on a wall in three edges: a border of two edges is none.
@@ -420,7 +269,7 @@ TEST(Simplification, LeavesTheSmallestBorders)
 
 TEST(Simplification, DoesNotDependOnThreads)
 {
-  const AllowedMesh before = MeshOf(test::WaveField({ 33, 30, 33 }), 0.0, 0.3);
+  const AllowedMesh before = test::MeshOf(test::WaveField({ 33, 30, 33 }), 0.0, 0.3);
   const TriangleMesh serial = Simplify(before, SerialFor, 1000);
   const TriangleMesh threaded = Simplify(before, test::ThreadedFor(4), 1000);
   EXPECT_TRUE(serial.Triangles == threaded.Triangles);
@@ -429,7 +278,7 @@ TEST(Simplification, DoesNotDependOnThreads)
 
 TEST(Simplification, HoldsTheAllowanceOfEachPlace)
 {
-  AllowedMesh before = MeshOf(test::WaveField({ 21, 21, 21 }), 0.0, 1.0);
+  AllowedMesh before = test::MeshOf(test::WaveField({ 21, 21, 21 }), 0.0, 1.0);
   for (std::size_t i = 0; i < before.Allowances.size(); ++i)
   {
     before.Allowances[i] = before.Mesh.Corner(i, 0)[0] < 10.0 ? 0.05 : 1.0;
@@ -449,16 +298,15 @@ TEST(Simplification, HoldsTheAllowanceOfEachPlace)
   test::Promise promise;
   promise.Tolerance = 0.05;
   promise.Forth = false;
-  EXPECT_EQ(test::FaultOf(promise, TrianglesOf(after), TrianglesOf(fine.Mesh)), "");
+  EXPECT_EQ(test::FaultOf(promise, test::TrianglesOf(after), test::TrianglesOf(fine.Mesh)), "");
 }
 
-// What collapses must not do, done by hand.
 // Without flips it is 0.106.
 TEST(Simplification, IsNearOnAverage)
 {
-  const AllowedMesh before = MeshOf(test::WaveField({ 33, 33, 33 }), 0.05, 0.4);
+  const AllowedMesh before = test::MeshOf(test::WaveField({ 33, 33, 33 }), 0.05, 0.4);
   const TriangleMesh after = Simplify(before, SerialFor);
-  const test::NearestTriangle nearest(TrianglesOf(after));
+  const test::NearestTriangle nearest(test::TrianglesOf(after));
   double sum = 0.0;
   for (std::size_t i = 0; i < before.Mesh.Triangles.size(); ++i)
   {
@@ -469,9 +317,10 @@ TEST(Simplification, IsNearOnAverage)
   EXPECT_LT(rms, 0.1);
 }
 
+// What collapses must not do, done by hand.
 TEST(Simplification, CatchesSabotage)
 {
-  const AllowedMesh before = MeshOf(test::WaveField({ 15, 15, 15 }), 0.0, 0.2);
+  const AllowedMesh before = test::MeshOf(test::WaveField({ 15, 15, 15 }), 0.0, 0.2);
   const std::vector<Triangle>& sound = before.Mesh.Triangles;
   EXPECT_FALSE(FaultsOf(before, sound).Any());
   std::vector<Triangle> pulled = sound;
@@ -538,14 +387,14 @@ TEST(Simplification, MakesNoEdgeInTwoParts)
   }
   before.Allowances.assign(before.Mesh.Triangles.size(), 1e5);
   const TriangleMesh after = Simplify(before, SerialFor, 4 * needles);
-  EXPECT_TRUE(BorderOf(after).empty());
-  EXPECT_EQ(test::TopologyOf(IdsOf(after)), test::TopologyOf(IdsOf(before.Mesh)));
+  EXPECT_TRUE(test::BorderOf(after).empty());
+  EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(before.Mesh)));
 }
 
 TEST(Simplification, FoldsNothingOver)
 {
   // Of a ball: every triangle faces away from its middle.
-  const AllowedMesh before = MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 1.0);
+  const AllowedMesh before = test::MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 1.0);
   const auto facesInward = [](const TriangleMesh& mesh)
   {
     int count = 0;
@@ -567,7 +416,7 @@ TEST(Simplification, FoldsNothingOver)
 
 TEST(Simplification, LeavesWhatHasNoAllowance)
 {
-  const AllowedMesh before = MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 0.0);
+  const AllowedMesh before = test::MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 0.0);
   EXPECT_TRUE(Simplify(before, SerialFor).Triangles == before.Mesh.Triangles);
   AllowedMesh hardly = before;
   hardly.Allowances.assign(hardly.Allowances.size(), 1e-300);
@@ -578,7 +427,7 @@ TEST(Simplification, LeavesWhatHasNoAllowance)
 // A triangle twice: what meets at its edges cannot be told.
 TEST(Simplification, LeavesMeshesWithFaultsAsTheyAre)
 {
-  AllowedMesh before = MeshOf(test::WaveField({ 9, 9, 9 }), 0.0, 0.5);
+  AllowedMesh before = test::MeshOf(test::WaveField({ 9, 9, 9 }), 0.0, 0.5);
   const std::vector<Triangle> sound = before.Mesh.Triangles;
   ASSERT_LT(Simplify(before, SerialFor).Triangles.size(), sound.size());
   before.Allowances.push_back(0.5);
@@ -587,297 +436,5 @@ TEST(Simplification, LeavesMeshesWithFaultsAsTheyAre)
     before.Mesh.Triangles = sound;
     before.Mesh.Triangles.push_back(sound[i]);
     EXPECT_EQ(Simplify(before, SerialFor).Triangles.size(), before.Mesh.Triangles.size()) << i;
-  }
-}
-
-// A roof whose ridge leads from point 0 to 2, and two triangles that cut across it.
-namespace
-{
-
-MeshPart CutRoof()
-{
-  AllowedMesh roof;
-  roof.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, -0.5 }, { 1, 1, 0 }, { 0, 1, -0.5 } };
-  roof.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  roof.Allowances = { 1.0, 1.0 };
-  MeshPart part = Whole(roof);
-  part.Simple = Connectivity(4, { { 0, 1, 3 }, { 1, 2, 3 } }).Linked();
-  part.Samples.push_back({ { 0.2, 0.2, 0 }, 1.0, 0 });
-  part.Samples.push_back({ { 0.8, 0.8, 0 }, 1.0, 1 });
-  return part;
-}
-
-bool HasRidge(const LinkedTriangles& mesh)
-{
-  return std::all_of(mesh.Triangles.begin(), mesh.Triangles.end(),
-    [](const Triangle& t)
-    { return std::count(t.begin(), t.end(), 0U) == 1 && std::count(t.begin(), t.end(), 2U) == 1; });
-}
-
-}
-
-TEST(EdgeCollapses, FlipsEdgesThatCutAcrossARidge)
-{
-  const MeshPart part = CutRoof();
-  EdgeCollapses collapses(part, 1.0);
-  EXPECT_EQ(collapses.Run(), std::vector<bool>({ true, true }));
-  ASSERT_TRUE(HasRidge(collapses.Mesh()));
-  ExpectLinks(collapses.Mesh());
-  // Each middle lies over the triangle that it is the middle of.
-  for (std::uint32_t sample = 4; sample < 6; ++sample)
-  {
-    const Triangle& under = collapses.Mesh().Triangles[collapses.SampleHomes()[sample]];
-    const std::uint32_t corner = sample == 4 ? 1 : 3;
-    EXPECT_EQ(std::count(under.begin(), under.end(), corner), 1);
-  }
-  const std::vector<bool> undone = collapses.Undo({ 1 }, {});
-  EXPECT_EQ(undone, std::vector<bool>({ true, true }));
-  EXPECT_FALSE(HasRidge(collapses.Mesh()));
-  ExpectLinks(collapses.Mesh());
-  EXPECT_EQ(collapses.SampleHomes()[6], 0);
-  EXPECT_EQ(collapses.SampleHomes()[7], 1);
-}
-
-// Below the roof is a groove from point 1 to 3: were that edge, which the roof has lost, made
-// there, it would be there twice once the roof's flip is undone.
-TEST(EdgeCollapses, MakesNoEdgeThatWasFlippedAway)
-{
-  AllowedMesh mesh;
-  mesh.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, -0.5 }, { 1, 1, 0 }, { 0, 1, -0.5 },
-    { 0.6, 0.6, -1.5 } };
-  mesh.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 1, 0, 3 }, { 1, 3, 4 }, { 2, 1, 4 },
-    { 3, 2, 4 } };
-  mesh.Allowances.assign(6, 0.3);
-  MeshPart part = Whole(mesh);
-  const std::vector<Triangle> cut = { { 0, 1, 3 }, { 1, 2, 3 }, { 1, 0, 4 }, { 0, 3, 4 },
-    { 2, 1, 4 }, { 3, 2, 4 } };
-  part.Simple = Connectivity(5, cut).Linked();
-  EdgeCollapses collapses(part, 1.0);
-  EXPECT_TRUE(collapses.Run()[0]);
-  collapses.Undo({ 0 }, {});
-  EXPECT_TRUE(BorderOf({ mesh.Mesh.Positions, Left(collapses.Mesh()) }).empty());
-  // Without the roof it is made.
-  part.Simple = Connectivity(5, { cut.begin() + 2, cut.end() }).Linked();
-  for (SurfaceSample& sample : part.Samples)
-  {
-    sample.Home = sample.Home == None || sample.Home < 2 ? None : sample.Home - 2;
-  }
-  EdgeCollapses groove(part, 1.0);
-  groove.Run();
-  EXPECT_TRUE(groove.Mesh().Triangles[0] == Triangle({ 3, 1, 0 }) ||
-    groove.Mesh().Triangles[1] == Triangle({ 3, 1, 0 }));
-}
-
-TEST(EdgeCollapses, FlipsNothingThatHasToStay)
-{
-  MeshPart held = CutRoof();
-  held.IsFixed = { true, true, false, true }; // the first triangle
-  MeshPart joining = CutRoof();
-  joining.IsFixed = { true, false, true, false }; // the ridge may be there in another part
-  MeshPart shaped = CutRoof();
-  shaped.Positions[2] = { 20, 20, 0 }; // with the ridge, there are slivers
-  shaped.LeastSine = 0.3;
-  for (const MeshPart& part : { held, joining, shaped })
-  {
-    EdgeCollapses collapses(part, 1.0);
-    EXPECT_EQ(collapses.Run(), std::vector<bool>({ false, false }));
-  }
-  shaped.LeastSine = 0.0;
-  EXPECT_EQ(EdgeCollapses(shaped, 1.0).Run(), std::vector<bool>({ true, true }));
-}
-
-TEST(EdgeCollapses, CanBeUndone)
-{
-  for (const test::Field& field : Fields())
-  {
-    SCOPED_TRACE(field.Name);
-    const AllowedMesh before = MeshOf(field, 0.0, 1.0);
-    const MeshPart part = Whole(before);
-    const Connectivity links(before.Mesh.Positions.size(), before.Mesh.Triangles);
-    test::Random random(7);
-    EdgeCollapses collapses(part, 1.0);
-    const std::vector<bool> isChanged = collapses.Run();
-    ASSERT_TRUE(std::count(isChanged.begin(), isChanged.end(), true) > 0);
-    std::size_t last = Left(collapses.Mesh()).size();
-    // Some, and in the end all.
-    for (int trial = 0; trial < 30; ++trial)
-    {
-      std::vector<std::uint32_t> triangles;
-      for (int i = 0; i < 5; ++i)
-      {
-        triangles.push_back(test::Pick(random, static_cast<int>(isChanged.size())));
-      }
-      collapses.Undo(triangles, {});
-      std::vector<std::uint32_t> numbers;
-      const TriangleMesh now{ before.Mesh.Positions, Left(collapses.Mesh(), &numbers) };
-      EXPECT_GE(now.Triangles.size(), last);
-      last = now.Triangles.size();
-      ASSERT_EQ(test::TopologyOf(IdsOf(now)), test::TopologyOf(IdsOf(before.Mesh)));
-      ExpectBorder(before, now);
-      ExpectLinks(collapses.Mesh());
-      // Each sample lies over one triangle that is there, and points in use over none.
-      const std::set<std::uint32_t> left(numbers.begin(), numbers.end());
-      const Connectivity nowLinks(now.Positions.size(), now.Triangles);
-      for (std::uint32_t i = 0; i < before.Mesh.Positions.size(); ++i)
-      {
-        const std::uint32_t home = collapses.SampleHomes()[i];
-        ASSERT_EQ(home == None, !nowLinks.At(i).empty() || links.At(i).empty());
-        ASSERT_TRUE(home == None || left.count(home) == 1);
-      }
-    }
-    std::vector<std::uint32_t> all(before.Mesh.Positions.size());
-    std::iota(all.begin(), all.end(), 0U);
-    collapses.Undo({}, all);
-    // Flips alone are left.
-    EXPECT_EQ(Left(collapses.Mesh()).size(), before.Mesh.Triangles.size());
-    all.resize(isChanged.size());
-    std::iota(all.begin(), all.end(), 0U);
-    collapses.Undo(all, {});
-    std::vector<Triangle> now = Left(collapses.Mesh());
-    std::vector<Triangle> then = before.Mesh.Triangles;
-    for (std::vector<Triangle>* triangles : { &now, &then })
-    {
-      for (Triangle& t : *triangles)
-      {
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-      }
-      std::sort(triangles->begin(), triangles->end());
-    }
-    EXPECT_TRUE(now == then);
-  }
-}
-
-// Triangles on points of a mesh that are near to each other, some of them far from the mesh or over
-// its border, with some of the mesh's triangles there.
-TEST(ShadowTest, IsRightByBruteForce)
-{
-  for (const test::Field& field : Fields())
-  {
-    SCOPED_TRACE(field.Name);
-    const AllowedMesh mesh = MeshOf(field, 0.0, 0.0);
-    const std::vector<Vector>& positions = mesh.Mesh.Positions;
-    const Connectivity links(positions.size(), mesh.Mesh.Triangles);
-    const test::NearestTriangle nearest(TrianglesOf(mesh.Mesh));
-    test::Random random(11);
-    int covered = 0;
-    int notCovered = 0;
-    for (int trial = 0; trial < 3000; ++trial)
-    {
-      const double allowed = 0.05 * (1 + test::Pick(random, 12));
-      const std::vector<double> allowances(mesh.Mesh.Triangles.size(), allowed);
-      ShadowTest shadow(positions, links.Linked(), allowances);
-      const std::uint32_t start = test::Pick(random, static_cast<int>(mesh.Mesh.Triangles.size()));
-      const double reach = 1.0 + test::Pick(random, 3);
-      std::vector<std::uint32_t> around = { start };
-      std::vector<std::uint32_t> points;
-      for (std::uint32_t i = 0; i < mesh.Mesh.Triangles.size(); ++i)
-      {
-        const Vector way = mesh.Mesh.Middle(i) - mesh.Mesh.Middle(start);
-        if (i != start && Dot(way, way) < reach * reach)
-        {
-          points.push_back(mesh.Mesh.Triangles[i][0]);
-          if (test::Pick(random, 4) == 0)
-          {
-            around.push_back(i);
-          }
-        }
-      }
-      if (points.size() < 3)
-      {
-        continue;
-      }
-      std::array<Vector, 3> corners;
-      for (Vector& corner : corners)
-      {
-        corner = positions[points[test::Pick(random, static_cast<int>(points.size()))]];
-        corner[test::Pick(random, 3)] += 0.02 * test::Pick(random, 10);
-      }
-      // Along its normal, or askew.
-      Vector direction = Unit(Cross(corners[1] - corners[0], corners[2] - corners[0]));
-      if (test::Pick(random, 2) == 0)
-      {
-        direction[test::Pick(random, 3)] += 0.1 * test::Pick(random, 8);
-        direction = Unit(direction);
-      }
-      if (!shadow.Covers(corners, direction, around))
-      {
-        ++notCovered;
-        continue;
-      }
-      ++covered;
-      constexpr int parts = 12;
-      double farthest = 0.0;
-      for (int i = 0; i <= parts; ++i)
-      {
-        for (int k = 0; i + k <= parts; ++k)
-        {
-          const Vector place = (1.0 / parts) *
-            (static_cast<double>(i) * corners[0] + static_cast<double>(k) * corners[1] +
-              static_cast<double>(parts - i - k) * corners[2]);
-          farthest = std::max(farthest, nearest.Distance(place));
-        }
-      }
-      ASSERT_LE(farthest, allowed) << trial;
-    }
-    EXPECT_GT(covered, 10);
-    EXPECT_GT(notCovered, 50);
-  }
-}
-
-// A fold: what covers a triangle and turns back does not cover it twice as much.
-TEST(ShadowTest, CountsWhatFacesTheOtherWay)
-{
-  const std::vector<Vector> positions = { { -1, -1, 0 }, { 3, -1, 0 }, { -1, 3, 0 },
-    { -1, -1, 0.1 }, { 3, -1, 0.1 }, { -1, 3, 0.1 } };
-  const std::vector<Triangle> triangles = { { 0, 1, 2 }, { 4, 3, 5 } };
-  const Connectivity links(positions.size(), triangles);
-  const std::vector<double> allowances(2, 1.0);
-  ShadowTest shadow(positions, links.Linked(), allowances);
-  const std::array<Vector, 3> up = { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } };
-  const std::array<Vector, 3> down = { up[1], up[0], up[2] };
-  const auto covers = [&](const std::array<Vector, 3>& corners, std::vector<std::uint32_t> some)
-  {
-    const Vector normal = Unit(Cross(corners[1] - corners[0], corners[2] - corners[0]));
-    return shadow.Covers(corners, normal, some);
-  };
-  EXPECT_TRUE(covers(up, { 0 }));
-  EXPECT_FALSE(covers(up, { 1 }));
-  EXPECT_FALSE(covers(up, { 0, 1 }));
-  EXPECT_TRUE(covers(down, { 1 }));
-  EXPECT_FALSE(covers(down, { 0 }));
-  EXPECT_FALSE(covers({ { up[0], up[1], up[1] } }, { 0 })) << "no area";
-}
-
-// Over a strip, and a long one, where it gives up.
-TEST(Covering, UsesAllOfATriangleOrTellsThatItDoesNot)
-{
-  for (const std::uint32_t length : { 20U, 45U, 200U })
-  {
-    TriangleMesh strip;
-    for (std::uint32_t x = 0; x <= length; ++x)
-    {
-      strip.Positions.push_back({ static_cast<double>(x), 0.0, 0.0 });
-      strip.Positions.push_back({ static_cast<double>(x), 1.0, 0.0 });
-    }
-    for (std::uint32_t i = 0; i < 2 * length; i += 2)
-    {
-      strip.Triangles.push_back({ i, i + 2, i + 3 });
-      strip.Triangles.push_back({ i, i + 3, i + 1 });
-    }
-    const Connectivity links(strip.Positions.size(), strip.Triangles);
-    Covering covering(strip.Positions, links.Linked());
-    const std::array<Vector, 3> corners = { { { 0.2, 0.3, 0.1 }, { length - 0.3, 0.4, 0.2 },
-      { 0.5 * length, 0.7, 0.1 } } };
-    const Vector normal = Cross(corners[1] - corners[0], corners[2] - corners[0]);
-    double area = 0.0;
-    const bool isAll = covering.Cut(corners, 0, 0.0,
-      [&](std::uint32_t, double distance, const Covering::Piece& piece)
-      {
-        EXPECT_LE(distance, 0.2 + 1e-9);
-        area += piece.Area();
-        return true;
-      });
-    EXPECT_EQ(isAll, length < 100);
-    EXPECT_EQ(isAll, std::abs(area - 0.5 * std::sqrt(Dot(normal, normal))) < 1e-9);
   }
 }

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Edge collapses and flips by hand, and undone.
+#include "RandomTestTools.h"
+#include "Simplification/EdgeCollapses.h"
+#include "SimplificationTestTools.h"
+#include "TopologyTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+using namespace isodiamond;
+
+// A roof whose ridge leads from point 0 to 2, and two triangles that cut across it.
+namespace
+{
+
+MeshPart CutRoof()
+{
+  AllowedMesh roof;
+  roof.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, -0.5 }, { 1, 1, 0 }, { 0, 1, -0.5 } };
+  roof.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  roof.Allowances = { 1.0, 1.0 };
+  MeshPart part = test::WholePart(roof);
+  part.Simple = Connectivity(4, { { 0, 1, 3 }, { 1, 2, 3 } }).Linked();
+  part.Samples.push_back({ { 0.2, 0.2, 0 }, 1.0, 0 });
+  part.Samples.push_back({ { 0.8, 0.8, 0 }, 1.0, 1 });
+  return part;
+}
+
+bool HasRidge(const LinkedTriangles& mesh)
+{
+  return std::all_of(mesh.Triangles.begin(), mesh.Triangles.end(),
+    [](const Triangle& t)
+    { return std::count(t.begin(), t.end(), 0U) == 1 && std::count(t.begin(), t.end(), 2U) == 1; });
+}
+
+}
+
+TEST(EdgeCollapses, FlipsEdgesThatCutAcrossARidge)
+{
+  const MeshPart part = CutRoof();
+  EdgeCollapses collapses(part, 1.0);
+  EXPECT_EQ(collapses.Run(), std::vector<bool>({ true, true }));
+  ASSERT_TRUE(HasRidge(collapses.Mesh()));
+  test::ExpectLinks(collapses.Mesh());
+  // Each middle lies over the triangle that it is the middle of.
+  for (std::uint32_t sample = 4; sample < 6; ++sample)
+  {
+    const Triangle& under = collapses.Mesh().Triangles[collapses.SampleHomes()[sample]];
+    const std::uint32_t corner = sample == 4 ? 1 : 3;
+    EXPECT_EQ(std::count(under.begin(), under.end(), corner), 1);
+  }
+  const std::vector<bool> undone = collapses.Undo({ 1 }, {});
+  EXPECT_EQ(undone, std::vector<bool>({ true, true }));
+  EXPECT_FALSE(HasRidge(collapses.Mesh()));
+  test::ExpectLinks(collapses.Mesh());
+  EXPECT_EQ(collapses.SampleHomes()[6], 0);
+  EXPECT_EQ(collapses.SampleHomes()[7], 1);
+}
+
+// Below the roof is a groove from point 1 to 3: were that edge, which the roof has lost, made
+// there, it would be there twice once the roof's flip is undone.
+TEST(EdgeCollapses, MakesNoEdgeThatWasFlippedAway)
+{
+  AllowedMesh mesh;
+  mesh.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, -0.5 }, { 1, 1, 0 }, { 0, 1, -0.5 },
+    { 0.6, 0.6, -1.5 } };
+  mesh.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 1, 0, 3 }, { 1, 3, 4 }, { 2, 1, 4 },
+    { 3, 2, 4 } };
+  mesh.Allowances.assign(6, 0.3);
+  MeshPart part = test::WholePart(mesh);
+  const std::vector<Triangle> cut = { { 0, 1, 3 }, { 1, 2, 3 }, { 1, 0, 4 }, { 0, 3, 4 },
+    { 2, 1, 4 }, { 3, 2, 4 } };
+  part.Simple = Connectivity(5, cut).Linked();
+  EdgeCollapses collapses(part, 1.0);
+  EXPECT_TRUE(collapses.Run()[0]);
+  collapses.Undo({ 0 }, {});
+  EXPECT_TRUE(
+    test::BorderOf({ mesh.Mesh.Positions, test::TrianglesLeft(collapses.Mesh()) }).empty());
+  // Without the roof it is made.
+  part.Simple = Connectivity(5, { cut.begin() + 2, cut.end() }).Linked();
+  for (SurfaceSample& sample : part.Samples)
+  {
+    sample.Home = sample.Home == None || sample.Home < 2 ? None : sample.Home - 2;
+  }
+  EdgeCollapses groove(part, 1.0);
+  groove.Run();
+  EXPECT_TRUE(groove.Mesh().Triangles[0] == Triangle({ 3, 1, 0 }) ||
+    groove.Mesh().Triangles[1] == Triangle({ 3, 1, 0 }));
+}
+
+TEST(EdgeCollapses, FlipsNothingThatHasToStay)
+{
+  MeshPart held = CutRoof();
+  held.IsFixed = { true, true, false, true }; // the first triangle
+  MeshPart joining = CutRoof();
+  joining.IsFixed = { true, false, true, false }; // the ridge may be there in another part
+  MeshPart shaped = CutRoof();
+  shaped.Positions[2] = { 20, 20, 0 }; // with the ridge, there are slivers
+  shaped.LeastSine = 0.3;
+  for (const MeshPart& part : { held, joining, shaped })
+  {
+    EdgeCollapses collapses(part, 1.0);
+    EXPECT_EQ(collapses.Run(), std::vector<bool>({ false, false }));
+  }
+  shaped.LeastSine = 0.0;
+  EXPECT_EQ(EdgeCollapses(shaped, 1.0).Run(), std::vector<bool>({ true, true }));
+}
+
+TEST(EdgeCollapses, CanBeUndone)
+{
+  for (const test::Field& field : test::SurfacesToSimplify())
+  {
+    SCOPED_TRACE(field.Name);
+    const AllowedMesh before = test::MeshOf(field, 0.0, 1.0);
+    const MeshPart part = test::WholePart(before);
+    const Connectivity links(before.Mesh.Positions.size(), before.Mesh.Triangles);
+    test::Random random(7);
+    EdgeCollapses collapses(part, 1.0);
+    const std::vector<bool> isChanged = collapses.Run();
+    ASSERT_TRUE(std::count(isChanged.begin(), isChanged.end(), true) > 0);
+    std::size_t last = test::TrianglesLeft(collapses.Mesh()).size();
+    // Some, and in the end all.
+    for (int trial = 0; trial < 30; ++trial)
+    {
+      std::vector<std::uint32_t> triangles;
+      for (int i = 0; i < 5; ++i)
+      {
+        triangles.push_back(test::Pick(random, static_cast<int>(isChanged.size())));
+      }
+      collapses.Undo(triangles, {});
+      std::vector<std::uint32_t> numbers;
+      const TriangleMesh now{ before.Mesh.Positions,
+        test::TrianglesLeft(collapses.Mesh(), &numbers) };
+      EXPECT_GE(now.Triangles.size(), last);
+      last = now.Triangles.size();
+      ASSERT_EQ(test::TopologyOf(test::IdsOf(now)), test::TopologyOf(test::IdsOf(before.Mesh)));
+      test::ExpectBorder(before, now);
+      test::ExpectLinks(collapses.Mesh());
+      // Each sample lies over one triangle that is there, and points in use over none.
+      const std::set<std::uint32_t> left(numbers.begin(), numbers.end());
+      const Connectivity nowLinks(now.Positions.size(), now.Triangles);
+      for (std::uint32_t i = 0; i < before.Mesh.Positions.size(); ++i)
+      {
+        const std::uint32_t home = collapses.SampleHomes()[i];
+        ASSERT_EQ(home == None, !nowLinks.At(i).empty() || links.At(i).empty());
+        ASSERT_TRUE(home == None || left.count(home) == 1);
+      }
+    }
+    std::vector<std::uint32_t> all(before.Mesh.Positions.size());
+    std::iota(all.begin(), all.end(), 0U);
+    collapses.Undo({}, all);
+    // Flips alone are left.
+    EXPECT_EQ(test::TrianglesLeft(collapses.Mesh()).size(), before.Mesh.Triangles.size());
+    all.resize(isChanged.size());
+    std::iota(all.begin(), all.end(), 0U);
+    collapses.Undo(all, {});
+    std::vector<Triangle> now = test::TrianglesLeft(collapses.Mesh());
+    std::vector<Triangle> then = before.Mesh.Triangles;
+    for (std::vector<Triangle>* triangles : { &now, &then })
+    {
+      for (Triangle& t : *triangles)
+      {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      }
+      std::sort(triangles->begin(), triangles->end());
+    }
+    EXPECT_TRUE(now == then);
+  }
+}

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How near a mesh is to another one: against brute force, and by hand.
+#include "RandomTestTools.h"
+#include "Simplification/Covering.h"
+#include "Simplification/PartDistance.h"
+#include "Simplification/ShadowTest.h"
+#include "SimplificationTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace isodiamond;
+
+// A square above another one, farther than is allowed, which was told to be near: that is believed
+// of what is as it was, and of nothing else.
+TEST(PartDistance, BelievesTheStartOnly)
+{
+  AllowedMesh square;
+  square.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
+  square.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  square.Allowances = { 0.2, 0.2 };
+  MeshPart above = test::WholePart(square);
+  for (int i = 0; i < 4; ++i)
+  {
+    above.Positions.push_back(above.Positions[i] + Vector{ 0, 0, 0.3 });
+  }
+  above.Simple = Connectivity(8, { { 4, 5, 6 }, { 4, 6, 7 } }).Linked();
+  for (std::uint32_t i = 0; i < 2; ++i)
+  {
+    above.Near.Begin(i);
+    above.Near.Add(i, i);
+  }
+  const auto faults = [&](bool isStartNear, const std::vector<Triangle>& triangles)
+  {
+    MeshPart part = above;
+    PartDistance distance(part, isStartNear);
+    return distance.Find(
+      Connectivity(8, triangles).Linked(), std::vector<std::uint32_t>(10, None), { true, true });
+  };
+  EXPECT_FALSE(faults(true, { { 4, 5, 6 }, { 4, 6, 7 } }).Any());
+  EXPECT_FALSE(faults(true, { { 5, 6, 4 }, { 7, 4, 6 } }).Any()) << "the same";
+  EXPECT_TRUE(faults(false, { { 4, 5, 6 }, { 4, 6, 7 } }).Any());
+  EXPECT_TRUE(faults(true, { { 4, 5, 7 }, { 5, 6, 7 } }).Any()) << "cut the other way";
+  EXPECT_TRUE(faults(true, { { 4, 6, 5 }, { 4, 7, 6 } }).Any()) << "turned over";
+}
+
+// Triangles on points of a mesh that are near to each other, some of them far from the mesh or over
+// its border, with some of the mesh's triangles there.
+TEST(ShadowTest, IsRightByBruteForce)
+{
+  for (const test::Field& field : test::SurfacesToSimplify())
+  {
+    SCOPED_TRACE(field.Name);
+    const AllowedMesh mesh = test::MeshOf(field, 0.0, 0.0);
+    const std::vector<Vector>& positions = mesh.Mesh.Positions;
+    const Connectivity links(positions.size(), mesh.Mesh.Triangles);
+    const test::NearestTriangle nearest(test::TrianglesOf(mesh.Mesh));
+    test::Random random(11);
+    int covered = 0;
+    int notCovered = 0;
+    for (int trial = 0; trial < 3000; ++trial)
+    {
+      const double allowed = 0.05 * (1 + test::Pick(random, 12));
+      const std::vector<double> allowances(mesh.Mesh.Triangles.size(), allowed);
+      ShadowTest shadow(positions, links.Linked(), allowances);
+      const std::uint32_t start = test::Pick(random, static_cast<int>(mesh.Mesh.Triangles.size()));
+      const double reach = 1.0 + test::Pick(random, 3);
+      std::vector<std::uint32_t> around = { start };
+      std::vector<std::uint32_t> points;
+      for (std::uint32_t i = 0; i < mesh.Mesh.Triangles.size(); ++i)
+      {
+        const Vector way = mesh.Mesh.Middle(i) - mesh.Mesh.Middle(start);
+        if (i != start && Dot(way, way) < reach * reach)
+        {
+          points.push_back(mesh.Mesh.Triangles[i][0]);
+          if (test::Pick(random, 4) == 0)
+          {
+            around.push_back(i);
+          }
+        }
+      }
+      if (points.size() < 3)
+      {
+        continue;
+      }
+      std::array<Vector, 3> corners;
+      for (Vector& corner : corners)
+      {
+        corner = positions[points[test::Pick(random, static_cast<int>(points.size()))]];
+        corner[test::Pick(random, 3)] += 0.02 * test::Pick(random, 10);
+      }
+      // Along its normal, or askew.
+      Vector direction = Unit(Cross(corners[1] - corners[0], corners[2] - corners[0]));
+      if (test::Pick(random, 2) == 0)
+      {
+        direction[test::Pick(random, 3)] += 0.1 * test::Pick(random, 8);
+        direction = Unit(direction);
+      }
+      if (!shadow.Covers(corners, direction, around))
+      {
+        ++notCovered;
+        continue;
+      }
+      ++covered;
+      constexpr int parts = 12;
+      double farthest = 0.0;
+      for (int i = 0; i <= parts; ++i)
+      {
+        for (int k = 0; i + k <= parts; ++k)
+        {
+          const Vector place = (1.0 / parts) *
+            (static_cast<double>(i) * corners[0] + static_cast<double>(k) * corners[1] +
+              static_cast<double>(parts - i - k) * corners[2]);
+          farthest = std::max(farthest, nearest.Distance(place));
+        }
+      }
+      ASSERT_LE(farthest, allowed) << trial;
+    }
+    EXPECT_GT(covered, 10);
+    EXPECT_GT(notCovered, 50);
+  }
+}
+
+// A fold: what covers a triangle and turns back does not cover it twice as much.
+TEST(ShadowTest, CountsWhatFacesTheOtherWay)
+{
+  const std::vector<Vector> positions = { { -1, -1, 0 }, { 3, -1, 0 }, { -1, 3, 0 },
+    { -1, -1, 0.1 }, { 3, -1, 0.1 }, { -1, 3, 0.1 } };
+  const std::vector<Triangle> triangles = { { 0, 1, 2 }, { 4, 3, 5 } };
+  const Connectivity links(positions.size(), triangles);
+  const std::vector<double> allowances(2, 1.0);
+  ShadowTest shadow(positions, links.Linked(), allowances);
+  const std::array<Vector, 3> up = { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } };
+  const std::array<Vector, 3> down = { up[1], up[0], up[2] };
+  const auto covers = [&](const std::array<Vector, 3>& corners, std::vector<std::uint32_t> some)
+  {
+    const Vector normal = Unit(Cross(corners[1] - corners[0], corners[2] - corners[0]));
+    return shadow.Covers(corners, normal, some);
+  };
+  EXPECT_TRUE(covers(up, { 0 }));
+  EXPECT_FALSE(covers(up, { 1 }));
+  EXPECT_FALSE(covers(up, { 0, 1 }));
+  EXPECT_TRUE(covers(down, { 1 }));
+  EXPECT_FALSE(covers(down, { 0 }));
+  EXPECT_FALSE(covers({ { up[0], up[1], up[1] } }, { 0 })) << "no area";
+}
+
+// Over a strip, and a long one, where it gives up.
+TEST(Covering, UsesAllOfATriangleOrTellsThatItDoesNot)
+{
+  for (const std::uint32_t length : { 20U, 45U, 200U })
+  {
+    TriangleMesh strip;
+    for (std::uint32_t x = 0; x <= length; ++x)
+    {
+      strip.Positions.push_back({ static_cast<double>(x), 0.0, 0.0 });
+      strip.Positions.push_back({ static_cast<double>(x), 1.0, 0.0 });
+    }
+    for (std::uint32_t i = 0; i < 2 * length; i += 2)
+    {
+      strip.Triangles.push_back({ i, i + 2, i + 3 });
+      strip.Triangles.push_back({ i, i + 3, i + 1 });
+    }
+    const Connectivity links(strip.Positions.size(), strip.Triangles);
+    Covering covering(strip.Positions, links.Linked());
+    const std::array<Vector, 3> corners = { { { 0.2, 0.3, 0.1 }, { length - 0.3, 0.4, 0.2 },
+      { 0.5 * length, 0.7, 0.1 } } };
+    const Vector normal = Cross(corners[1] - corners[0], corners[2] - corners[0]);
+    double area = 0.0;
+    const bool isAll = covering.Cut(corners, 0, 0.0,
+      [&](std::uint32_t, double distance, const Covering::Piece& piece)
+      {
+        EXPECT_LE(distance, 0.2 + 1e-9);
+        area += piece.Area();
+        return true;
+      });
+    EXPECT_EQ(isAll, length < 100);
+    EXPECT_EQ(isAll, std::abs(area - 0.5 * std::sqrt(Dot(normal, normal))) < 1e-9);
+  }
+}
