@@ -7,9 +7,12 @@
 #include "Private/Simulation.h"
 #include "Private/Tuples.h"
 #include "Private/UsedPoints.h"
+#include "Simplification/MeanNormals.h"
 #include "Simplification/Simplification.h"
 
 #include "vtkCellArray.h"
+#include "vtkFloatArray.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -74,7 +77,8 @@ isodiamond::AllowedMesh ToCore(
 
 /**
  * Simplifies the mesh of HierarchyQuery() within what is left of the tolerances. Points stay
- * what they are, with their data; cell data have no meaning any more and go.
+ * what they are, with their data, but for normals, which become means; cell data have no meaning
+ * any more and go.
  *
  * @param query the one that was asked for
  */
@@ -89,8 +93,12 @@ void SimplifyMesh(const WorldQuery& query, const Measure& measure,
   };
   isodiamond::AllowedMesh original = ToCore(mesh, PlacedTolerance(query, measure, world), allowed);
   original.LeastAngle = query.AreTrianglesShaped ? LeastAngle : 0.0;
-  const isodiamond::TriangleMesh simple = isodiamond::Simplify(original, parallelFor);
+  const isodiamond::SimplerMesh simple = isodiamond::Simplify(original, parallelFor);
   mesh.PointData->RemoveArray(WallsArray);
+  if (auto* const normals = vtkFloatArray::FastDownCast(mesh.PointData->GetNormals()))
+  {
+    isodiamond::TakeMeanNormals(original.Mesh, simple, normals->GetPointer(0));
+  }
   const UsedPoints used(simple.Triangles, simple.Positions.size(), parallelFor);
   const std::vector<vtkIdType> ids = used.Ids();
   mesh.Cells = used.Write(simple.Triangles, parallelFor);

@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -172,6 +173,59 @@ TEST(Simplify, KeepsToleranceAndTopology)
     EXPECT_LE(test::LargestDistance(simple, finer), 1e-6);
   }
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
+}
+
+// Of a noisy ball: how far normals are from the right ones, beside the gradients at the same
+// points.
+TEST(Simplify, NormalsAreMeans)
+{
+  const auto image = test::MakeImage({ 28, 28, 28 },
+    [](double x, double y, double z)
+    {
+      const double noise = std::sin(31.0 * x + 57.0 * y + 83.0 * z * z);
+      return 9.0 - std::hypot(x - 13.5, y - 13.5, z - 13.5) + 0.3 * noise;
+    });
+  const auto contour = MakeContour(image);
+  contour->SetValue(0, 0.0);
+  contour->ComputeGradientsOn();
+  contour->SetErrorTolerance(1.0);
+  for (const bool isSimple : { false, true })
+  {
+    SCOPED_TRACE(isSimple);
+    contour->SetSimplify(isSimple);
+    const auto mesh = Update(contour);
+    vtkDataArray* const normals = mesh->GetPointData()->GetNormals();
+    vtkDataArray* const gradients = mesh->GetPointData()->GetArray("Gradient");
+    ASSERT_TRUE(normals && gradients);
+    double ofNormals = 0.0;
+    double ofGradients = 0.0;
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      std::array<double, 3> radial;
+      std::array<double, 3> normal;
+      std::array<double, 3> gradient;
+      mesh->GetPoint(i, radial.data());
+      normals->GetTuple(i, normal.data());
+      gradients->GetTuple(i, gradient.data());
+      for (double& coordinate : radial)
+      {
+        coordinate -= 13.5;
+      }
+      EXPECT_NEAR(vtkMath::Norm(normal.data()), 1.0, 1e-5);
+      vtkMath::Normalize(radial.data());
+      vtkMath::Normalize(gradient.data());
+      ofNormals += 1.0 - vtkMath::Dot(normal, radial);
+      ofGradients += 1.0 + vtkMath::Dot(gradient, radial);
+    }
+    if (isSimple)
+    {
+      EXPECT_LT(ofNormals, 0.7 * ofGradients);
+    }
+    else
+    {
+      EXPECT_NEAR(ofNormals, ofGradients, 1e-4 * ofGradients);
+    }
+  }
 }
 
 TEST(Simplify, ToleranceOfEachPlace)

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace isodiamond
 {
@@ -38,21 +40,22 @@ constexpr std::array<Pass, 2> Passes = { { { 0.5, 0.85 }, { 0.35, 0.75 } } };
 
 }
 
-TriangleMesh Simplify(
+SimplerMesh Simplify(
   const AllowedMesh& mesh, const ParallelFor& parallelFor, std::size_t mostOfPart)
 {
   if (mesh.Mesh.Triangles.empty() ||
     !(*std::max_element(mesh.Allowances.begin(), mesh.Allowances.end()) >
       LeastOfTypical * TypicalLength(mesh.Mesh)))
   {
-    return mesh.Mesh; // nothing to be saved, but much to be tried
+    // Nothing to be saved, but much to be tried.
+    return { mesh.Mesh, std::vector<std::uint32_t>(mesh.Mesh.Positions.size(), None) };
   }
   SimplifiedMesh simplified(mesh);
   for (const Pass& pass : Passes)
   {
     simplified.Simplify(mostOfPart, pass.Cut, pass.UsedPart, parallelFor);
   }
-  return { mesh.Mesh.Positions, simplified.Triangles() };
+  return { { mesh.Mesh.Positions, simplified.Triangles() }, simplified.PointHomes() };
 }
 
 }

@@ -4,6 +4,7 @@
 
 #include "Field/Parallel.h"
 #include "Simplification/AllowedMesh.h"
+#include "Simplification/SimplerMesh.h"
 
 #include <cstddef>
 
@@ -28,9 +29,9 @@ constexpr std::size_t MostOfPart = 32000;
  * @param mesh one that has edges of more than two triangles, or of two that go along it in one
  *        direction, stays as it is in parts with such edges
  * @param mostOfPart triangles of a part at the most
- * @return triangles on the points of the mesh
+ * @return triangles on the points of the mesh, and what these lie over
  */
-TriangleMesh Simplify(
+SimplerMesh Simplify(
   const AllowedMesh& mesh, const ParallelFor& parallelFor, std::size_t mostOfPart = MostOfPart);
 
 }

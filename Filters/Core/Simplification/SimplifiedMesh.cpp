@@ -152,6 +152,15 @@ SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
   }
 }
 
+std::vector<std::uint32_t> SimplifiedMesh::PointHomes() const
+{
+  std::vector<std::uint32_t> homes(this->Original.Mesh.Positions.size());
+  std::transform(this->Samples.begin(),
+    this->Samples.begin() + static_cast<std::ptrdiff_t>(homes.size()), homes.begin(),
+    [](const SurfaceSample& sample) { return sample.Home; });
+  return homes;
+}
+
 SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) const
 {
   const std::vector<Triangle>& simple = this->Triangles();

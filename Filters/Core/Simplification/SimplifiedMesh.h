@@ -27,6 +27,9 @@ public:
 
   const std::vector<Triangle>& Triangles() const { return this->Simple.Linked().Triangles; }
 
+  /** By point: the triangle that it lies over; None of points in use. */
+  std::vector<std::uint32_t> PointHomes() const;
+
   /** Makes all parts simpler.
    *  @param most triangles of a part @param cut see CutIntoBlocks
    *  @param usedPart see EdgeCollapses */
