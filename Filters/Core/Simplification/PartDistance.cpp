@@ -11,7 +11,7 @@ namespace isodiamond
 PartDistance::PartDistance(MeshPart& part, bool isStartNear)
   : Part(part)
   , IsStartNear(isStartNear)
-  , StartNear(part.Near)
+  , NearAtStart(part.Near)
   , Cover(part.Positions, part.Original)
   , Shadow(part.Positions, part.Original, part.Allowances)
   , OriginalAt(AnyTriangleAt(part.Positions.size(), part.Original))
@@ -57,7 +57,7 @@ private:
   /** Whether all that a triangle of the original was near to at the start is there again. */
   bool IsNearAsAtStart(std::uint32_t original)
   {
-    const IdRange near = this->All.StartNear[original];
+    const IdRange near = this->All.NearAtStart[original];
     const bool isSo = this->All.IsStartNear && !near.empty() &&
       std::all_of(
         near.begin(), near.end(), [&](std::uint32_t number) { return this->IsAsAtStart(number); });

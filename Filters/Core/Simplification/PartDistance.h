@@ -32,6 +32,9 @@ public:
    */
   explicit PartDistance(MeshPart& part, bool isStartNear = false);
 
+  /** The part's near lists as they were at the start. */
+  const NearLists& StartNear() const { return this->NearAtStart; }
+
   /** What is too far away. */
   struct Faults
   {
@@ -55,7 +58,7 @@ private:
 
   MeshPart& Part;
   bool IsStartNear;
-  NearLists StartNear;
+  NearLists NearAtStart;
   Covering Cover;                        ///< over the original
   ShadowTest Shadow;                     ///< of the original
   std::vector<std::uint32_t> OriginalAt; ///< by point: one of the original's triangles, or None

@@ -33,7 +33,6 @@ std::size_t CountThere(const LinkedTriangles& mesh)
 bool CollapseOnce(MeshPart& part, double usedPart)
 {
   PartDistance distance(part, true);
-  const NearLists nearBefore = part.Near;
   EdgeCollapses collapses(part, usedPart);
   std::vector<bool> isTouched = collapses.Run();
   const std::size_t tried = CountThere(collapses.Mesh());
@@ -48,7 +47,7 @@ bool CollapseOnce(MeshPart& part, double usedPart)
     isTouched = collapses.Undo(faults.Triangles, faults.Points);
     if (std::find(isTouched.begin(), isTouched.end(), true) == isTouched.end())
     {
-      part.Near = nearBefore; // nothing is left that could be wrong
+      part.Near = distance.StartNear(); // nothing is left that could be wrong
       return true;
     }
   }
@@ -123,42 +122,41 @@ struct SimplifiedMesh::Division
 
 SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
   : Original(original)
-  , OriginalLinks(original.Mesh.Positions.size(), original.Mesh.Triangles)
-  , Simple(this->OriginalLinks)
-  , Samples(original.Mesh.Positions.size() + original.Mesh.Triangles.size())
-  , Near(original.Mesh.Triangles.size())
   , IsFaulty(original.Mesh.Positions.size())
+  , Homes(original.Mesh.Positions.size(), None)
+  , PointAllowances(original.Mesh.Positions.size(), HUGE_VAL)
+  , Near(original.Mesh.Triangles.size())
 {
   const std::size_t points = original.Mesh.Positions.size();
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    this->Samples[i] = { original.Mesh.Positions[i], HUGE_VAL, None };
-  }
-  for (std::uint32_t i = 0; i < original.Mesh.Triangles.size(); ++i)
-  {
-    const double allowance = original.Allowances[i];
-    this->Samples[points + i] = { original.Mesh.Middle(i), allowance, i };
-    for (const std::uint32_t point : original.Mesh.Triangles[i])
-    {
-      double& least = this->Samples[point].Allowance;
-      least = std::min(least, allowance);
-    }
-    this->Near.Begin(i);
-    this->Near.Add(i, i);
-  }
-  for (const std::uint32_t point : this->OriginalLinks.FaultyPoints())
+  Connectivity links(points, original.Mesh.Triangles);
+  for (const std::uint32_t point : links.FaultyPoints())
   {
     this->IsFaulty[point] = true;
   }
+  this->OriginalLinks = std::move(links).Linked();
+  this->Simple = this->OriginalLinks;
+  this->Homes.resize(points + original.Mesh.Triangles.size());
+  for (std::uint32_t i = 0; i < original.Mesh.Triangles.size(); ++i)
+  {
+    for (const std::uint32_t point : original.Mesh.Triangles[i])
+    {
+      double& least = this->PointAllowances[point];
+      least = std::min(least, original.Allowances[i]);
+    }
+    this->Homes[points + i] = i;
+    this->Near.Begin(i);
+    this->Near.Add(i, i);
+  }
 }
 
-std::vector<std::uint32_t> SimplifiedMesh::PointHomes() const
+SurfaceSample SimplifiedMesh::SampleOf(std::size_t id) const
 {
-  std::vector<std::uint32_t> homes(this->Original.Mesh.Positions.size());
-  std::transform(this->Samples.begin(),
-    this->Samples.begin() + static_cast<std::ptrdiff_t>(homes.size()), homes.begin(),
-    [](const SurfaceSample& sample) { return sample.Home; });
-  return homes;
+  const TriangleMesh& mesh = this->Original.Mesh;
+  const std::size_t points = mesh.Positions.size();
+  return id < points
+    ? SurfaceSample{ mesh.Positions[id], this->PointAllowances[id], this->Homes[id] }
+    : SurfaceSample{ mesh.Middle(id - points), this->Original.Allowances[id - points],
+        this->Homes[id] };
 }
 
 SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) const
@@ -200,10 +198,10 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
   }
   CellsAtPoints originals =
     ByPart(blocks.Count(), ownerOf.size(), [&](std::uint32_t i) { return ownerOf[i]; });
-  CellsAtPoints samples = ByPart(blocks.Count(), this->Samples.size(),
+  CellsAtPoints samples = ByPart(blocks.Count(), this->Homes.size(),
     [&](std::uint32_t i)
     {
-      const std::uint32_t home = this->Samples[i].Home;
+      const std::uint32_t home = this->Homes[i];
       return home == None ? None : partOf[home];
     });
   std::vector<std::uint32_t> originalNumbers(ownerOf.size());
@@ -237,9 +235,9 @@ MeshPart SimplifiedMesh::Take(
       }
     });
   MeshPart part;
-  part.Simple = Linked(this->Simple.Linked(), triangles, division.Number, numbers,
+  part.Simple = Linked(this->Simple, triangles, division.Number, numbers,
     [&](std::uint32_t triangle) { return division.PartOf[triangle] == number; });
-  part.Original = Linked(this->OriginalLinks.Linked(), originals, division.OriginalNumber, numbers,
+  part.Original = Linked(this->OriginalLinks, originals, division.OriginalNumber, numbers,
     [&](std::uint32_t original) { return division.OwnerOf[original] == number; });
   part.Near = NearLists(originals.size());
   part.Allowances.reserve(originals.size());
@@ -279,7 +277,7 @@ void SimplifiedMesh::AddPoints(const Division& division, std::uint32_t number,
   part.Samples.reserve(ids.size());
   for (const std::uint32_t id : ids)
   {
-    SurfaceSample sample = this->Samples[id];
+    SurfaceSample sample = this->SampleOf(id);
     const bool isOver = sample.Home != None && division.PartOf[sample.Home] == number;
     sample.Home = isOver ? division.Number[sample.Home] : None;
     part.Samples.push_back(sample);
@@ -305,8 +303,8 @@ std::vector<bool> SimplifiedMesh::FixedPoints(
     const Triangle& points = part.Simple.Triangles[i];
     for (int k = 0; k < 3; ++k)
     {
-      const bool isCut = part.Simple.Neighbours[i][k] == None &&
-        this->Simple.Linked().Neighbours[triangle][k] != None;
+      const bool isCut =
+        part.Simple.Neighbours[i][k] == None && this->Simple.Neighbours[triangle][k] != None;
       if (isCut || division.IsHeld[triangle])
       {
         isFixed[points[k]] = true;
@@ -383,14 +381,14 @@ void SimplifiedMesh::PutTogether(const Division& division, const std::vector<Mad
       }
     }
   }
-  this->Simple = Connectivity(this->Original.Mesh.Positions.size(), std::move(simple));
+  this->Simple = Connectivity(this->Original.Mesh.Positions.size(), std::move(simple)).Linked();
   NearLists near(this->Near.Count());
   for (std::size_t number = 0; number < made.size(); ++number)
   {
     const IdRange triangles = division.Triangles[number];
     for (const auto& [sample, home] : made[number].Homes)
     {
-      this->Samples[sample].Home = renamed[triangles[home]];
+      this->Homes[sample] = renamed[triangles[home]];
     }
     std::size_t i = 0;
     for (const std::uint32_t original : division.Originals[number])

@@ -7,6 +7,7 @@
 #include "Simplification/MeshPart.h"
 #include "Simplification/PointNumbers.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace isodiamond
@@ -25,10 +26,13 @@ public:
   /** @param original must outlive it */
   explicit SimplifiedMesh(const AllowedMesh& original);
 
-  const std::vector<Triangle>& Triangles() const { return this->Simple.Linked().Triangles; }
+  const std::vector<Triangle>& Triangles() const { return this->Simple.Triangles; }
 
   /** By point: the triangle that it lies over; None of points in use. */
-  std::vector<std::uint32_t> PointHomes() const;
+  std::vector<std::uint32_t> PointHomes() const
+  {
+    return { this->Homes.begin(), this->Homes.begin() + this->Original.Mesh.Positions.size() };
+  }
 
   /** Makes all parts simpler.
    *  @param most triangles of a part @param cut see CutIntoBlocks
@@ -39,6 +43,7 @@ private:
   struct Division;
   struct Made;
 
+  SurfaceSample SampleOf(std::size_t id) const;
   Division Divide(std::size_t most, double cut) const;
   /** @param ids is given the part's samples, of which the points are the first, as they are in the
    *         mesh */
@@ -52,11 +57,12 @@ private:
   void PutTogether(const Division& division, const std::vector<Made>& made);
 
   const AllowedMesh& Original;
-  Connectivity OriginalLinks;
-  Connectivity Simple;
-  std::vector<SurfaceSample> Samples; ///< the points, then the middles of triangles
-  NearLists Near;                     ///< by original triangle
-  std::vector<bool> IsFaulty;         ///< by point: edges there cannot be told
+  LinkedTriangles OriginalLinks;
+  std::vector<bool> IsFaulty; ///< by point: edges there cannot be told
+  LinkedTriangles Simple;
+  std::vector<std::uint32_t> Homes;    ///< by sample: the points, then the middles of triangles
+  std::vector<double> PointAllowances; ///< the least of the triangles there
+  NearLists Near;                      ///< by original triangle
 };
 
 }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace isodiamond
@@ -106,7 +107,8 @@ public:
   IdRange At(std::uint32_t point) const { return this->Cells[point]; }
 
   /** The mesh's triangles, linked. */
-  const LinkedTriangles& Linked() const { return this->Links; }
+  const LinkedTriangles& Linked() const& { return this->Links; }
+  LinkedTriangles Linked() && { return std::move(this->Links); }
   /** The triangle across an edge, None at the border. */
   std::uint32_t Neighbour(std::uint32_t triangle, int edge) const
   {
