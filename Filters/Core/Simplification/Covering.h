@@ -330,7 +330,7 @@ private:
     Vector Normal{};
     TriangleDistance Distance;
   };
-  static constexpr std::size_t MostRecent = 256;
+  static constexpr std::size_t MostRecent = 2048;
 
   /** Of those that were used last, one in each place: neighbours are asked for again and again. */
   const Base& Of(std::uint32_t triangle)

@@ -19,7 +19,6 @@ namespace
 /** Where more than this part of what collapses have saved had to be undone, less is tried. */
 constexpr double MuchUndone = 0.05;
 constexpr double LessOfUsedPart = 0.85;
-constexpr int MostTries = 3;
 
 std::size_t CountThere(const LinkedTriangles& mesh)
 {
@@ -61,12 +60,12 @@ bool CollapseOnce(MeshPart& part, double usedPart)
   return static_cast<double>(undone) > MuchUndone * static_cast<double>(before - tried);
 }
 
-/** The same, with less of what is allowed as long as much has to be undone. */
+/** The same, and once more with less of what is allowed if much had to be undone. */
 void CollapseEdges(MeshPart& part, double usedPart)
 {
-  for (int i = 0; i < MostTries && CollapseOnce(part, usedPart); ++i)
+  if (CollapseOnce(part, usedPart))
   {
-    usedPart *= LessOfUsedPart;
+    CollapseOnce(part, LessOfUsedPart * usedPart);
   }
 }
 
