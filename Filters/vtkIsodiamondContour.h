@@ -59,7 +59,8 @@ public:
 
   ///@{
   /**
-   * Point normals from the gradient of the full-resolution field. Default: on.
+   * Point normals from the gradient of the full-resolution field; with Simplify means of these.
+   * Default: on.
    */
   vtkSetMacro(ComputeNormals, vtkTypeBool);
   vtkGetMacro(ComputeNormals, vtkTypeBool);
@@ -87,10 +88,11 @@ public:
   ///@{
   /**
    * Simplify the mesh: a part of the tolerance (three tenths, less if it is below 3/4 voxel) goes
-   * to the hierarchy, the rest to collapses of edges, whose result is measured, both ways and all
-   * of every triangle, and undone where it is too far away. So the tolerance stays what it is, and
-   * the topology, with a fraction of the triangles, which take longer to make. Points are some of
-   * those that the surface would have had; what ends at the grid's boundary does so, along the same
+   * to the hierarchy, the rest to collapses and flips of edges, whose result is measured, both ways
+   * and all of every triangle, and undone where it is too far away. So the tolerance stays what it
+   * is, and the topology, with a fraction of the triangles, which take longer to make. Points are
+   * some of those that the surface would have had, with their data, but for normals: these are
+   * means over what a point stands for. What ends at the grid's boundary does so, along the same
    * face. The cell array `Level` is left out. Needs the distance metric. Default: off.
    */
   vtkSetMacro(Simplify, bool);
