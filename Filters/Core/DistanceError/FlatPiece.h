@@ -27,7 +27,9 @@ struct FlatPiece
   double Bend = 0.0; ///< how far from the polygon what it stands for can be
 };
 
-inline Vector Unit(const Vector& vector)
+/** A vector of length 1 in the same direction; not a number without one: then nothing holds of it.
+ */
+inline Vector Direction(const Vector& vector)
 {
   return (1.0 / std::sqrt(Dot(vector, vector))) * vector;
 }
@@ -63,7 +65,7 @@ inline double BendOf(const SurfacePatch& patch, const std::array<Vector, 6>& cor
   const auto [polygon, isOne] = Join(patch, corners);
   const std::array<Vector, ConvexPolygon::MostCorners>& q = polygon.Corners;
   const Vector shared = q[2] - q[0];
-  const Vector across = Unit(Cross(shared, q[3] - q[1]));
+  const Vector across = Direction(Cross(shared, q[3] - q[1]));
   const Vector beside = Cross(shared, across);
   const bool isOpen = isOne && Dot(q[1] - q[0], beside) * Dot(q[3] - q[0], beside) < 0.0;
   return isOpen ? std::abs(Dot(q[1] - q[0], across)) : HUGE_VAL;
@@ -78,8 +80,8 @@ inline FlatPiece Flatten(const SurfacePatch& patch, const std::array<Vector, 6>&
   {
     return flat;
   }
-  flat.Normal =
-    Unit(Cross(polygon.Corners[2] - polygon.Corners[0], polygon.Corners[3] - polygon.Corners[1]));
+  flat.Normal = Direction(
+    Cross(polygon.Corners[2] - polygon.Corners[0], polygon.Corners[3] - polygon.Corners[1]));
   const Vector middle = polygon.Middle();
   double bend = 0.0;
   for (int i = 0; i < 4; ++i)

@@ -239,7 +239,7 @@ private:
         { corners[edges[0]], corners[edges[1]], corners[edges[2]] } };
       const Vector across =
         Cross(triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]);
-      this->MeasureFrom({ triangle, Unit(across), 0.0 });
+      this->MeasureFrom({ triangle, Direction(across), 0.0 });
     }
   }
 
@@ -362,7 +362,7 @@ private:
     for (int side = 0; side < 3 && rest.Count <= many; ++side)
     {
       const TriangleDistance::Wall wall = triangle.WallOf(side);
-      const Vector outward = Unit(wall.Outward);
+      const Vector outward = Direction(wall.Outward);
       const auto [least, greatest] = rest.Sides(wall.Point, outward);
       if (least < -sliver && greatest > sliver)
       {
