@@ -3,6 +3,7 @@
 #define isodiamond_IsovertexPlacement_h
 
 #include "Field/SignLattice.h"
+#include "Lattice/DiamondSet.h"
 
 #include <algorithm>
 #include <array>
