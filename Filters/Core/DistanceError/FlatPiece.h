@@ -27,8 +27,7 @@ struct FlatPiece
   double Bend = 0.0; ///< how far from the polygon what it stands for can be
 };
 
-/** A vector of length 1 in the same direction; not a number without one: then nothing holds of it.
- */
+/** A vector of length 1 in the same direction; not a number if there is none, so no test holds. */
 inline Vector Direction(const Vector& vector)
 {
   return (1.0 / std::sqrt(Dot(vector, vector))) * vector;

@@ -330,6 +330,8 @@ private:
     Vector Normal{};
     TriangleDistance Distance;
   };
+  /** A part's triangles are numbered along the whole mesh: with fewer places neighbours take each
+   *  other's. */
   static constexpr std::size_t MostRecent = 2048;
 
   /** Of those that were used last, one in each place: neighbours are asked for again and again. */

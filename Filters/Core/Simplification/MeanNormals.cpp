@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -18,10 +17,10 @@ std::vector<double> AreasAround(const TriangleMesh& mesh)
   std::vector<double> areas(mesh.Positions.size());
   for (const Triangle& triangle : mesh.Triangles)
   {
-    const Vector across = Across(mesh.Positions, triangle);
+    const double area = AreaOf(mesh.Positions, triangle);
     for (const std::uint32_t point : triangle)
     {
-      areas[point] += 0.5 * std::sqrt(Dot(across, across));
+      areas[point] += area;
     }
   }
   return areas;
@@ -64,13 +63,16 @@ void TakeMeanNormals(const TriangleMesh& original, const SimplerMesh& simpler, f
     if (home == None)
     {
       sums[point] = sums[point] + part;
-      continue;
     }
-    const std::array<double, 3> shares = SharesOf(original.Positions[point], simpler.Corners(home));
-    for (int k = 0; k < 3; ++k)
+    else
     {
-      Vector& sum = sums[simpler.Triangles[home][k]];
-      sum = sum + shares[k] * part;
+      const std::array<double, 3> shares =
+        SharesOf(original.Positions[point], simpler.Corners(home));
+      for (int k = 0; k < 3; ++k)
+      {
+        Vector& sum = sums[simpler.Triangles[home][k]];
+        sum = sum + shares[k] * part;
+      }
     }
   }
   for (std::size_t point = 0; point < areas.size(); ++point)

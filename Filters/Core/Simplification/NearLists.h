@@ -30,10 +30,7 @@ public:
   }
 
   /** Begins a new list; the items that follow are its. */
-  void Begin(std::size_t triangle)
-  {
-    this->Ranges[triangle] = { static_cast<std::uint32_t>(this->Items.size()), 0 };
-  }
+  void Begin(std::size_t triangle) { this->Ranges[triangle] = { this->Items.size(), 0 }; }
   void Add(std::size_t triangle, std::uint32_t near)
   {
     this->Items.push_back(near);
@@ -43,8 +40,8 @@ public:
 private:
   struct Range
   {
-    std::uint32_t First = 0;
-    std::uint32_t Count = 0;
+    std::size_t First = 0;
+    std::size_t Count = 0;
   };
   std::vector<Range> Ranges;
   std::vector<std::uint32_t> Items;

@@ -21,10 +21,9 @@ constexpr double LeastOfTypical = 1e-3;
 double TypicalLength(const TriangleMesh& mesh)
 {
   double area = 0.0;
-  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
+  for (const Triangle& triangle : mesh.Triangles)
   {
-    const Vector across = Across(mesh.Positions, mesh.Triangles[i]);
-    area += 0.5 * std::sqrt(Dot(across, across));
+    area += AreaOf(mesh.Positions, triangle);
   }
   return std::sqrt(area / static_cast<double>(mesh.Triangles.size()));
 }

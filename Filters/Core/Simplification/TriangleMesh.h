@@ -30,6 +30,12 @@ inline Vector Across(const std::vector<Vector>& positions, const Triangle& trian
   return Cross(positions[triangle[1]] - a, positions[triangle[2]] - a);
 }
 
+inline double AreaOf(const std::vector<Vector>& positions, const Triangle& triangle)
+{
+  const Vector across = Across(positions, triangle);
+  return 0.5 * std::sqrt(Dot(across, across));
+}
+
 /** A vector of length 1 in the same direction; 0 of one without a length. */
 inline Vector Unit(const Vector& vector)
 {
@@ -109,11 +115,6 @@ public:
   /** The mesh's triangles, linked. */
   const LinkedTriangles& Linked() const& { return this->Links; }
   LinkedTriangles Linked() && { return std::move(this->Links); }
-  /** The triangle across an edge, None at the border. */
-  std::uint32_t Neighbour(std::uint32_t triangle, int edge) const
-  {
-    return this->Links.Neighbours[triangle][edge];
-  }
 
 private:
   CellsAtPoints Cells;
