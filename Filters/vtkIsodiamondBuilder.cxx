@@ -158,12 +158,15 @@ int vtkIsodiamondBuilder::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
+bool vtkIsodiamondBuilder::ClosesBoundary() const
+{
+  return this->CloseBoundary && this->Shape == vtkIsodiamondHierarchy::ISOSURFACE;
+}
+
+//------------------------------------------------------------------------------
 bool vtkIsodiamondBuilder::CanBeCut() const
 {
-  const bool isVolume = this->Shape == vtkIsodiamondHierarchy::INTERVAL_VOLUME;
-  return this->Model != vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS &&
-    this->ErrorMetric != vtkIsodiamondHierarchy::FIELD &&
-    (isVolume ? !this->RefineInterior : !this->CloseBoundary);
+  return this->Model != vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS;
 }
 
 //------------------------------------------------------------------------------
@@ -189,8 +192,9 @@ void vtkIsodiamondBuilder::Build(
   vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output)
 {
   vtkInformation* information = this->GetInputInformation(0, 0);
-  const std::unique_ptr<vtkIsodiamond::Slabs> slabs =
-    this->Plan->Open(information, [this](vtkDataSet* part) { return this->FindInputArray(part); });
+  const std::unique_ptr<vtkIsodiamond::Slabs> slabs = this->Plan->Open(
+    information, [this](vtkDataSet* part) { return this->FindInputArray(part); },
+    this->ClosesBoundary());
   const vtkSmartPointer<vtkDataObject> whole = this->Plan->TakeWhole(information);
   if (!slabs)
   {
@@ -219,8 +223,8 @@ void vtkIsodiamondBuilder::Build(
     if (this->NumberOfBlocks > 1)
     {
       vtkWarningMacro("The input comes at once, not in blocks: only images from sources that make "
-                      "parts of them do, for relevant and minimal hierarchies by the distance "
-                      "metric, without a refined interior and without closing the boundary.");
+                      "parts of them do, without blanked cells, for relevant and minimal "
+                      "hierarchies.");
     }
     this->BuildFromImage(vtkImageData::SafeDownCast(whole), task, output);
   }
@@ -291,7 +295,7 @@ void vtkIsodiamondBuilder::BuildFromImage(
   const vtkIsodiamond::Choice choice = this->GetChoice();
   const isodiamond::Isoregion region = choice.Region();
   const vtkIsodiamond::Volume volume = vtkIsodiamond::ReadVolume(
-    image, this->FindInputArray(image), this->CloseBoundary && !region.IsVolume());
+    image, this->FindInputArray(image), this->ClosesBoundary());
   const isodiamond::AffineMap& world = *volume.Placement.World.Affine(); // as all images'
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {

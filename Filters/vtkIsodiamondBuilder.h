@@ -221,11 +221,11 @@ public:
   ///@{
   /**
    * Into how many slabs of slices an image is cut, so that no more than one of them is in memory:
-   * each is asked for twice, and once more if the hierarchy carries point arrays. The hierarchy is
-   * the same however it is cut. 0: one, or as many as keep the image within the memory that is
-   * free. For relevant and minimal hierarchies by the distance metric, without RefineInterior of an
-   * interval volume, CloseBoundary and blanked cells, of images from sources that make parts of
-   * them; else the image comes at once, with a warning if more than one was asked for. Default: 0.
+   * each is asked for twice, once more if the hierarchy carries point arrays, and before for the
+   * minimum with CloseBoundary. The hierarchy is the same however it is cut. 0: one, or as many as
+   * keep the image within the memory that is free. For relevant and minimal hierarchies of
+   * images without blanked cells from sources that make parts of them; else the image comes at
+   * once, with a warning if more than one was asked for. Default: 0.
    */
   vtkSetClampMacro(NumberOfBlocks, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfBlocks, int);
@@ -286,6 +286,7 @@ private:
   isodiamond::BuildOptions GetOptions(const isodiamond::AffineMap& world) const;
   void CheckModel() const;
   void WarnWithoutPointArrays();
+  bool ClosesBoundary() const;
   bool CanBeCut() const;
   void BuildFromImage(vtkImageData* image, vtkIsodiamond::Task& task, vtkPolyData* output);
   void BuildFromSlabs(

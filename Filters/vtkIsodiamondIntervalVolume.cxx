@@ -83,12 +83,6 @@ vtkIsodiamond::WorldQuery vtkIsodiamondIntervalVolume::GetQuery() const
 }
 
 //------------------------------------------------------------------------------
-bool vtkIsodiamondIntervalVolume::RefinesInterior() const
-{
-  return this->UseInteriorTolerance && this->InteriorTolerance < VTK_DOUBLE_MAX;
-}
-
-//------------------------------------------------------------------------------
 std::vector<isodiamond::Isoregion> vtkIsodiamondIntervalVolume::GetRegions() const
 {
   return { { this->Isorange[0], this->Isorange[1] } };

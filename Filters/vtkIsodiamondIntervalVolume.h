@@ -83,7 +83,6 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   vtkIsodiamond::WorldQuery GetQuery() const override;
-  bool RefinesInterior() const override;
   std::vector<isodiamond::Isoregion> GetRegions() const override;
   vtkIsodiamond::VolumePointData GetPointDataWanted() const override;
   const char* GetNameOfCells() const override { return "Tetrahedra"; }

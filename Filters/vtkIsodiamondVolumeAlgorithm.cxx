@@ -46,13 +46,13 @@ bool AreVolumes(const std::vector<isodiamond::Isoregion>& regions)
 vtkIsodiamond::Cache::Need NeedOf(
   const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::Volume& volume)
 {
-  const auto extent = [&]
+  // More than the field's extent refines nothing; of slabs that is not known.
+  const auto isLess = [&]
   {
     const isodiamond::ValueRange range = isodiamond::FiniteRange(volume.Samples);
-    return range.Maximum - range.Minimum;
+    return volume.InSlabs || query.InteriorTolerance < range.Maximum - range.Minimum;
   };
-  const bool refinesInterior =
-    query.InteriorTolerance < VTK_DOUBLE_MAX && query.InteriorTolerance < extent();
+  const bool refinesInterior = query.InteriorTolerance < VTK_DOUBLE_MAX && isLess();
   vtkIsodiamond::Cache::Need need{ !query.IsFull(), refinesInterior };
   // Tetrahedra for simulations are refined once more where they are too far away.
   if (need.AllErrors && query.OneTolerance && !query.HasTarget && !query.SimulationQuality &&
@@ -167,18 +167,11 @@ vtkIsodiamond::InputArray vtkIsodiamondVolumeAlgorithm::FindInputArray(vtkDataSe
 }
 
 //------------------------------------------------------------------------------
-bool vtkIsodiamondVolumeAlgorithm::CanBeCut() const
-{
-  return this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && !this->ClosesBoundary() &&
-    !this->RefinesInterior();
-}
-
-//------------------------------------------------------------------------------
 int vtkIsodiamondVolumeAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->Plan->Request(inputVector[0]->GetInformationObject(0),
-    outputVector->GetInformationObject(0), this->CanBeCut(), this->NumberOfBlocks);
+    outputVector->GetInformationObject(0), true, this->NumberOfBlocks);
   return 1;
 }
 
@@ -197,7 +190,9 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       vtkIsodiamond::InputArray array;
       vtkSmartPointer<vtkDataObject> whole; // if it is there at once
       const std::unique_ptr<vtkIsodiamond::Slabs> slabs =
-        this->Plan->Open(input, [this](vtkDataSet* part) { return this->FindInputArray(part); });
+        this->Plan->Open(
+          input, [this](vtkDataSet* part) { return this->FindInputArray(part); },
+          this->ClosesBoundary());
       vtkIsodiamond::Volume volume;
       if (slabs)
       {
@@ -208,8 +203,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
         if (this->NumberOfBlocks > 1)
         {
           vtkWarningMacro("The input comes at once, not in blocks: only images from sources that "
-                          "make parts of them do, by the distance metric, without an interior "
-                          "tolerance and without closing the boundary.");
+                          "make parts of them do, without blanked cells.");
         }
         whole = this->Plan->TakeWhole(input);
         vtkDataSet* grid = vtkDataSet::SafeDownCast(whole);

@@ -176,11 +176,11 @@ public:
   /**
    * Into how many slabs of slices the input is cut, so that no more than one of them is in memory:
    * each is asked for three times, for signs, isovertices and point data, when a hierarchy is
-   * built. The mesh is the same however it is cut. 0: one, or as many as keep the input within the
-   * memory that is free. Slabs are for images by the distance metric, without an interior
-   * tolerance, CloseBoundary and blanked cells, from sources that make parts of an image; else the
-   * input comes at once, with a warning if more than one was asked for. Hierarchies are known again
-   * by upstream's modification times then, not by content. Default: 0.
+   * built, and before for the minimum if the boundary is closed. The mesh is the same however it is
+   * cut. 0: one, or as many as keep the input within the memory that is free. Slabs are for images
+   * without blanked cells from sources that make parts of an image; else the input comes at once,
+   * with a warning if more than one was asked for. Hierarchies are known again by upstream's
+   * modification times then, not by content. Default: 0.
    */
   vtkSetClampMacro(NumberOfBlocks, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfBlocks, int);
@@ -216,9 +216,6 @@ protected:
 
   /** Whether the volume is padded. */
   virtual bool ClosesBoundary() const { return false; }
-
-  /** Whether there is an interior tolerance. */
-  virtual bool RefinesInterior() const { return false; }
 
   /** What meshes are to be extracted of. @throws std::invalid_argument if it makes no sense */
   virtual std::vector<isodiamond::Isoregion> GetRegions() const = 0;
@@ -268,7 +265,6 @@ private:
     const vtkIsodiamond::WorldQuery& query, double unit, vtkIsodiamond::Task& task,
     vtkDataObject* output);
 
-  bool CanBeCut() const;
   void BuildTogether(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task);
 

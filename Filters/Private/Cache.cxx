@@ -228,7 +228,8 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
     found->IsUsed = true;
     this->Entries.splice(this->Entries.begin(), this->Entries, found);
   }
-  if (this->Entries.front().Staged && need.AllErrors)
+  // One whose inside has a tolerance of its own is built at once, but for slabs.
+  if (this->Entries.front().Staged && (need.AllErrors || need.RefinedInterior))
   {
     this->MeasureErrors(volume, task);
   }

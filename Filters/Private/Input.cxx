@@ -53,11 +53,10 @@ isodiamond::AnySamples SamplesOf(vtkDataArray* array, const std::array<int, 3>& 
   return isodiamond::SampleView<To>(static_cast<const To*>(array->GetVoidPointer(0)), dimensions);
 }
 
-/** A copy with one layer of the finite minimum on all six sides. */
-vtkSmartPointer<vtkDataArray> PaddedCopy(
-  vtkDataArray* array, const std::array<int, 3>& dimensions, double minimum)
+/** A copy with one layer of the minimum on all six sides. @param padded its dimensions */
+vtkSmartPointer<vtkDataArray> PaddedCopy(vtkDataArray* array, const std::array<int, 3>& dimensions,
+  const std::array<int, 3>& padded, double minimum)
 {
-  const std::array<int, 3> padded = { dimensions[0] + 2, dimensions[1] + 2, dimensions[2] + 2 };
   auto copy = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
   copy->SetNumberOfComponents(1);
   AllocateTuples(copy, vtkIdType{ 1 } * padded[0] * padded[1] * padded[2]);
@@ -159,7 +158,14 @@ double LargestTolerance(
   return std::isfinite(length) && length > 0.0 ? DistanceOfInterest * length : 1.0;
 }
 
-Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoundary)
+std::array<int, 3> Volume::SampleDimensions() const
+{
+  const int both = 2 * this->Padding;
+  return { this->Dimensions[0] + both, this->Dimensions[1] + both, this->Dimensions[2] + both };
+}
+
+Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoundary,
+  std::optional<double> minimum)
 {
   if (!grid || grid->GetNumberOfPoints() == 0)
   {
@@ -182,10 +188,10 @@ Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoun
   }
   if (closeBoundary)
   {
-    const double minimum = isodiamond::FiniteRange(volume.Samples).Minimum;
-    volume.Array = PaddedCopy(volume.Array, dimensions, minimum);
-    ViewSamples(
-      volume.Array, { dimensions[0] + 2, dimensions[1] + 2, dimensions[2] + 2 }, volume.Samples);
+    const double lowest = minimum ? *minimum : isodiamond::FiniteRange(volume.Samples).Minimum;
+    const std::array<int, 3> padded = volume.SampleDimensions();
+    volume.Array = PaddedCopy(volume.Array, dimensions, padded, lowest);
+    ViewSamples(volume.Array, padded, volume.Samples);
   }
   volume.Placement = GeometryOf(grid, volume.Padding);
   volume.Hidden = HiddenCellsOf(grid, volume.Padding);

@@ -26,7 +26,7 @@ struct Volume
 {
   vtkSmartPointer<vtkDataSet> Grid;
   std::array<int, 3> Dimensions{};     ///< of the grid
-  int Padding = 0;                     ///< layers of samples around it
+  int Padding = 0;                     ///< layers of samples around it, if its boundary is closed
   vtkSmartPointer<vtkDataArray> Array; ///< holds the samples, one component
   isodiamond::AnySamples Samples;
   Geometry Placement; ///< of the samples, padding included
@@ -35,6 +35,9 @@ struct Volume
   /** Where the samples come from, if they are not at hand: neither they nor other arrays are above
    *  then, and their number is 0. */
   const Slabs* InSlabs = nullptr;
+
+  /** Of the samples, padding included. */
+  std::array<int, 3> SampleDimensions() const;
 };
 
 /** An array and what it is of, as vtkDataObject::FIELD_ASSOCIATION_... says. */
@@ -68,9 +71,11 @@ double LargestTolerance(
  *
  * @param grid an image, rectilinear grid or structured grid
  * @param closeBoundary pad by one layer of the data's minimum on all six sides
+ * @param minimum of all the data, if the grid has some of them only
  * @throws std::invalid_argument saying why the grid or the array cannot be used
  */
-Volume ReadVolume(vtkDataSet* grid, const InputArray& array, bool closeBoundary);
+Volume ReadVolume(vtkDataSet* grid, const InputArray& array, bool closeBoundary,
+  std::optional<double> minimum = {});
 
 /** The samples of an array as volume of given dimensions. @return false for an unknown type. */
 bool ViewSamples(

@@ -173,11 +173,12 @@ vtkSmartPointer<vtkDataObject> SlabPlan::TakeWhole(vtkInformation* input)
   return whole ? whole : vtkSmartPointer<vtkDataObject>(vtkDataObject::GetData(input));
 }
 
-std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArray)
+std::unique_ptr<Slabs> SlabPlan::Open(
+  vtkInformation* input, ArrayFinder findArray, bool closeBoundary)
 {
   if (this->AreParts)
   {
-    return this->OpenParts(input, std::move(findArray));
+    return this->OpenParts(input, std::move(findArray), closeBoundary);
   }
   if (this->Count == 1)
   {
@@ -201,13 +202,14 @@ std::unique_ptr<Slabs> SlabPlan::Open(vtkInformation* input, ArrayFinder findArr
   isodiamond::InStep(others,
     [&]
     {
-      slabs = std::make_unique<Slabs>(
-        input, this->Count, std::move(findArray), this->IsShared ? this->Peers : std::nullopt);
+      slabs = std::make_unique<Slabs>(input, this->Count, std::move(findArray), closeBoundary,
+        this->IsShared ? this->Peers : std::nullopt);
     });
   return slabs;
 }
 
-std::unique_ptr<Slabs> SlabPlan::OpenParts(vtkInformation* input, ArrayFinder findArray)
+std::unique_ptr<Slabs> SlabPlan::OpenParts(
+  vtkInformation* input, ArrayFinder findArray, bool closeBoundary)
 {
   auto parts = std::make_unique<Parts>(input, *this->Peers);
   this->Count = this->CanBeCut && !parts->HaveBlanks()
@@ -224,8 +226,8 @@ std::unique_ptr<Slabs> SlabPlan::OpenParts(vtkInformation* input, ArrayFinder fi
   isodiamond::InStep(&*this->Peers,
     [&]
     {
-      slabs = std::make_unique<Slabs>(
-        input, this->Count, std::move(findArray), this->Peers, std::move(parts));
+      slabs = std::make_unique<Slabs>(input, this->Count, std::move(findArray), closeBoundary,
+        this->Peers, std::move(parts));
     });
   return slabs;
 }

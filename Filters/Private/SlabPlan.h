@@ -63,16 +63,18 @@ public:
   bool IsAPart() const { return this->Count > 1 || this->AreParts; }
 
   /** For RequestData.
+   *  @param closeBoundary whether the volume is to be padded: where it is at hand by who reads it
    *  @return null if the input is there at once: TakeWhole(); as where cells turn out to be hidden
    *  @throws std::exception if it cannot be had, here or by a peer */
-  std::unique_ptr<Slabs> Open(vtkInformation* input, ArrayFinder findArray);
+  std::unique_ptr<Slabs> Open(vtkInformation* input, ArrayFinder findArray, bool closeBoundary);
 
   /** The input that is there at once: as upstream gave it, or put together of what peers have, once
    *  only. */
   vtkSmartPointer<vtkDataObject> TakeWhole(vtkInformation* input);
 
 private:
-  std::unique_ptr<Slabs> OpenParts(vtkInformation* input, ArrayFinder findArray);
+  std::unique_ptr<Slabs> OpenParts(
+    vtkInformation* input, ArrayFinder findArray, bool closeBoundary);
 
   std::optional<ControllerPeers> Peers; ///< who execute the filter together, on images
   bool CanBeCut = false;

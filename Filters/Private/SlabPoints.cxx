@@ -91,6 +91,7 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slab
   const bool wantsOthers = isodiamond::IsAnywhere(peers, wanted.Others && slabs.HaveOtherArrays());
   if (wanted.Normals || wanted.Gradients || wantsOthers)
   {
+    slabs.FindPadding(task, 0.0, 0.0);
     const Reading reading = wantsOthers ? Reading::AllArrays : Reading::Values;
     isodiamond::InStep(
       peers, [&] { slabs.ForEach(task, "Reading point data", 0.0, 1.0, reading, add); });

@@ -35,7 +35,7 @@ isodiamond::AnySamples SlicesOf(const isodiamond::AnySamples& samples, int first
 
 }
 
-Slabs::Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
+Slabs::Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray, bool closeBoundary,
   const std::optional<ControllerPeers>& peers, std::unique_ptr<Parts> parts)
   : Input(inputInformation)
   , FindArray(std::move(findArray))
@@ -43,6 +43,7 @@ Slabs::Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
   , WholeExtent(WholeExtentOf(inputInformation))
   , Cut(isodiamond::StreamedBuild::Cut(WholeDimensionsOf(this->Input), count))
   , Whole(WholeImage(inputInformation))
+  , Padding(closeBoundary ? 1 : 0)
   , Others(peers)
 {
   vtkImageData* image = vtkImageData::GetData(this->Input);
@@ -70,10 +71,20 @@ Volume Slabs::WholeVolume() const
   Volume volume;
   volume.Grid = this->Whole;
   volume.Dimensions = WholeDimensionsOf(this->Input);
-  volume.Placement = GeometryOf(this->Whole, 0);
+  volume.Padding = this->Padding;
+  volume.Placement = GeometryOf(this->Whole, this->Padding);
   volume.ArrayName = this->ArrayName;
   volume.InSlabs = this;
   return volume;
+}
+
+Slices Slabs::InVolume(const Slices& slices) const
+{
+  // What is padded at an end belongs to the slab there.
+  const int last = WholeDimensionsOf(this->Input)[2] - 1;
+  const auto begin = [&](int slice) { return slice == 0 ? 0 : slice + this->Padding; };
+  const auto end = [&](int slice) { return slice + (slice == last ? 2 : 1) * this->Padding; };
+  return { begin(slices.Begin), end(slices.End - 1) + 1, begin(slices.First), end(slices.Last) };
 }
 
 Slab Slabs::Get(const Slices& slices) const
@@ -97,18 +108,42 @@ Slab Slabs::Read(vtkImageData* image, const Slices& slices) const
     throw std::runtime_error("Upstream gave another part of the volume than it was asked for.");
   }
   Slab slab;
-  slab.Slices = slices;
-  slab.Given = ReadVolume(image, this->FindArray(image), false);
+  // Until the minimum is known, as they are given.
+  const bool isPadded = this->Minimum.has_value();
+  const Slices wanted = isPadded ? this->InVolume(slices) : slices;
+  slab.Slices = wanted;
+  slab.Given = ReadVolume(image, this->FindArray(image), isPadded, this->Minimum);
   slab.First = extent[4] - whole[4];
   slab.Samples = { SlicesOf(
-                     slab.Given.Samples, slices.First - slab.First, slices.Last + 1 - slices.First),
-    slices.First };
+                     slab.Given.Samples, wanted.First - slab.First, wanted.Last + 1 - wanted.First),
+    wanted.First };
   if (slab.Given.Hidden.Any())
   {
     throw std::runtime_error(
       "Blanked cells, of which the first block has none, need the number of blocks 1.");
   }
   return slab;
+}
+
+void Slabs::FindPadding(Task& task, double begin, double end) const
+{
+  if (this->Padding == 0 || this->Minimum)
+  {
+    return;
+  }
+  isodiamond::FiniteRangeOfSlabs range;
+  isodiamond::Peers* const peers = this->Together();
+  isodiamond::InStep(peers,
+    [&]
+    {
+      this->ForEach(task, "Reading the range", begin, end, Reading::Signs,
+        [&](const Slab& slab) { range.Add(slab.Samples.Samples); });
+    });
+  if (peers)
+  {
+    range.Merge(*peers);
+  }
+  this->Minimum = range.Range().Minimum;
 }
 
 void Slabs::ForEach(Task& task, const char* phase, double begin, double end, Reading reading,
@@ -139,7 +174,7 @@ void Slabs::ForEach(Task& task, const char* phase, double begin, double end, Rea
       }
       else if (ofOthers)
       {
-        ofOthers(this->Cut[i]);
+        ofOthers(this->InVolume(this->Cut[i]));
       }
     };
     if (this->OfPeers)
@@ -161,12 +196,14 @@ isodiamond::StagedBuild BuildInSlabs(const Slabs& slabs, const isodiamond::Isore
 {
   std::optional<isodiamond::StreamedBuild> build;
   isodiamond::Peers* const peers = options.Together;
-  isodiamond::InStep(
-    peers, [&] { build.emplace(slabs.WholeVolume().Dimensions, region, task.For(), options); });
+  isodiamond::InStep(peers,
+    [&]
+    { build.emplace(slabs.WholeVolume().SampleDimensions(), region, task.For(), options); });
+  slabs.FindPadding(task, 0.0, 0.05);
   isodiamond::InStep(peers,
     [&]
     {
-      slabs.ForEach(task, "Reading signs", 0.0, 0.1, Reading::Signs,
+      slabs.ForEach(task, "Reading signs", 0.05, 0.1, Reading::Signs,
         [&](const Slab& slab) { build->AddSigns(slab.Samples); });
     });
   build->Classify();

@@ -31,12 +31,13 @@ class vtkInformation;
 namespace vtkIsodiamond
 {
 
-/** Some slices of an image. */
+/** Some slices of a volume, padding included if its boundary is closed. */
 struct Slab
 {
   vtkIsodiamond::Slices Slices;   ///< those that were asked for
   isodiamond::SampleSlab Samples; ///< of these, and no others
-  /** What upstream gave, which may be more, and the slice that it begins with. */
+  /** What upstream gave, which may be more, and the slice that it begins with. Padding is around
+   *  all of it, also where the volume goes on. */
   Volume Given;
   int First = 0;
 };
@@ -57,8 +58,9 @@ public:
   /** @param count of them, as of a plan, whose request has been answered
    *  @param peers who have their share of the slabs, if there are any
    *  @param parts where slabs come from, if not from upstream: peers have parts of another shape
+   *  @param closeBoundary whether the volume is padded as ReadVolume() does
    *  @throws std::exception if a slab cannot be had */
-  Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
+  Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray, bool closeBoundary,
     const std::optional<ControllerPeers>& peers, std::unique_ptr<Parts> parts = nullptr);
 
   /** Peers, until everything is built: nobody waits for another from then on, and slabs cannot be
@@ -79,6 +81,10 @@ public:
    *  modification times, since the content itself is nowhere. */
   ContentHash Stamp() const { return this->StampOfUpstream; }
 
+  /** Before ForEach(), as often as one likes: the first time a volume whose boundary is closed is
+   *  read for the minimum that it is padded by. By all peers. */
+  void FindPadding(Task& task, double begin, double end) const;
+
   /** Calls body(slab) for all of them, from the first to the last; of peers for its share.
    *  @param phase in words, a part of the task from begin until end
    *  @param ofOthers called with the slices of the others' slabs, in their place */
@@ -87,6 +93,8 @@ public:
     const std::function<void(const Slices&)>& ofOthers = nullptr) const;
 
 private:
+  /** In the volume's slices, padding included, what is given in the image's. */
+  Slices InVolume(const Slices& slices) const;
   Slab Get(const Slices& slices) const;
   Slab Read(vtkImageData* image, const Slices& slices) const;
 
@@ -99,6 +107,8 @@ private:
   std::string ArrayName;
   bool OtherArrays = false;
   ContentHash StampOfUpstream{};
+  int Padding;
+  mutable std::optional<double> Minimum; ///< what is padded by, once it is known
   mutable std::optional<ControllerPeers> Others; ///< an interface to what is elsewhere
   bool HaveDispersed = false;
 };

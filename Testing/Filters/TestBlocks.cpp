@@ -252,12 +252,112 @@ TEST(Blocks, MakeTheSameHierarchy)
       });
     EXPECT_EQ(both.Difference(), "");
     EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), 5);
-    both.ForEach([](vtkIsodiamondBuilder* builder) { builder->ClearPointArrays(); });
+    both.ForEach(
+      [](vtkIsodiamondBuilder* builder)
+      {
+        builder->ClearPointArrays();
+        builder->CloseBoundaryOn();
+      });
+    EXPECT_EQ(both.Difference(), "");
+    EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), 5);
+    both.ForEach([](vtkIsodiamondBuilder* builder) { builder->CloseBoundaryOff(); });
   }
   both.InBlocks->AddPointArray("none");
   const auto messages = test::Watch(both.InBlocks);
   both.InBlocks->Update();
   EXPECT_EQ(messages->ErrorCount, 1);
+}
+
+TEST(Blocks, MakeTheSameOfErrorsInTheField)
+{
+  Both<vtkIsodiamondContour> contours(5);
+  contours.ForEach(
+    [](vtkIsodiamondContour* contour)
+    {
+      contour->SetValue(0, 0.0);
+      contour->SetErrorMetricToField();
+    });
+  for (const double tolerance : { 0.0, 0.5, 2.0 })
+  {
+    contours.ForEach([&](vtkIsodiamondContour* contour) { contour->SetErrorTolerance(tolerance); });
+    EXPECT_EQ(contours.Difference(), "");
+    EXPECT_GT(contours.InBlocks->GetOutput()->GetNumberOfPolys(), 100);
+  }
+  EXPECT_EQ(contours.InBlocks->GetNumberOfSlabs(), 5);
+
+  Both<vtkIsodiamondIntervalVolume> volumes(4);
+  volumes.ForEach(
+    [](vtkIsodiamondIntervalVolume* volume)
+    {
+      volume->SetIsorange(-1.0, 9.0);
+      volume->SetInteriorTolerance(0.5);
+    });
+  vtkIdType finest = 0;
+  for (const double tolerance : { 0.0, 1.0 })
+  {
+    volumes.ForEach(
+      [&](vtkIsodiamondIntervalVolume* volume) { volume->SetErrorTolerance(tolerance); });
+    EXPECT_EQ(volumes.Difference(), "");
+    finest = volumes.InBlocks->GetOutput()->GetNumberOfCells();
+  }
+  volumes.ForEach(
+    [](vtkIsodiamondIntervalVolume* volume) { volume->SetInteriorTolerance(5.0); });
+  EXPECT_EQ(volumes.Difference(), "");
+  EXPECT_LT(volumes.InBlocks->GetOutput()->GetNumberOfCells(), finest);
+  EXPECT_EQ(volumes.InBlocks->GetNumberOfSlabs(), 4);
+
+  Both<vtkIsodiamondBuilder> builders(3);
+  builders.ForEach(
+    [](vtkIsodiamondBuilder* builder)
+    {
+      builder->SetShapeToIntervalVolume();
+      builder->SetIsorange(-1.0, 9.0);
+      builder->RefineInteriorOn();
+    });
+  for (const int metric : { vtkIsodiamondHierarchy::FIELD, vtkIsodiamondHierarchy::DISTANCE })
+  {
+    builders.ForEach([&](vtkIsodiamondBuilder* builder) { builder->SetErrorMetric(metric); });
+    EXPECT_EQ(builders.Difference(), "");
+    EXPECT_EQ(builders.InBlocks->GetNumberOfSlabs(), 3);
+  }
+}
+
+// What is around the volume is the minimum of all slabs: here the last one has it.
+TEST(Blocks, CloseTheSameBoundary)
+{
+  const auto throughAllFaces = [](double x, double y, double z)
+  { return std::sin(0.4 * x) + std::cos(0.5 * y) + std::sin(0.3 * z) - 0.01 * z; };
+  for (const int blocks : { 2, 5 })
+  {
+    SCOPED_TRACE(blocks);
+    Both<vtkIsodiamondContour> both(blocks);
+    both.Source->Function = both.SourceOfParts->Function = throughAllFaces;
+    both.ForEach(
+      [](vtkIsodiamondContour* contour)
+      {
+        contour->SetValue(0, 0.0);
+        contour->SetValue(1, -1.0);
+        contour->SetErrorTolerance(0.3);
+        contour->ComputeNormalsOn();
+      });
+    EXPECT_EQ(both.Difference(), "");
+    const vtkIdType open = both.InBlocks->GetOutput()->GetNumberOfPolys();
+    const int requests = both.SourceOfParts->Requests;
+    both.ForEach([](vtkIsodiamondContour* contour) { contour->CloseBoundaryOn(); });
+    EXPECT_EQ(both.Difference(), "");
+    EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), blocks);
+    EXPECT_GT(both.InBlocks->GetOutput()->GetNumberOfPolys(), open + 500);
+    EXPECT_TRUE(both.InBlocks->GetOutput()->GetPointData()->HasArray("other"));
+    // Once for the minimum; for each isovalue for signs, isovertices and what points have.
+    EXPECT_EQ(both.SourceOfParts->Requests - requests, 7 * blocks);
+    both.ForEach([](vtkIsodiamondContour* contour) { contour->SetErrorTolerance(0.0); });
+    EXPECT_EQ(both.Difference(), "");
+    EXPECT_EQ(both.SourceOfParts->Requests - requests, 7 * blocks);
+    // Nothing lies below: the surface of what is around the volume, too.
+    both.ForEach([](vtkIsodiamondContour* contour) { contour->SetValue(1, -4.0); });
+    EXPECT_EQ(both.Difference(), "");
+    EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), blocks);
+  }
 }
 
 // More slices than were asked for are welcome.
@@ -304,27 +404,10 @@ TEST(Blocks, AreOneWithAWarningWhereTheyCannotBe)
     EXPECT_EQ(messages->ErrorCount, 0);
   };
   check([](auto& both) { both.SourceOfParts->CanMakeParts = false; }, true);
-  check([](auto& both)
-    { both.ForEach([](vtkIsodiamondContour* contour) { contour->SetErrorMetricToField(); }); },
-    true);
-  check([](auto& both)
-    { both.ForEach([](vtkIsodiamondContour* contour) { contour->CloseBoundaryOn(); }); },
-    true);
   // Which cells are hidden is known when the first slab is there.
   check([](auto& both) { both.Source->HasGhosts = both.SourceOfParts->HasGhosts = true; }, true);
   // A small image fits into memory.
   check([](auto& both) { both.InBlocks->SetNumberOfBlocks(0); }, false);
-
-  Both<vtkIsodiamondIntervalVolume> both(3);
-  both.ForEach(
-    [](vtkIsodiamondIntervalVolume* volume)
-    {
-      volume->SetIsorange(0.0, 3.0);
-      volume->SetInteriorTolerance(0.1);
-    });
-  const auto messages = test::Watch(both.InBlocks);
-  EXPECT_EQ(both.Difference(), "");
-  EXPECT_EQ(messages->WarningCount, 1);
 }
 
 TEST(Blocks, ThatCannotBeHadAreAnError)

@@ -130,9 +130,16 @@ def main():
         dict(Simplify=1)], blocks=9)
     check("contour of values that are not finite", contour,
           [dict(Value=(0, 0.0), ErrorTolerance=0.4)], has_nan=True)
+    check("contour by the field metric", contour, [
+        dict(values, ErrorMetric=0, ErrorTolerance=0.0), dict(ErrorTolerance=0.5), dict(ErrorTolerance=0.5, CloseBoundary=1)])
+    check("closed contour", contour, [
+        dict(values, CloseBoundary=1, ErrorTolerance=0.0), dict(ErrorTolerance=0.4)])
     check("interval volume", volume, [
         dict(Isorange=(-0.5, 4.0), ErrorTolerance=0.0), dict(ErrorTolerance=0.5), dict(ComputeGradients=1),
         dict(SimulationQuality=1)])
+    check("interval volume with an interior tolerance", volume, [
+        dict(Isorange=(-0.5, 8.0), InteriorTolerance=0.5, ErrorTolerance=0.5), dict(ErrorTolerance=0.0),
+        dict(ErrorMetric=0), dict(ErrorTolerance=1.0, InteriorTolerance=3.0)])
     check_hierarchy()
     if ranks > 1:
         check_failure_upstream()
@@ -141,8 +148,14 @@ def main():
         for phase in ("Reading signs", "Classifying diamonds", "Placing isovertices", "Measuring errors",
                       "Finding thresholds", "Reading point data", "Extracting the mesh"):
             check_failure(f"aborted while {phase}", lambda _, contour: abort_at(contour, phase))
-        check_failure("aborted while Measuring errors of one tolerance",
-                      lambda _, contour: abort_at(contour, "Measuring errors"), OneTolerance=1)
+        for name, properties in (("of one tolerance", dict(OneTolerance=1)), ("in the field", dict(ErrorMetric=0))):
+            check_failure(f"aborted while Measuring errors {name}",
+                          lambda _, contour: abort_at(contour, "Measuring errors"), **properties)
+        for request in (1, 2, 3, 4):
+            check_failure(f"no part {request} of a closed volume",
+                          lambda source, _: setattr(source, "fails_at", request), CloseBoundary=1)
+        check_failure("aborted while Reading the range",
+                      lambda _, contour: abort_at(contour, "Reading the range"), CloseBoundary=1)
 
 
 run(main)

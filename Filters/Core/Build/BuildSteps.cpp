@@ -174,11 +174,17 @@ Encoded BuildSteps::PlaceIsovertices(double begin, double end, bool withEdges) c
     ErrorCode::Always, this->For, this->SignsIfKept(), withEdges);
 }
 
+FieldMetric BuildSteps::ByField() const
+{
+  return { this->Header.Region, this->Origin.SampleGrid, this->SignsToGoBy(), this->Interior };
+}
+
 DiamondCodes BuildSteps::MeasureField() const
 {
   Tell(this->Options, "Measuring errors", 0.25, 0.8);
-  DiamondCodes own = OwnFieldCodes(this->Origin, this->Header.Region, this->SignsToGoBy(),
-    this->Members, this->Interior, this->For);
+  DiamondCodes own = this->FieldCodes
+    ? *this->FieldCodes
+    : OwnFieldCodes(this->Origin, this->ByField(), this->Members, this->For);
   this->SubdivideAlways(own);
   return own;
 }
@@ -194,8 +200,14 @@ DiamondCodes BuildSteps::MeasureDistances(
     {
       Tell(this->Options, "Measuring errors", 0.25, 0.5);
       bounds = MapBounds(this->Members.Size(), this->Header.Region.SurfaceCount());
-      own = DiamondCodes(this->Members.Size(), this->Interior);
+      own = DiamondCodes(this->Members.Size(), false);
       this->SubdivideAlways(own);
+      if (this->Interior)
+      {
+        own.Interior = this->FieldCodes
+          ? this->FieldCodes->Interior
+          : InteriorCodes(this->Origin, this->SignsToGoBy(), this->Members, this->For);
+      }
       own = OwnDistanceCodes(this->Origin, isFinite, relevant, this->SignsToGoBy(), this->Options,
         std::move(own), bounds, this->For);
     });

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace isodiamond
 {
@@ -39,6 +40,12 @@ public:
   /** Once isovertices are placed, signs are needed for what lies inside an interval volume only. */
   void DropSigns();
 
+  /** What tells by which field errors the diamonds are subdivided. */
+  FieldMetric ByField() const;
+
+  /** Field errors that are known already: of a volume that came in slabs. */
+  void SetFieldCodes(DiamondCodes codes) { this->FieldCodes = std::move(codes); }
+
   DiamondCodes MeasureField() const;
   DiamondCodes MeasureDistances(
     const IsodiamondHierarchy& relevant, const Finiteness& isFinite) const;
@@ -67,6 +74,7 @@ private:
   bool Interior;                    ///< whether it is refined
   std::optional<SignLattice> Signs; ///< kept where samples do not say the same, or are not at hand
   Classification Kinds;
+  std::optional<DiamondCodes> FieldCodes; ///< if they are known already
   DiamondMask ForTopology; ///< empty if topology need not be preserved
   DiamondSet Members;
   EncodingHeader Header;

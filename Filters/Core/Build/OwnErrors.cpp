@@ -8,24 +8,6 @@
 
 namespace isodiamond
 {
-namespace
-{
-
-/** Calls body(place, rank) for all diamonds but the corners of the base cube. Goes by words: the
- *  work of a whole brick of coarse diamonds is long for one step. */
-template <typename Body>
-void ForEachMember(const DiamondSet& members, const ParallelFor& parallelFor, const Body& body)
-{
-  for (int scale = members.ScaleCount() - 2; scale >= 0; --scale)
-  {
-    const std::vector<Brick>& bricks = members.Level(scale).Bricks;
-    ForEachIndex(parallelFor, 8 * static_cast<std::int64_t>(bricks.size()), 1,
-      [&](std::int64_t i)
-      { members.ForEachInWord(scale, bricks[i / 8], static_cast<int>(i % 8), body); });
-  }
-}
-
-}
 
 void CheckOptions(const BuildOptions& options)
 {
@@ -52,47 +34,62 @@ std::pair<ErrorCode::Type, ValueRange> SummaryOf(
   return { ErrorCode(scale).Encode(domain.Error), domain.Range };
 }
 
-DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const BuildSigns& signs,
-  const DiamondSet& members, bool refineInterior, const ParallelFor& parallelFor)
+void FieldMetric::SetCodes(const Place& place, std::uint32_t rank, ErrorCode::Type code,
+  const ValueRange& range, DiamondCodes& own) const
 {
-  DiamondCodes own(members.Size(), refineInterior);
+  const bool holdsVolume = this->Signs.AreChanged() &&
+    this->SampleGrid.SticksOut(place.Position, place.Scale) &&
+    this->Signs.HasAllVerticesInside(place);
+  if (holdsVolume || OwnErrorCounts(this->Region, this->SampleGrid, range, place))
+  {
+    own.Surface[rank] = code;
+  }
+  if (this->RefineInterior && this->Signs.HasAllVerticesInside(place))
+  {
+    own.Interior[rank] = code;
+  }
+}
+
+DiamondCodes OwnFieldCodes(const Source& source, const FieldMetric& metric,
+  const DiamondSet& members, const ParallelFor& parallelFor)
+{
+  DiamondCodes own(members.Size(), metric.RefineInterior);
   ForEachMember(members, parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
       const auto [code, range] = source.Summary(place);
-      const bool holdsVolume = signs.AreChanged() &&
-        source.SampleGrid.SticksOut(place.Position, place.Scale) &&
-        signs.HasAllVerticesInside(place);
-      if (holdsVolume || OwnErrorCounts(region, source.SampleGrid, range, place))
-      {
-        own.Surface[rank] = code;
-      }
-      if (refineInterior && signs.HasAllVerticesInside(place))
-      {
-        own.Interior[rank] = code;
-      }
+      metric.SetCodes(place, rank, code, range, own);
     });
   return own;
+}
+
+std::vector<ErrorCode::Type> InteriorCodes(const Source& source, const BuildSigns& signs,
+  const DiamondSet& members, const ParallelFor& parallelFor)
+{
+  std::vector<ErrorCode::Type> codes(members.Size(), 0);
+  ForEachMember(members, parallelFor,
+    [&](const Place& place, std::uint32_t rank)
+    {
+      if (signs.HasAllVerticesInside(place))
+      {
+        codes[rank] = source.Summary(place).first;
+      }
+    });
+  return codes;
 }
 
 DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
   const IsodiamondHierarchy& relevant, const BuildSigns& signs, const BuildOptions& options,
   DiamondCodes own, MapBounds& bounds, const ParallelFor& parallelFor)
 {
-  const DiamondSet& members = relevant.Diamonds();
-  const bool refineInterior = !own.Interior.empty();
   own.Surface = DistanceErrors(relevant, isFinite, options.World, options.PreserveFeatures,
     Loops(parallelFor, options.Together), std::move(own.Surface), &bounds);
-  ForEachMember(members, parallelFor,
+  ForEachMember(relevant.Diamonds(), parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {
       if (HoldsVolume(relevant.Region(), source.SampleGrid, signs, place))
       {
         own.Surface[rank] = ErrorCode::Always;
-      }
-      if (refineInterior && signs.HasAllVerticesInside(place))
-      {
-        own.Interior[rank] = source.Summary(place).first;
       }
     });
   return own;

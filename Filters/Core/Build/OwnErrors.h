@@ -93,17 +93,48 @@ struct DiamondCodes
 };
 
 /**
- * The field metric.
+ * What the field metric makes of the summaries of domains.
  *
  * Ranges are the samples', also where small pieces were removed. That subdivides what these
  * crossed, which is not needed, but never too little: where signs differ, values do. Only a domain
  * that has come to lie inside altogether can have all of its samples on one side outside.
  */
-DiamondCodes OwnFieldCodes(const Source& source, const Isoregion& region, const BuildSigns& signs,
-  const DiamondSet& members, bool refineInterior, const ParallelFor& parallelFor);
+struct FieldMetric
+{
+  const Isoregion& Region;
+  const Grid& SampleGrid;
+  BuildSigns Signs;
+  bool RefineInterior = false;
 
-/** The distance metric; inside of an interval volume the field's.
- *  @param own what is always subdivided already */
+  /** @param code, range of a diamond's summary @param own where its codes are set */
+  void SetCodes(const Place& place, std::uint32_t rank, ErrorCode::Type code,
+    const ValueRange& range, DiamondCodes& own) const;
+};
+
+/** Calls body(place, rank) for all diamonds but the corners of the base cube. Goes by words: the
+ *  work of a whole brick of coarse diamonds is long for one step. */
+template <typename Body>
+void ForEachMember(const DiamondSet& members, const ParallelFor& parallelFor, const Body& body)
+{
+  for (int scale = members.ScaleCount() - 2; scale >= 0; --scale)
+  {
+    const std::vector<Brick>& bricks = members.Level(scale).Bricks;
+    ForEachIndex(parallelFor, 8 * static_cast<std::int64_t>(bricks.size()), 1,
+      [&](std::int64_t i)
+      { members.ForEachInWord(scale, bricks[i / 8], static_cast<int>(i % 8), body); });
+  }
+}
+
+/** The field metric. */
+DiamondCodes OwnFieldCodes(const Source& source, const FieldMetric& metric,
+  const DiamondSet& members, const ParallelFor& parallelFor);
+
+/** The field metric inside of an interval volume. */
+std::vector<ErrorCode::Type> InteriorCodes(const Source& source, const BuildSigns& signs,
+  const DiamondSet& members, const ParallelFor& parallelFor);
+
+/** The distance metric.
+ *  @param own what is always subdivided already; what is inside stays as it is */
 DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
   const IsodiamondHierarchy& relevant, const BuildSigns& signs, const BuildOptions& options,
   DiamondCodes own, MapBounds& bounds, const ParallelFor& parallelFor);

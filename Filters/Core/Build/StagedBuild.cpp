@@ -2,6 +2,7 @@
 #include "Build/StagedBuild.h"
 
 #include "Build/BuildSteps.h"
+#include "Build/StreamedFieldCodes.h"
 #include "DistanceError/DistanceError.h"
 #include "Hierarchy/StreamedEncoder.h"
 
@@ -58,6 +59,7 @@ struct StagedBuild::State
   ParallelFor For;
   BuildOptions Options;
   Grid TheGrid;
+  bool CameInSlabs = false;
   std::optional<FieldErrors> Errors;
   Source From;
   std::optional<BuildSteps> Done;
@@ -118,13 +120,19 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
 {
   State& kept = *this->Kept;
   kept.Resume(samples, parallelFor, options);
-  if (NeedsFieldErrors(kept.Relevant.Header.Region, options))
+  if (!kept.CameInSlabs && NeedsFieldErrors(kept.Relevant.Header.Region, options))
   {
     kept.Errors.emplace(kept.TheGrid, kept.Samples, kept.For);
   }
-  DiamondCodes codes = options.Metric == ErrorMetric::Field
-    ? kept.Done->MeasureField()
-    : kept.Done->MeasureDistances(*kept.Hierarchy, *kept.IsFinite);
+  DiamondCodes codes;
+  if (options.Metric == ErrorMetric::Distance)
+  {
+    codes = kept.Done->MeasureDistances(*kept.Hierarchy, *kept.IsFinite);
+  }
+  else
+  {
+    InStep(options.Together, [&] { codes = kept.Done->MeasureField(); });
+  }
   Encoding finished;
   InStep(options.Together,
     [&]
@@ -141,7 +149,7 @@ namespace
 
 /** The slices of the centres of a slab's diamonds: what has its centre behind the last slice comes
  *  with that. */
-EncodingPasses::Slices OfCentres(const Grid& grid, const StreamedBuild::Slices& slices)
+SliceRange OfCentres(const Grid& grid, const StreamedBuild::Slices& slices)
 {
   const bool isLast = slices.End == grid.Dimensions()[2];
   return { slices.Begin, isLast ? EncodingPasses::AllSlices.End : slices.End };
@@ -161,23 +169,30 @@ struct StreamedBuild::Progress
   Isoregion Region;
   std::optional<SignLattice> Signs; ///< until diamonds are classified: they have them then
   FiniteRangeOfSlabs Range;
+  std::optional<GatheredSamples> Coarse; ///< where field errors are asked for, until then
   std::optional<StreamedEncoder> Encoder; ///< from then on
+  std::optional<StreamedFieldCodes> FieldCodes;
 };
 
 StreamedBuild::StreamedBuild(const std::array<int, 3>& dimensions, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options)
 {
   CheckOptions(options);
-  if (NeedsFieldErrors(region, options))
+  if (HasHiddenCells(options))
   {
-    throw std::invalid_argument("Errors in the field need the whole volume at once.");
+    throw std::invalid_argument("Hidden cells need the whole volume at once.");
   }
   const Grid grid(dimensions);
   this->Kept = std::make_unique<StagedBuild::State>(
     grid, SampleView<std::uint8_t>(nullptr, dimensions), 1.0, parallelFor, options);
+  this->Kept->CameInSlabs = true;
   this->Kept->ErrorScale(); // throws if there are no distances
   this->Kept->IsFinite.emplace(dimensions);
   this->Current = std::make_unique<Progress>(grid, region);
+  if (NeedsFieldErrors(region, options))
+  {
+    this->Current->Coarse = StreamedFieldCodes::CoarseSamples(grid);
+  }
 }
 
 StreamedBuild::~StreamedBuild() = default;
@@ -207,6 +222,10 @@ void StreamedBuild::AddSigns(const SampleSlab& slab)
   this->Current->Signs->Add(slab, this->Kept->For);
   this->Current->Range.Add(slab.Samples);
   this->Kept->IsFinite->Add(slab);
+  if (this->Current->Coarse)
+  {
+    this->Current->Coarse->Add(slab);
+  }
 }
 
 void StreamedBuild::Classify()
@@ -219,6 +238,10 @@ void StreamedBuild::Classify()
     current.Signs->Merge(*peers);
     current.Range.Merge(*peers);
     kept.IsFinite->Merge(*peers);
+    if (current.Coarse)
+    {
+      current.Coarse->Merge(*peers);
+    }
   }
   InStep(peers,
     [&]
@@ -232,12 +255,23 @@ void StreamedBuild::Classify()
       current.Signs.reset();
       current.Encoder.emplace(kept.Done->RelevantHeader(), kept.TheGrid, kept.Done->Relevant(),
         ErrorCode::Always, *kept.Done->SignsIfKept(), kept.For);
+      if (current.Coarse)
+      {
+        current.FieldCodes.emplace(kept.TheGrid, kept.Done->Relevant(), kept.Done->ByField(),
+          ErrorCode(kept.From.FieldScale), std::move(*current.Coarse), kept.For);
+        current.Coarse.reset();
+      }
     });
 }
 
 void StreamedBuild::AddValues(const SampleSlab& slab, const Slices& slices)
 {
-  this->Current->Encoder->Add(slab, OfCentres(this->Kept->TheGrid, slices));
+  const SliceRange centres = OfCentres(this->Kept->TheGrid, slices);
+  this->Current->Encoder->Add(slab, centres);
+  if (this->Current->FieldCodes)
+  {
+    this->Current->FieldCodes->Add(slab, { slices.Begin, slices.End }, centres);
+  }
 }
 
 void StreamedBuild::SkipValues(const Slices& slices)
@@ -251,10 +285,18 @@ StagedBuild StreamedBuild::Finish()
   if (peers != nullptr)
   {
     this->Current->Encoder->Merge(*peers);
+    if (this->Current->FieldCodes)
+    {
+      this->Current->FieldCodes->Merge(*peers);
+    }
   }
   InStep(peers,
     [&]
     {
+      if (this->Current->FieldCodes)
+      {
+        this->Kept->Done->SetFieldCodes(this->Current->FieldCodes->Finish());
+      }
       Encoded relevant = this->Current->Encoder->Finish();
       this->Current.reset();
       this->Kept->Done->DropSigns();

@@ -71,9 +71,9 @@ private:
  * slices from the first to the last, twice.
  *
  * The first time signs are found, a bit for a sample; they tell which diamonds there are. The
- * second time isovertices are placed. Distances need no more than these; so it is the distance
- * metric only, without refinement inside and hidden cells, which ask for field errors. The result
- * is that of the whole volume, to the bit, however it is cut.
+ * second time isovertices are placed, and field errors measured, if they are asked for. Distances
+ * need no more than these. Not with hidden cells. The result is that of the whole volume, to the
+ * bit, however it is cut.
  *
  * Peers (BuildOptions::Together) have some slabs each: they add these, and skip those of others.
  * All of them classify and finish, and have the whole hierarchy in the end.
@@ -82,8 +82,7 @@ class StreamedBuild
 {
 public:
   /** @param dimensions of the volume
-   *  @throws std::invalid_argument as BuildIsodiamonds(), and for options that ask for field errors
-   */
+   *  @throws std::invalid_argument as BuildIsodiamonds(), and for hidden cells */
   StreamedBuild(const std::array<int, 3>& dimensions, const Isoregion& region,
     const ParallelFor& parallelFor, const BuildOptions& options);
   ~StreamedBuild();

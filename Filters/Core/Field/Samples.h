@@ -87,6 +87,13 @@ inline double SampleAt(const AnySamples& samples, const Point& point)
   return std::visit([&](const auto& view) { return view(point); }, samples);
 }
 
+/** Slices of a volume, the end not among them. */
+struct SliceRange
+{
+  int Begin = 0;
+  int End = 0;
+};
+
 /** Some slices of a volume, each of them whole: a volume that is larger than memory comes slab by
  *  slab. Slabs may share slices. */
 struct SampleSlab

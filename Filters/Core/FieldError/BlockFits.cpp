@@ -25,12 +25,14 @@ float UpperFloat(double bound)
 class Block
 {
 public:
+  /** @param dimensions of the volume @param firstSlice of those that there are samples of */
   template <typename T>
-  Block(const SampleView<T>& samples, const Point& first)
+  Block(const std::array<int, 3>& dimensions, const SampleView<T>& samples, int firstSlice,
+    const Point& first)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      this->Last[axis] = std::min(Edge, samples.Dimensions()[axis] - 1 - first[axis]);
+      this->Last[axis] = std::min(Edge, dimensions[axis] - 1 - first[axis]);
     }
     double low = Infinity;
     double high = -Infinity;
@@ -38,7 +40,7 @@ public:
     this->ForEachRow(
       [&](int y, int z)
       {
-        const T* from = samples.Pointer() + samples.Index(first + Point{ 0, y, z });
+        const T* from = samples.Pointer() + samples.Index(first + Point{ 0, y, z - firstSlice });
         double* to = this->Row(y, z);
         for (int x = 0; x <= this->Last[0]; ++x)
         {
@@ -143,7 +145,9 @@ private:
 
 }
 
-BlockFits::BlockFits(const AnySamples& samples, int levels, const ParallelFor& parallelFor)
+BlockFits::BlockFits(const std::array<int, 3>& dimensions, const SampleSlab& slab,
+  const SliceRange& own, int levels, const ParallelFor& parallelFor)
+  : Dimensions(dimensions)
 {
   std::visit(
     [&](const auto& view)
@@ -151,34 +155,52 @@ BlockFits::BlockFits(const AnySamples& samples, int levels, const ParallelFor& p
       for (int level = 0; level < levels; ++level)
       {
         this->AddLevel(
-          view.Dimensions(),
+          own,
           [&](const Point& block)
-          { return level == 0 ? Block(view, Edge * block).Fit() : this->Merge(level, block); },
+          {
+            return level == 0 ? Block(dimensions, view, slab.First, Edge * block).Fit()
+                              : this->Merge(level, block);
+          },
           parallelFor);
       }
     },
-    samples);
+    slab.Samples);
+}
+
+/** All of the volume's. */
+Point BlockFits::CountAll(int level) const
+{
+  const int edge = Edge << level;
+  Point count{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    count[axis] = (this->Dimensions[axis] - 1 + edge - 1) / edge;
+  }
+  return count;
 }
 
 template <typename Fit>
-void BlockFits::AddLevel(
-  const std::array<int, 3>& dimensions, const Fit& fit, const ParallelFor& parallelFor)
+void BlockFits::AddLevel(const SliceRange& own, const Fit& fit, const ParallelFor& parallelFor)
 {
   Level level;
-  const int edge = Edge << this->Levels.size();
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    level.Count[axis] = (dimensions[axis] - 1 + edge - 1) / edge;
-  }
-  level.Blocks.resize(std::size_t{ 1 } * level.Count[0] * level.Count[1] * level.Count[2]);
-  parallelFor(level.Count[2], 1,
+  const auto number = static_cast<int>(this->Levels.size());
+  level.End = this->CountAll(number);
+  const int firstOwn = (own.Begin + Edge - 1) / Edge;
+  const int endOwn = (own.End + Edge - 1) / Edge;
+  level.First[2] = firstOwn >> number;
+  level.End[2] = std::min(level.End[2], ((endOwn - 1) >> number) + 1);
+  const int slices = endOwn > firstOwn ? std::max(level.End[2] - level.First[2], 0) : 0;
+  level.End[2] = level.First[2] + slices;
+  level.Blocks.resize(std::size_t{ 1 } * level.End[0] * level.End[1] * slices);
+  parallelFor(slices, 1,
     [&](std::int64_t begin, std::int64_t end)
     {
-      for (Point block{ 0, 0, static_cast<int>(begin) }; block[2] < end; ++block[2])
+      for (Point block{ 0, 0, level.First[2] + static_cast<int>(begin) };
+           block[2] < level.First[2] + end; ++block[2])
       {
-        for (block[1] = 0; block[1] < level.Count[1]; ++block[1])
+        for (block[1] = 0; block[1] < level.End[1]; ++block[1])
         {
-          for (block[0] = 0; block[0] < level.Count[0]; ++block[0])
+          for (block[0] = 0; block[0] < level.End[0]; ++block[0])
           {
             level.Blocks[level.Index(block)] = fit(block);
           }
@@ -192,6 +214,7 @@ void BlockFits::AddLevel(
 BlockFit BlockFits::Merge(int level, const Point& block) const
 {
   const Level& finer = this->Levels[level - 1];
+  const Point finerCount = this->CountAll(level - 1);
   const int half = Edge << (level - 1);
   const Point middle{ half / 2, half / 2, half / 2 };
   BlockFit fit;
@@ -202,9 +225,16 @@ BlockFit BlockFits::Merge(int level, const Point& block) const
   {
     const Point side = { i & 1, (i >> 1) & 1, i >> 2 };
     const Point part = 2 * block + side;
-    if (part[0] >= finer.Count[0] || part[1] >= finer.Count[1] || part[2] >= finer.Count[2])
+    if (part[0] >= finerCount[0] || part[1] >= finerCount[1] || part[2] >= finerCount[2])
     {
       continue;
+    }
+    if (!this->Has(level - 1, part[2]))
+    {
+      BlockFit unknown;
+      unknown.Range = { -Infinity, Infinity };
+      unknown.Residual = HUGE_VALF;
+      return unknown;
     }
     parts[i] = &finer.Blocks[finer.Index(part)];
     fit.Range.Minimum = std::min(fit.Range.Minimum, parts[i]->Range.Minimum);

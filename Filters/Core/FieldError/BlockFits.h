@@ -32,17 +32,32 @@ struct BlockFit
 
 /**
  * Linear fits to the samples in cubes of 8, 16, 32, ... lattice edges: what tells that a part of a
- * domain need not be looked at.
+ * domain need not be looked at. Of a slab those of its own finest cubes, and of larger ones that
+ * hold some of these: unknown, as of samples that are not finite, if it has not all of their
+ * eighths.
  */
 class BlockFits
 {
 public:
   static constexpr int FinestEdge = 8;
 
-  /** @param levels how many sizes of cubes */
-  BlockFits(const AnySamples& samples, int levels, const ParallelFor& parallelFor);
+  /**
+   * @param dimensions of the volume
+   * @param slab with all samples of its own cubes
+   * @param own slices, the end not among them: the finest cubes that begin there
+   * @param levels how many sizes of cubes
+   */
+  BlockFits(const std::array<int, 3>& dimensions, const SampleSlab& slab, const SliceRange& own,
+    int levels, const ParallelFor& parallelFor);
 
-  /** @param block coordinates of a cube that meets the grid, divided by its edge */
+  /** Whether some of a cube's finest ones are the slab's own. @param z the cube's last coordinate,
+   *  divided by its edge */
+  bool Has(int level, int z) const
+  {
+    return z >= this->Levels[level].First[2] && z < this->Levels[level].End[2];
+  }
+
+  /** @param block coordinates of a cube that meets the grid, divided by its edge; the slab Has() it */
   const BlockFit& operator()(int level, const Point& block) const
   {
     return this->Levels[level].Blocks[this->Levels[level].Index(block)];
@@ -51,20 +66,23 @@ public:
 private:
   struct Level
   {
-    std::array<int, 3> Count{};
+    Point First{}; ///< of the blocks that there are
+    Point End{};   ///< behind them
     std::vector<BlockFit> Blocks;
 
     std::int64_t Index(const Point& block) const
     {
-      return (std::int64_t{ block[2] } * this->Count[1] + block[1]) * this->Count[0] + block[0];
+      return (std::int64_t{ block[2] - this->First[2] } * this->End[1] + block[1]) * this->End[0] +
+        block[0];
     }
   };
 
   template <typename Fit>
-  void AddLevel(
-    const std::array<int, 3>& dimensions, const Fit& fit, const ParallelFor& parallelFor);
+  void AddLevel(const SliceRange& own, const Fit& fit, const ParallelFor& parallelFor);
   BlockFit Merge(int level, const Point& block) const;
+  Point CountAll(int level) const;
 
+  std::array<int, 3> Dimensions;
   std::vector<Level> Levels;
 };
 

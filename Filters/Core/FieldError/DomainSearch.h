@@ -29,21 +29,25 @@ public:
   /** The least scale of diamonds with tetrahedra that fill cubes of the finest fits. */
   static constexpr int LeastScale = 3;
 
-  DomainSearch(
-    const Grid& grid, const SampleView<T>& samples, const BlockFits& fits, const Place& place)
+  /** @param samples of some slices, from the first one on
+   *  @param fits to those: what lies in others is not looked at
+   *  @param valueAt called with the diamond's vertices that are sampled */
+  template <typename ValueAt>
+  DomainSearch(const Grid& grid, const SampleView<T>& samples, int firstSlice,
+    const BlockFits& fits, const Place& place, const ValueAt& valueAt)
     : TheGrid(grid)
     , Samples(samples)
+    , FirstSlice(firstSlice)
     , Fits(fits)
     , TopLevel(place.Scale - LeastScale)
     , SticksOut(grid.SticksOut(place.Position, place.Scale))
-    , Sums(this->SticksOut ? SummaryBuilder::Infinity : 0.0)
   {
     const TypeTable& shape = ShapeOf(place.Position);
     std::array<Corner, MaximumVertices> vertices;
     for (int i = 0; i < shape.VertexCount; ++i)
     {
       const Point vertex = VertexAt(place, shape.Offsets[i]);
-      vertices[i] = { vertex, grid.IsSampled(vertex) ? samples(vertex) : 0.0 };
+      vertices[i] = { vertex, grid.IsSampled(vertex) ? valueAt(vertex) : 0.0 };
     }
     CutIntoPaths(shape, vertices, MiddleCorner,
       [&](const KuhnTetrahedron<Corner>& path)
@@ -57,14 +61,16 @@ public:
       });
   }
 
-  DomainSummary Run()
+  /** What it finds is added to what is known already. */
+  SummaryBuilder Run(const SummaryBuilder& known)
   {
+    this->Sums = this->SticksOut ? SummaryBuilder(known).AddError(SummaryBuilder::Infinity) : known;
     std::sort(this->Roots.begin(), this->Roots.end(), HasGreaterBound);
     for (const Part& root : this->Roots)
     {
       this->Search(root, this->TopLevel);
     }
-    return this->Sums.Result();
+    return this->Sums;
   }
 
 private:
@@ -91,8 +97,9 @@ private:
 
   static bool HasGreaterBound(const Part& a, const Part& b) { return a.Bound > b.Bound; }
 
-  /** Finds a tetrahedron's cube and bound. @return whether it can hold samples of its own: cubes
-   *  that begin where the grid ends share theirs, unless the domain has no other part there. */
+  /** Finds a tetrahedron's cube and bound. @return whether it can hold samples of its own, and of
+   *  the slab's: cubes that begin where the grid ends share theirs, unless the domain has no other
+   *  part there. */
   bool FindBound(Part& part, int level) const
   {
     Point first{};
@@ -106,6 +113,10 @@ private:
         return false;
       }
       cube[axis] = std::min(first[axis], this->TheGrid.Last(axis) - 1) / (FinestEdge << level);
+    }
+    if (!this->Fits.Has(level, cube[2]))
+    {
+      return false;
     }
     part.Cube = &this->Fits(level, cube);
     double apart = 0.0;
@@ -163,7 +174,8 @@ private:
     }
     const bool isCut =
       !this->TheGrid.IsSampled(path[0].Position) || !this->TheGrid.IsSampled(path[3].Position);
-    const T* first = this->Samples.Pointer() + this->Samples.Index(path[0].Position);
+    const T* first = this->Samples.Pointer() +
+      this->Samples.Index(path[0].Position + Point{ 0, 0, -this->FirstSlice });
     SummaryBuilder sums = this->Sums;
     for (int a = 0; a <= FinestEdge; ++a)
     {
@@ -186,6 +198,7 @@ private:
 
   const Grid& TheGrid;
   const SampleView<T>& Samples;
+  int FirstSlice;
   const BlockFits& Fits;
   int TopLevel;
   bool SticksOut; ///< then the error is infinite, and only the range is left to find

@@ -5,6 +5,7 @@
 #include "Field/Samples.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -29,10 +30,26 @@ class SummaryBuilder
 public:
   static constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-  /** @param error what the error is at least */
-  explicit SummaryBuilder(double error = 0.0)
-    : Error(error)
+  /** Notes what the error is at least. */
+  SummaryBuilder& AddError(double error)
   {
+    this->Error = std::max(this->Error, error);
+    return *this;
+  }
+
+  /** What it has found as values whose greatest, of several finders, is what all have found. */
+  std::array<double, 4> AsMaxima() const
+  {
+    return { this->Error, -this->Low, this->High, this->HasNaN ? 1.0 : 0.0 };
+  }
+  static SummaryBuilder OfMaxima(const std::array<double, 4>& maxima)
+  {
+    SummaryBuilder sums;
+    sums.Error = maxima[0];
+    sums.Low = -maxima[1];
+    sums.High = maxima[2];
+    sums.HasNaN = maxima[3] > 0.0;
+    return sums;
   }
 
   template <typename T>
@@ -66,7 +83,7 @@ public:
   }
 
 private:
-  double Error;
+  double Error = 0.0;
   double Low = Infinity;
   double High = -Infinity;
   bool HasNaN = false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldError/FieldError.h"
 
-#include "FieldError/DomainSearch.h"
 #include "FieldError/MidpointOrder.h"
 
 #include <algorithm>
@@ -13,11 +12,12 @@ namespace
 
 /** Visits the samples of a domain. @param isWhole whether all its lattice points have one */
 template <bool isWhole, typename T>
-DomainSummary SummarizeInOrder(const Grid& grid, const SampleView<T>& samples, const Place& place)
+DomainSummary SummarizeInOrder(
+  const Grid& grid, const SampleView<T>& samples, int firstSlice, const Place& place)
 {
   const MidpointOrder& order = MidpointOrder::Of(place);
   const Point centre = Centre(place);
-  const T* middle = samples.Pointer() + samples.Index(centre);
+  const T* middle = samples.Pointer() + samples.Index(centre + Point{ 0, 0, -firstSlice });
   const std::int64_t row = samples.Dimensions()[0];
   const std::int64_t slice = row * samples.Dimensions()[1];
   std::array<double, MidpointOrder::MaximumSize> interpolated;
@@ -55,7 +55,12 @@ DomainSummary SummarizeInOrder(const Grid& grid, const SampleView<T>& samples, c
 
 }
 
-DomainSummary SummarizeSmallDomain(const Grid& grid, const AnySamples& samples, const Place& place)
+bool IsSmallDomain(const Place& place)
+{
+  return place.Scale <= MidpointOrder::MaximumScale;
+}
+
+DomainSummary SummarizeSmallDomain(const Grid& grid, const SampleSlab& slab, const Place& place)
 {
   const int half = 1 << place.Scale;
   const Point centre = Centre(place);
@@ -64,29 +69,38 @@ DomainSummary SummarizeSmallDomain(const Grid& grid, const AnySamples& samples, 
   return std::visit(
     [&](const auto& view)
     {
-      return isWhole ? SummarizeInOrder<true>(grid, view, place)
-                     : SummarizeInOrder<false>(grid, view, place);
+      return isWhole ? SummarizeInOrder<true>(grid, view, slab.First, place)
+                     : SummarizeInOrder<false>(grid, view, slab.First, place);
     },
-    samples);
+    slab.Samples);
 }
 
 FieldErrors::FieldErrors(
   const Grid& grid, const AnySamples& samples, const ParallelFor& parallelFor)
-  : TheGrid(grid)
-  , Samples(samples)
-  , Fits(samples, grid.Depth() - MidpointOrder::MaximumScale, parallelFor)
+  : FieldErrors(grid, SampleSlab{ samples, 0 }, { 0, grid.Dimensions()[2] }, parallelFor)
 {
+}
+
+FieldErrors::FieldErrors(const Grid& grid, const SampleSlab& slab, const SliceRange& own,
+  const ParallelFor& parallelFor)
+  : TheGrid(grid)
+  , Slab(slab)
+  , Fits(grid.Dimensions(), slab, own, grid.Depth() - MidpointOrder::MaximumScale, parallelFor)
+{
+  static_assert(
+    1 << MidpointOrder::MaximumScale == Overlap, "a slab has the small domains of its own");
 }
 
 DomainSummary FieldErrors::Summarize(const Place& place) const
 {
-  if (place.Scale <= MidpointOrder::MaximumScale)
+  if (IsSmallDomain(place))
   {
-    return SummarizeSmallDomain(this->TheGrid, this->Samples, place);
+    return SummarizeSmallDomain(this->TheGrid, this->Slab, place);
   }
-  return std::visit([&](const auto& view)
-    { return DomainSearch(this->TheGrid, view, this->Fits, place).Run(); },
-    this->Samples);
+  SummaryBuilder sums;
+  this->AddPart(
+    place, [&](const Point& vertex) { return SampleAt(this->Slab.Samples, vertex); }, sums);
+  return sums.Result();
 }
 
 }

@@ -4,8 +4,11 @@
 
 #include "Field/Isoregion.h"
 #include "FieldError/BlockFits.h"
+#include "FieldError/DomainSearch.h"
 #include "FieldError/DomainSummary.h"
 #include "Lattice/DiamondTables.h"
+
+#include <variant>
 
 namespace isodiamond
 {
@@ -21,21 +24,51 @@ inline bool OwnErrorCounts(
     (region.Holds(range) && grid.SticksOut(place.Position, place.Scale));
 }
 
-/** The summary of a diamond of at most MidpointOrder::MaximumScale. */
-DomainSummary SummarizeSmallDomain(const Grid& grid, const AnySamples& samples, const Place& place);
+/** Whether a diamond has so few samples that all are visited: up to MidpointOrder::MaximumScale. */
+bool IsSmallDomain(const Place& place);
 
-/** The summaries of a field's diamonds of all scales. */
+/** The summary of such a diamond. @param slab that has its domain, as far as it is sampled */
+DomainSummary SummarizeSmallDomain(const Grid& grid, const SampleSlab& slab, const Place& place);
+
+/**
+ * The summaries of a field's diamonds of all scales.
+ *
+ * Of a volume that comes in slabs each slab has a part of a large domain: what begins in its own
+ * slices, in cubes of BlockFits. All slabs together visit what matters, in whatever order.
+ */
 class FieldErrors
 {
 public:
+  /** So many slices a slab needs on both sides of its own, where the volume has them: small domains
+   *  lie around their centre, and cubes end there. */
+  static constexpr int Overlap = BlockFits::FinestEdge;
+
   /** The grid and the samples must outlive it. */
   FieldErrors(const Grid& grid, const AnySamples& samples, const ParallelFor& parallelFor);
 
+  /** @param own the slab's slices without those that overlap */
+  FieldErrors(const Grid& grid, const SampleSlab& slab, const SliceRange& own,
+    const ParallelFor& parallelFor);
+
+  /** Of the whole volume; of a slab only small domains around a centre in its own slices. */
   DomainSummary Summarize(const Place& place) const;
+
+  /** Adds what the slab has of a large domain. @param valueAt called with its sampled vertices */
+  template <typename ValueAt>
+  void AddPart(const Place& place, const ValueAt& valueAt, SummaryBuilder& sums) const
+  {
+    sums = std::visit(
+      [&](const auto& view)
+      {
+        return DomainSearch(this->TheGrid, view, this->Slab.First, this->Fits, place, valueAt)
+          .Run(sums);
+      },
+      this->Slab.Samples);
+  }
 
 private:
   const Grid& TheGrid;
-  const AnySamples& Samples;
+  SampleSlab Slab;
   BlockFits Fits;
 };
 

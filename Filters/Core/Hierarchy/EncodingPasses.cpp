@@ -38,7 +38,7 @@ void EncodingPasses::WriteBricks()
   }
 }
 
-void EncodingPasses::Skip(int endScale, const Slices& slices)
+void EncodingPasses::Skip(int endScale, const SliceRange& slices)
 {
   this->ForEach(0, this->Set.ScaleCount(), slices,
     [&](std::int64_t brick, const Place& place, std::uint32_t rank)

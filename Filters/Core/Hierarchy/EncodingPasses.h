@@ -42,18 +42,12 @@ public:
     this->MakeRoom();
   }
 
-  /** Slices, the end not among them. */
-  struct Slices
-  {
-    int Begin = 0;
-    int End = 0;
-  };
-  static constexpr Slices AllSlices{ 0, 2 << Grid::MaximumDepth };
+  static constexpr SliceRange AllSlices{ 0, 2 << Grid::MaximumDepth };
 
   /** Writes isovertices of some scales.
    *  @param edgeOf called with a place and one of its vertices, the samples along that edge */
   template <typename EdgeOf>
-  void WriteIsovertices(int firstScale, int endScale, const Slices& slices, const EdgeOf& edgeOf)
+  void WriteIsovertices(int firstScale, int endScale, const SliceRange& slices, const EdgeOf& edgeOf)
   {
     std::uint8_t* const isovertices = this->Result.Arrays.Isovertices.data();
     this->ForEach(firstScale, endScale, slices,
@@ -68,7 +62,7 @@ public:
   }
 
   /** Passes over what peers write: places are kept free. */
-  void Skip(int endScale, const Slices& slices);
+  void Skip(int endScale, const SliceRange& slices);
 
   /** Puts together what peers have written. */
   void Merge(Peers& peers);
@@ -82,7 +76,7 @@ public:
 
   /** Writes these, of all scales. */
   template <typename Reader>
-  void WriteInsideValues(const Slices& slices, const Reader& reader)
+  void WriteInsideValues(const SliceRange& slices, const Reader& reader)
   {
     if (!this->Result.Header.Region.IsVolume())
     {
@@ -142,7 +136,7 @@ private:
   /** Calls body(number of the brick, place, rank) for the diamonds of some scales with their centre
    *  in some slices; those of a brick in order. */
   template <typename Body>
-  void ForEach(int firstScale, int endScale, const Slices& slices, const Body& body) const
+  void ForEach(int firstScale, int endScale, const SliceRange& slices, const Body& body) const
   {
     ForEachIndex(this->For, static_cast<std::int64_t>(this->Bricks.size()), 16,
       [&](std::int64_t i)

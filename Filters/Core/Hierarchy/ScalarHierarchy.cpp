@@ -206,7 +206,7 @@ ValueRange ScalarHierarchy::Range(const Place& place) const
 {
   if (place.Scale == 0)
   {
-    return SummarizeSmallDomain(this->TheGrid, this->Values, place).Range;
+    return SummarizeSmallDomain(this->TheGrid, SampleSlab{ this->Values, 0 }, place).Range;
   }
   const std::int64_t offset = this->Offset(place);
   const auto read = [offset](const AnySamples& values)

@@ -50,7 +50,7 @@ GatheredSamples StreamedEncoder::WantedSamples() const
   return { this->TheGrid.Dimensions(), std::move(wanted) };
 }
 
-void StreamedEncoder::Add(const SampleSlab& slab, const EncodingPasses::Slices& slices)
+void StreamedEncoder::Add(const SampleSlab& slab, const SliceRange& slices)
 {
   this->Gathered.Add(slab);
   std::visit(
@@ -71,7 +71,7 @@ void StreamedEncoder::Add(const SampleSlab& slab, const EncodingPasses::Slices& 
     slab.Samples);
 }
 
-void StreamedEncoder::Skip(const EncodingPasses::Slices& slices)
+void StreamedEncoder::Skip(const SliceRange& slices)
 {
   this->Passes.Skip(FirstLongScale, slices);
 }

@@ -29,10 +29,10 @@ public:
 
   /** Writes what has its centre in some slices, which come from the first to the last.
    *  @param slab with these and those that overlap */
-  void Add(const SampleSlab& slab, const EncodingPasses::Slices& slices);
+  void Add(const SampleSlab& slab, const SliceRange& slices);
 
   /** Slices that a peer adds. */
-  void Skip(const EncodingPasses::Slices& slices);
+  void Skip(const SliceRange& slices);
 
   /** What peers have added, each at least one slab; together all slices. */
   void Merge(Peers& peers);
