@@ -405,6 +405,14 @@ TEST(Slabs, MeasureErrorsOfDomainsThatLeadThroughMany)
       {
         Compare(field.View(), slabs, options, expected);
       }
+      ForEachPeer(
+        3, options,
+        [&](const BuildOptions& together)
+        {
+          return BuildInSlabs(field.View(), region, 4, SerialFor, together)
+            .Finish(Model::Relevant, SampleView<float>(), SerialFor, together);
+        },
+        [&](const Encoding& found) { test::ExpectSame(found, expected.TheEncoding); });
     }
   }
 }
