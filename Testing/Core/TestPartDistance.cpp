@@ -170,9 +170,9 @@ TEST(Covering, UsesAllOfATriangleOrTellsThatItDoesNot)
     const Vector normal = Cross(corners[1] - corners[0], corners[2] - corners[0]);
     double area = 0.0;
     const bool isAll = covering.Cut(corners, 0, 0.0,
-      [&](std::uint32_t, double distance, const Covering::Piece& piece)
+      [&](std::uint32_t triangle, const Covering::Piece& piece)
       {
-        EXPECT_LE(distance, 0.2 + 1e-9);
+        EXPECT_TRUE(covering.IsNear(triangle, piece.Corners.data(), piece.Count, 0.2 + 1e-9));
         area += piece.Area();
         return true;
       });

@@ -107,8 +107,7 @@ public:
    *
    * @param start a triangle of the mesh nearby
    * @param near a piece that is so near to a triangle of the mesh need not be cut
-   * @param use (triangle of the mesh, greatest distance of the piece from it, piece) -> whether to
-   * go on
+   * @param use (triangle of the mesh, piece) -> whether to go on
    * @return whether all pieces were used; not if the way is too long
    */
   template <typename Use>
@@ -123,29 +122,15 @@ public:
   }
 
   /**
-   * The same where walking finds no good pieces, which takes longer: a triangle is cut in four
-   * until each piece is near to any of the triangles around.
-   *
-   * @param reach how far away from it triangles are of interest
-   * @param use (triangle of the mesh, piece) -> whether the piece is near enough to it
-   * @return whether all pieces were
-   */
-  template <typename Use>
-  bool LookAround(
-    const std::array<Vector, 3>& corners, std::uint32_t start, double reach, Use&& use)
-  {
-    const std::vector<std::uint32_t> around = this->Around(corners, start, reach);
-    return this->IsNearAround(corners, around, reach, 0, use);
-  }
-
-  /**
-   * Both: what is not near to the triangle that it was walked to is looked at around that.
+   * The same; but what is not near to the triangle that it was walked to is looked at around that.
    *
    * @param allowed how far away a piece may be
+   * @param begin called before all pieces are used, and once more if that was in vain
    * @param use (triangle of the mesh, corners of a piece, their count) -> whether it is near enough
    */
-  template <typename Use>
-  bool Covers(const std::array<Vector, 3>& corners, std::uint32_t start, double allowed, Use&& use)
+  template <typename Begin, typename Use>
+  bool Covers(const std::array<Vector, 3>& corners, std::uint32_t start, double allowed,
+    Begin&& begin, Use&& use)
   {
     const auto lookAround = [&](const std::array<Vector, 3>& piece, std::uint32_t from)
     {
@@ -153,22 +138,27 @@ public:
         [&](std::uint32_t triangle, const std::array<Vector, 3>& part)
         { return use(triangle, part.data(), 3); });
     };
+    begin();
     bool isFar = false;
-    return this->Cut(corners, start, UncutPart * allowed,
-             [&](std::uint32_t triangle, double /*distance*/, const Piece& piece)
-             {
-               if (use(triangle, piece.Corners.data(), piece.Count))
-               {
-                 return true;
-               }
-               for (int i = 2; i < piece.Count && !isFar; ++i)
-               {
-                 isFar = !lookAround(
-                   { piece.Corners[0], piece.Corners[i - 1], piece.Corners[i] }, triangle);
-               }
-               return !isFar;
-             }) ||
-      lookAround(corners, start);
+    const bool isCovered = this->Cut(corners, start, UncutPart * allowed,
+      [&](std::uint32_t triangle, const Piece& piece)
+      {
+        if (use(triangle, piece.Corners.data(), piece.Count))
+        {
+          return true;
+        }
+        for (int i = 2; i < piece.Count && !isFar; ++i)
+        {
+          isFar =
+            !lookAround({ piece.Corners[0], piece.Corners[i - 1], piece.Corners[i] }, triangle);
+        }
+        return !isFar;
+      });
+    if (!isCovered)
+    {
+      begin();
+    }
+    return isCovered || lookAround(corners, start);
   }
 
 private:
@@ -190,6 +180,18 @@ private:
       ball.Radius = std::max(ball.Radius, std::sqrt(Dot(way, way)));
     }
     return ball;
+  }
+
+  /** Where walking finds no good pieces, which takes longer: a triangle is cut in four until each
+   *  piece is near to any of the triangles around.
+   *  @param reach how far away from it triangles are of interest
+   *  @param use (triangle of the mesh, piece) -> whether the piece is near enough to it */
+  template <typename Use>
+  bool LookAround(
+    const std::array<Vector, 3>& corners, std::uint32_t start, double reach, Use&& use)
+  {
+    const std::vector<std::uint32_t> around = this->Around(corners, start, reach);
+    return this->IsNearAround(corners, around, reach, 0, use);
   }
 
   /** Triangles that may be within reach, connected to the start. */
@@ -285,8 +287,7 @@ private:
     {
       return false;
     }
-    double squared = this->SquaredDistance(triangle, piece);
-    if (squared > way.Near)
+    if (this->SquaredDistance(triangle, piece) > way.Near)
     {
       way.Triangles[way.Length++] = triangle;
       for (int edge = 0; edge < 3; ++edge)
@@ -313,9 +314,8 @@ private:
         }
       }
       --way.Length;
-      squared = this->SquaredDistance(triangle, piece);
     }
-    return use(triangle, std::sqrt(squared), piece);
+    return use(triangle, piece);
   }
 
   const Vector& Corner(std::uint32_t triangle, int i) const

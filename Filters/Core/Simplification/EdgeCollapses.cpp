@@ -168,13 +168,16 @@ bool EdgeCollapses::KeepsTopology(const Hole& hole)
   const std::uint32_t target = hole.Points[0];
   if (hole.Count == 3 && !hole.IsOpen())
   {
-    // The one new triangle must not be there on the other side.
+    // The one new triangle must not be there on the other side, which may be another part's.
     const std::uint32_t opposite = hole.Triangles[1];
     const std::uint32_t beyond =
       this->Neighbours[opposite][PlaceOf(this->Triangles[opposite], hole.Points[1])];
-    if (beyond != None &&
-      std::find(this->Triangles[beyond].begin(), this->Triangles[beyond].end(), target) !=
-        this->Triangles[beyond].end())
+    const bool isThere = beyond == None
+      ? std::all_of(hole.Points.begin(), hole.Points.begin() + hole.Count,
+          [&](std::uint32_t point) { return this->IsFixed[point]; })
+      : std::find(this->Triangles[beyond].begin(), this->Triangles[beyond].end(), target) !=
+        this->Triangles[beyond].end();
+    if (isThere)
     {
       return false;
     }

@@ -40,7 +40,7 @@ public:
  *
  * A vertex goes, and the hole is filled by triangles from one of its neighbours. Seen along the
  * mean normal of the hole both fillings have to be the same polygon, covered once, so no part is
- * turned over; the link condition keeps the topology. Samples of the original stay with the
+ * turned over (of an open hole, up to where its new border is); the link condition keeps the topology. Samples of the original stay with the
  * triangle that they lie over: how far they are from it tells nearly how far the original is. So
  * the result is to be measured, and what is wrong with it can be undone.
  *
@@ -60,6 +60,8 @@ public:
    *  @param guard is asked whether a vertex is worth a try, and last; and told. Null if there is
    * none. Must outlive it */
   EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuard* guard = nullptr);
+  EdgeCollapses(const EdgeCollapses&) = delete;
+  EdgeCollapses& operator=(const EdgeCollapses&) = delete;
 
   /** Collapses all that it can, but for what the guard knows to be no use. Flips edges only if
    * there is no guard. @return by number: whether a triangle is another one now, or gone

@@ -39,11 +39,13 @@ bool Hole::SeeFromAbove(
   const Vector y = Cross(n, x);
   this->AxisX = x;
   this->AxisY = y;
+  const auto hasArea = [&](int i)
+  { return this->Triangles[i] != None && normals[this->Triangles[i]] != Vector{}; };
   this->LeastCosine = UsualCosine;
   for (int i = 0; i < this->Count; ++i)
   {
     this->Places[i] = { Dot(relative[i], x), Dot(relative[i], y) };
-    if (this->Triangles[i] != None)
+    if (hasArea(i))
     {
       this->LeastCosine = std::min(this->LeastCosine, Dot(n, normals[this->Triangles[i]]));
     }
@@ -55,7 +57,7 @@ bool Hole::SeeFromAbove(
   for (int i = 0; i < this->Count; ++i)
   {
     const int next = i + 1 < this->Count ? i + 1 : 0;
-    if (this->Triangles[i] != None && !(Cross2(this->Places[i], this->Places[next]) > 0.0))
+    if (hasArea(i) && !(Cross2(this->Places[i], this->Places[next]) > 0.0))
     {
       return false;
     }

@@ -39,7 +39,9 @@ struct Hole
   double LeastCosine = 0.0; ///< that new normals must have with the mean one: less if one had
 
   /** Finds how points and triangles are seen.
-   *  @return whether each triangle is seen from its front, and none hides another */
+   *  @param normals of the triangles, of unit length, or 0 of those without area, which are seen
+   *         from anywhere
+   *  @return whether each triangle is seen from its front */
   bool SeeFromAbove(
     const std::vector<Vector>& positions, const std::vector<Vector>& normals, std::uint32_t vertex);
 

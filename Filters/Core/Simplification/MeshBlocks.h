@@ -12,7 +12,8 @@
 namespace isodiamond
 {
 
-/** The triangles of a mesh in blocks, in an order that depends on their positions alone. */
+/** The triangles of a mesh in blocks, in an order that depends on their positions, and where these
+ *  are the same on their numbers. */
 struct MeshBlocks
 {
   std::vector<std::uint32_t> Order; ///< of the triangles
@@ -31,7 +32,7 @@ struct MeshBlocks
  * Cuts triangles again and again where they are spread farthest, until no block has too many.
  *
  * @param middles of the triangles
- * @param most triangles of a block
+ * @param most triangles of a block, 1 at the least
  * @param part of the triangles that are before a cut: with another one cuts are elsewhere
  */
 MeshBlocks CutIntoBlocks(const std::vector<Vector>& middles, std::size_t most, double part);

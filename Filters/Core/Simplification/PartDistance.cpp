@@ -123,9 +123,9 @@ private:
   bool IsNearInPieces(std::uint32_t original, const std::array<Vector, 3>& corners,
     double allowance, std::uint32_t start)
   {
-    this->NewNear.clear();
     this->Last = start;
-    const bool isNear = this->SimpleCover.Covers(corners, start, allowance,
+    const bool isNear = this->SimpleCover.Covers(
+      corners, start, allowance, [&] { this->NewNear.clear(); },
       [&](std::uint32_t simple, const Vector* piece, int count)
       {
         if (!this->SimpleCover.IsNear(simple, piece, count, allowance))
@@ -157,8 +157,18 @@ private:
   /** Nothing is near to a triangle of the original. */
   void MarkOriginal(std::uint32_t original)
   {
+    const auto mark = [&](const IdRange& triangles)
+    {
+      this->Found.Triangles.insert(
+        this->Found.Triangles.end(), triangles.begin(), triangles.end());
+    };
     const IdRange near = this->Part.Near[original];
-    this->Found.Triangles.insert(this->Found.Triangles.end(), near.begin(), near.end());
+    mark(near);
+    if (std::all_of(near.begin(), near.end(),
+          [&](std::uint32_t number) { return this->IsAsAtStart(number); }))
+    {
+      mark(this->All.NearAtStart[original]); // of which something is another one
+    }
     const Triangle& points = this->Part.Original.Triangles[original];
     std::copy_if(points.begin(), points.end(), std::back_inserter(this->Found.Points),
       [&](std::uint32_t point) { return this->AnyAt[point] == None; });
@@ -243,7 +253,8 @@ private:
     const Vector middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
     const std::uint32_t start = this->Cover.NearestOf(this->Around, middle);
     Vector mean{}; // of the normals
-    const bool isNear = this->Cover.Covers(corners, start, this->Part.Allowances[start],
+    const bool isNear = this->Cover.Covers(
+      corners, start, this->Part.Allowances[start], [&] { mean = {}; },
       [&](std::uint32_t original, const Vector* piece, int count)
       {
         const bool isSo =

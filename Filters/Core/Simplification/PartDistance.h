@@ -32,10 +32,7 @@ public:
    */
   explicit PartDistance(MeshPart& part, bool isStartNear = false);
 
-  /** The part's near lists as they were at the start. */
-  const NearLists& StartNear() const { return this->NearAtStart; }
-
-  /** What is too far away. */
+  /** What is too far away: some of it is not what it was at the start, if that was near. */
   struct Faults
   {
     std::vector<std::uint32_t> Triangles; ///< numbers of the simpler mesh's

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace isodiamond
 {
@@ -44,6 +43,7 @@ bool ShadowTest::Reset(const std::array<Vector, 3>& corners, const Vector& direc
   this->Corners = { { { 0.0, 0.0 }, { Dot(first, this->Axes[0]), 0.0 },
     { Dot(second, this->Axes[0]), Dot(second, this->Axes[1]) } } };
   double longest = 0.0;
+  double area = 0.0; // twice
   for (int k = 0; k < 3; ++k)
   {
     const Place& from = this->Corners[k];
@@ -51,10 +51,14 @@ bool ShadowTest::Reset(const std::array<Vector, 3>& corners, const Vector& direc
     const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
     this->Inward[k] = { (from[1] - to[1]) / length, (to[0] - from[0]) / length };
     longest = std::max(longest, length);
+    area += from[0] * to[1] - from[1] * to[0];
   }
   this->Middle = { (this->Corners[1][0] + this->Corners[2][0]) / 3.0, this->Corners[2][1] / 3.0 };
   this->Slack = SlackPart * longest;
-  return this->Middle[1] > this->Slack && up > LeastUp;
+  // What is beside a side may be in a corner, whose angle has a sine of this and more.
+  const double sine = area / (longest * longest);
+  this->Strip = 2.0 * this->Slack / sine;
+  return sine > 3.0 * SlackPart && up > LeastUp; // the middle is a third of the height away
 }
 
 const ShadowTest::Shadow& ShadowTest::Of(std::uint32_t point)
@@ -121,7 +125,7 @@ bool ShadowTest::IsLow(std::uint32_t triangle)
   const Triangle& points = this->Mesh.Triangles[triangle];
   const std::array<const Shadow*, 3> shadows = { &this->Of(points[0]), &this->Of(points[1]),
     &this->Of(points[2]) };
-  const double allowance = this->Allowances[triangle] - this->Slack;
+  const double allowance = this->Allowances[triangle] - this->Strip;
   const auto isLow = [&](const Shadow* shadow) { return std::abs(shadow->Height) <= allowance; };
   if ((shadows[0]->Beyond & shadows[1]->Beyond & shadows[2]->Beyond) != 0 ||
     std::all_of(shadows.begin(), shadows.end(), isLow))
@@ -177,9 +181,10 @@ bool ShadowTest::Covers(const std::array<Vector, 3>& corners, const Vector& dire
   {
     return false;
   }
-  const auto isChosen = [&](std::uint32_t triangle)
-  { return std::exchange(this->Chosen[triangle], this->Test) == this->Test; };
-  std::for_each(triangles.begin(), triangles.end(), isChosen);
+  for (const std::uint32_t triangle : triangles)
+  {
+    this->Chosen[triangle] = this->Test;
+  }
   // What is beyond an edge that enters is to be one of them, too.
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {

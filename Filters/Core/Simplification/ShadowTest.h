@@ -75,6 +75,7 @@ private:
   std::array<Place, 3> Inward{}; ///< normals to the sides, of unit length
   Place Middle{};
   double Slack = 0.0; ///< what is not distinguished from nothing
+  double Strip = 0.0; ///< how far from the rest what lies so near to a side may be
 };
 
 }

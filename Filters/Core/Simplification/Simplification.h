@@ -24,11 +24,11 @@ constexpr std::size_t MostOfPart = 32000;
  * near enough (EdgeCollapses.h). Then whole triangles are compared, both ways (PartDistance.h), and
  * what is wrong is undone.
  *
- * Parts are cut by position alone, and done independently: the result does not depend on threads.
+ * Parts are cut by position, and done independently: the result does not depend on threads.
  *
  * @param mesh one that has edges of more than two triangles, or of two that go along it in one
  *        direction, stays as it is in parts with such edges
- * @param mostOfPart triangles of a part at the most
+ * @param mostOfPart triangles of a part at the most; 1 and more
  * @return triangles on the points of the mesh, and what these lie over
  */
 SimplerMesh Simplify(

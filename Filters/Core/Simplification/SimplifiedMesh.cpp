@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
 #include <utility>
 
 namespace isodiamond
@@ -46,8 +47,7 @@ bool CollapseOnce(MeshPart& part, double usedPart)
     isTouched = collapses.Undo(faults.Triangles, faults.Points);
     if (std::find(isTouched.begin(), isTouched.end(), true) == isTouched.end())
     {
-      part.Near = distance.StartNear(); // nothing is left that could be wrong
-      return true;
+      throw std::logic_error("What is wrong of a simpler mesh is as it was.");
     }
   }
   for (std::size_t i = 0; i < part.Samples.size(); ++i)
@@ -122,6 +122,7 @@ struct SimplifiedMesh::Division
 SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
   : Original(original)
   , IsFaulty(original.Mesh.Positions.size())
+  , IsPinched(original.Mesh.Positions.size())
   , Homes(original.Mesh.Positions.size(), None)
   , PointAllowances(original.Mesh.Positions.size(), HUGE_VAL)
   , Near(original.Mesh.Triangles.size())
@@ -131,6 +132,10 @@ SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
   for (const std::uint32_t point : links.FaultyPoints())
   {
     this->IsFaulty[point] = true;
+  }
+  for (std::uint32_t point = 0; point < points; ++point)
+  {
+    this->IsPinched[point] = !this->IsFaulty[point] && links.IsPinched(point);
   }
   this->OriginalLinks = std::move(links).Linked();
   this->Simple = this->OriginalLinks;
@@ -288,14 +293,19 @@ void SimplifiedMesh::AddPoints(const Division& division, std::uint32_t number,
     part.Positions.push_back(part.Samples[i].Position);
     part.OnWalls[i] = this->Original.OnWalls.empty() ? 0 : this->Original.OnWalls[ids[i]];
   }
-  part.IsFixed = this->FixedPoints(division, number, part);
+  part.IsFixed = this->FixedPoints(division, number, ids, part);
 }
 
-/** What is held stays, and what other parts have, too. */
-std::vector<bool> SimplifiedMesh::FixedPoints(
-  const Division& division, std::uint32_t number, const MeshPart& part) const
+/** What is held stays, and what other parts have, too: of a point where sheets meet a part may have
+ *  one only. */
+std::vector<bool> SimplifiedMesh::FixedPoints(const Division& division, std::uint32_t number,
+  const std::vector<std::uint32_t>& ids, const MeshPart& part) const
 {
   std::vector<bool> isFixed(part.Positions.size());
+  for (std::size_t point = 0; point < isFixed.size(); ++point)
+  {
+    isFixed[point] = this->IsPinched[ids[point]];
+  }
   std::size_t i = 0;
   for (const std::uint32_t triangle : division.Triangles[number])
   {

@@ -51,14 +51,15 @@ private:
     const Division& division, std::uint32_t number, std::vector<std::uint32_t>& ids) const;
   void AddPoints(const Division& division, std::uint32_t number, const PointNumbers& numbers,
     std::vector<std::uint32_t>& ids, MeshPart& part) const;
-  std::vector<bool> FixedPoints(
-    const Division& division, std::uint32_t number, const MeshPart& part) const;
+  std::vector<bool> FixedPoints(const Division& division, std::uint32_t number,
+    const std::vector<std::uint32_t>& ids, const MeshPart& part) const;
   Made SimplifyPart(const Division& division, std::uint32_t number, double usedPart) const;
   void PutTogether(const Division& division, const std::vector<Made>& made);
 
   const AllowedMesh& Original;
   LinkedTriangles OriginalLinks;
-  std::vector<bool> IsFaulty; ///< by point: edges there cannot be told
+  std::vector<bool> IsFaulty;  ///< by point: edges there cannot be told
+  std::vector<bool> IsPinched; ///< by point: sheets meet there, so it stays
   LinkedTriangles Simple;
   std::vector<std::uint32_t> Homes;    ///< by sample: the points, then the middles of triangles
   std::vector<double> PointAllowances; ///< the least of the triangles there

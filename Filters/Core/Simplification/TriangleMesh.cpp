@@ -54,4 +54,31 @@ Connectivity::Connectivity(std::size_t pointCount, std::vector<Triangle> triangl
   }
 }
 
+bool Connectivity::IsPinched(std::uint32_t point) const
+{
+  if (this->At(point).empty())
+  {
+    return false;
+  }
+  const auto beyond = [&](std::uint32_t triangle, int edge)
+  {
+    const int place = PlaceOf(this->Links.Triangles[triangle], point);
+    return this->Links.Neighbours[triangle][(place + edge) % 3];
+  };
+  // Around it from any of them; if that ends at the border, the other way, too.
+  const std::uint32_t first = *this->At(point).begin();
+  std::size_t seen = 0;
+  std::uint32_t at = first;
+  do
+  {
+    ++seen;
+    at = beyond(at, 2);
+  } while (at != None && at != first);
+  for (at = at == None ? beyond(first, 0) : None; at != None; at = beyond(at, 0))
+  {
+    ++seen;
+  }
+  return seen < this->At(point).size();
+}
+
 }

@@ -112,6 +112,9 @@ public:
   /** The triangles at a point. */
   IdRange At(std::uint32_t point) const { return this->Cells[point]; }
 
+  /** Whether these are more than one fan: sheets meet there. @pre no edge there is faulty */
+  bool IsPinched(std::uint32_t point) const;
+
   /** The mesh's triangles, linked. */
   const LinkedTriangles& Linked() const& { return this->Links; }
   LinkedTriangles Linked() && { return std::move(this->Links); }
