@@ -294,8 +294,8 @@ void vtkIsodiamondBuilder::BuildFromImage(
 {
   const vtkIsodiamond::Choice choice = this->GetChoice();
   const isodiamond::Isoregion region = choice.Region();
-  const vtkIsodiamond::Volume volume = vtkIsodiamond::ReadVolume(
-    image, this->FindInputArray(image), this->ClosesBoundary());
+  const vtkIsodiamond::Volume volume =
+    vtkIsodiamond::ReadVolume(image, this->FindInputArray(image), this->ClosesBoundary());
   const isodiamond::AffineMap& world = *volume.Placement.World.Affine(); // as all images'
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {

@@ -189,10 +189,9 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       vtkInformation* input = inputVector[0]->GetInformationObject(0);
       vtkIsodiamond::InputArray array;
       vtkSmartPointer<vtkDataObject> whole; // if it is there at once
-      const std::unique_ptr<vtkIsodiamond::Slabs> slabs =
-        this->Plan->Open(
-          input, [this](vtkDataSet* part) { return this->FindInputArray(part); },
-          this->ClosesBoundary());
+      const std::unique_ptr<vtkIsodiamond::Slabs> slabs = this->Plan->Open(
+        input, [this](vtkDataSet* part) { return this->FindInputArray(part); },
+        this->ClosesBoundary());
       vtkIsodiamond::Volume volume;
       if (slabs)
       {

@@ -164,8 +164,8 @@ std::array<int, 3> Volume::SampleDimensions() const
   return { this->Dimensions[0] + both, this->Dimensions[1] + both, this->Dimensions[2] + both };
 }
 
-Volume ReadVolume(vtkDataSet* grid, const InputArray& inputArray, bool closeBoundary,
-  std::optional<double> minimum)
+Volume ReadVolume(
+  vtkDataSet* grid, const InputArray& inputArray, bool closeBoundary, std::optional<double> minimum)
 {
   if (!grid || grid->GetNumberOfPoints() == 0)
   {

@@ -226,8 +226,8 @@ std::unique_ptr<Slabs> SlabPlan::OpenParts(
   isodiamond::InStep(&*this->Peers,
     [&]
     {
-      slabs = std::make_unique<Slabs>(input, this->Count, std::move(findArray), closeBoundary,
-        this->Peers, std::move(parts));
+      slabs = std::make_unique<Slabs>(
+        input, this->Count, std::move(findArray), closeBoundary, this->Peers, std::move(parts));
     });
   return slabs;
 }

@@ -197,8 +197,7 @@ isodiamond::StagedBuild BuildInSlabs(const Slabs& slabs, const isodiamond::Isore
   std::optional<isodiamond::StreamedBuild> build;
   isodiamond::Peers* const peers = options.Together;
   isodiamond::InStep(peers,
-    [&]
-    { build.emplace(slabs.WholeVolume().SampleDimensions(), region, task.For(), options); });
+    [&] { build.emplace(slabs.WholeVolume().SampleDimensions(), region, task.For(), options); });
   slabs.FindPadding(task, 0.0, 0.05);
   isodiamond::InStep(peers,
     [&]

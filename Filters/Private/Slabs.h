@@ -108,7 +108,7 @@ private:
   bool OtherArrays = false;
   ContentHash StampOfUpstream{};
   int Padding;
-  mutable std::optional<double> Minimum; ///< what is padded by, once it is known
+  mutable std::optional<double> Minimum;         ///< what is padded by, once it is known
   mutable std::optional<ControllerPeers> Others; ///< an interface to what is elsewhere
   bool HaveDispersed = false;
 };

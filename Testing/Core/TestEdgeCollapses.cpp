@@ -67,7 +67,7 @@ TEST(EdgeCollapses, MakesNoEdgeThatWasFlippedAway)
 {
   AllowedMesh mesh;
   mesh.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, -0.5 }, { 1, 1, 0 }, { 0, 1, -0.5 },
-    { 0.6, 0.6, -1.5 } };
+    { 0.6, 0.6, -1.0 } };
   mesh.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 1, 0, 3 }, { 1, 3, 4 }, { 2, 1, 4 },
     { 3, 2, 4 } };
   mesh.Allowances.assign(6, 0.3);

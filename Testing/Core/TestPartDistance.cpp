@@ -46,6 +46,32 @@ TEST(PartDistance, BelievesTheStartOnly)
   EXPECT_TRUE(faults(true, { { 4, 6, 5 }, { 4, 7, 6 } }).Any()) << "turned over";
 }
 
+// Asked again it tells again of something that can be undone: what was near to it at the start, and
+// is another one now.
+TEST(PartDistance, TellsOfWhatIsNotAsAtTheStart)
+{
+  AllowedMesh square;
+  square.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 5, 5, 5 },
+    { 6, 5, 5 }, { 5, 6, 5 } };
+  square.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  square.Allowances = { 0.2, 0.2 };
+  MeshPart part = test::WholePart(square);
+  part.Simple = part.Original;
+  for (std::uint32_t i = 0; i < 2; ++i)
+  {
+    part.Near.Begin(i);
+    part.Near.Add(i, i);
+  }
+  const LinkedTriangles wrong = Connectivity(7, { { 0, 1, 2 }, { 4, 5, 6 } }).Linked();
+  const std::vector<std::uint32_t> homes(part.Samples.size(), None);
+  PartDistance distance(part, true);
+  for (const bool isTouched : { true, false, false })
+  {
+    const PartDistance::Faults faults = distance.Find(wrong, homes, { false, isTouched });
+    EXPECT_GT(std::count(faults.Triangles.begin(), faults.Triangles.end(), 1U), 0);
+  }
+}
+
 // Triangles on points of a mesh that are near to each other, some of them far from the mesh or over
 // its border, with some of the mesh's triangles there.
 TEST(ShadowTest, IsRightByBruteForce)
@@ -145,6 +171,23 @@ TEST(ShadowTest, CountsWhatFacesTheOtherWay)
   EXPECT_TRUE(covers(down, { 1 }));
   EXPECT_FALSE(covers(down, { 0 }));
   EXPECT_FALSE(covers({ { up[0], up[1], up[1] } }, { 0 })) << "no area";
+}
+
+// A mesh that ends in a corner so sharp that all there is beside a side.
+TEST(ShadowTest, LooksIntoTheCornersOfSlivers)
+{
+  for (const double height : { 3.5e-9, 4e-8, 1e-6, 1e-3 })
+  {
+    const std::array<Vector, 3> sliver = { { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, height, 0 } } };
+    const double end = std::min(0.9e-9 / height * 0.5 * 0.98, 0.4);
+    const std::vector<Vector> positions = { { end, height * end, 0 }, { end, -1, 0 }, { 2, -1, 0 },
+      { 2, 1, 0 }, { end, 1, 0 } };
+    const Connectivity links(5, { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 } });
+    const std::vector<double> allowances(3, 0.5 * end);
+    ShadowTest shadow(positions, links.Linked(), allowances);
+    std::vector<std::uint32_t> all = { 0, 1, 2 };
+    EXPECT_FALSE(shadow.Covers(sliver, { 0, 0, 1 }, all)) << height;
+  }
 }
 
 // Over a strip, and a long one, where it gives up.

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 using namespace isodiamond;
@@ -421,6 +422,51 @@ TEST(Simplification, FoldsNothingOver)
   const TriangleMesh after = Simplify(before, SerialFor);
   EXPECT_LT(10 * after.Triangles.size(), before.Mesh.Triangles.size());
   EXPECT_EQ(facesInward(after), 0);
+}
+
+// Nor does it fold what is smooth to a sharp crease.
+TEST(Simplification, MakesNoSharpCreases)
+{
+  const auto sharpest = [](const TriangleMesh& mesh)
+  {
+    const LinkedTriangles linked = Connectivity(mesh.Positions.size(), mesh.Triangles).Linked();
+    double least = 1.0;
+    for (std::uint32_t i = 0; i < mesh.Triangles.size(); ++i)
+    {
+      for (const std::uint32_t other : linked.Neighbours[i])
+      {
+        if (other != None)
+        {
+          least = std::min(least,
+            Dot(Unit(Across(mesh.Positions, mesh.Triangles[i])),
+              Unit(Across(mesh.Positions, mesh.Triangles[other]))));
+        }
+      }
+    }
+    return least;
+  };
+  test::Field waves = test::WaveField({ 24, 24, 24 });
+  std::size_t sample = 0;
+  for (int z = 0; z < 24; ++z)
+  {
+    for (int y = 0; y < 24; ++y)
+    {
+      for (int x = 0; x < 24; ++x)
+      {
+        waves.Samples[sample++] =
+          static_cast<float>(std::sin(0.5 * x) + std::cos(0.45 * y) + std::sin(0.6 * z + 0.1 * x));
+      }
+    }
+  }
+  waves.Isovalue = -0.01;
+  for (const double allowed : { 0.3, 1.0 })
+  {
+    const AllowedMesh before = test::MeshOf(waves, 0.0, allowed);
+    ASSERT_GE(sharpest(before.Mesh), 0.0); // 0 of what has no area
+    const TriangleMesh after = Simplify(before, SerialFor);
+    EXPECT_LT(4 * after.Triangles.size(), before.Mesh.Triangles.size());
+    EXPECT_GE(sharpest(after), -0.7 - 1e-9);
+  }
 }
 
 TEST(Simplification, LeavesWhatHasNoAllowance)

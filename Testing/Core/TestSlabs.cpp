@@ -248,7 +248,6 @@ struct RandomCase
         this->Region, this->Options)
   {
   }
-
 };
 
 }

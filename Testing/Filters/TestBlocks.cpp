@@ -300,8 +300,7 @@ TEST(Blocks, MakeTheSameOfErrorsInTheField)
     EXPECT_EQ(volumes.Difference(), "");
     finest = volumes.InBlocks->GetOutput()->GetNumberOfCells();
   }
-  volumes.ForEach(
-    [](vtkIsodiamondIntervalVolume* volume) { volume->SetInteriorTolerance(5.0); });
+  volumes.ForEach([](vtkIsodiamondIntervalVolume* volume) { volume->SetInteriorTolerance(5.0); });
   EXPECT_EQ(volumes.Difference(), "");
   EXPECT_LT(volumes.InBlocks->GetOutput()->GetNumberOfCells(), finest);
   EXPECT_EQ(volumes.InBlocks->GetNumberOfSlabs(), 4);

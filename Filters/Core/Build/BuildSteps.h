@@ -75,7 +75,7 @@ private:
   std::optional<SignLattice> Signs; ///< kept where samples do not say the same, or are not at hand
   Classification Kinds;
   std::optional<DiamondCodes> FieldCodes; ///< if they are known already
-  DiamondMask ForTopology; ///< empty if topology need not be preserved
+  DiamondMask ForTopology;                ///< empty if topology need not be preserved
   DiamondSet Members;
   EncodingHeader Header;
 };

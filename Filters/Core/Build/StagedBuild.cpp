@@ -169,7 +169,7 @@ struct StreamedBuild::Progress
   Isoregion Region;
   std::optional<SignLattice> Signs; ///< until diamonds are classified: they have them then
   FiniteRangeOfSlabs Range;
-  std::optional<GatheredSamples> Coarse; ///< where field errors are asked for, until then
+  std::optional<GatheredSamples> Coarse;  ///< where field errors are asked for, until then
   std::optional<StreamedEncoder> Encoder; ///< from then on
   std::optional<StreamedFieldCodes> FieldCodes;
 };

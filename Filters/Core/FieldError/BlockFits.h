@@ -57,7 +57,8 @@ public:
     return z >= this->Levels[level].First[2] && z < this->Levels[level].End[2];
   }
 
-  /** @param block coordinates of a cube that meets the grid, divided by its edge; the slab Has() it */
+  /** @param block coordinates of a cube that meets the grid, divided by its edge; the slab Has() it
+   */
   const BlockFit& operator()(int level, const Point& block) const
   {
     return this->Levels[level].Blocks[this->Levels[level].Index(block)];

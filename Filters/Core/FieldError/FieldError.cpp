@@ -81,8 +81,8 @@ FieldErrors::FieldErrors(
 {
 }
 
-FieldErrors::FieldErrors(const Grid& grid, const SampleSlab& slab, const SliceRange& own,
-  const ParallelFor& parallelFor)
+FieldErrors::FieldErrors(
+  const Grid& grid, const SampleSlab& slab, const SliceRange& own, const ParallelFor& parallelFor)
   : TheGrid(grid)
   , Slab(slab)
   , Fits(grid.Dimensions(), slab, own, grid.Depth() - MidpointOrder::MaximumScale, parallelFor)

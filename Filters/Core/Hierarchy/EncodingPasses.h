@@ -47,7 +47,8 @@ public:
   /** Writes isovertices of some scales.
    *  @param edgeOf called with a place and one of its vertices, the samples along that edge */
   template <typename EdgeOf>
-  void WriteIsovertices(int firstScale, int endScale, const SliceRange& slices, const EdgeOf& edgeOf)
+  void WriteIsovertices(
+    int firstScale, int endScale, const SliceRange& slices, const EdgeOf& edgeOf)
   {
     std::uint8_t* const isovertices = this->Result.Arrays.Isovertices.data();
     this->ForEach(firstScale, endScale, slices,

@@ -40,9 +40,10 @@ public:
  *
  * A vertex goes, and the hole is filled by triangles from one of its neighbours. Seen along the
  * mean normal of the hole both fillings have to be the same polygon, covered once, so no part is
- * turned over (of an open hole, up to where its new border is); the link condition keeps the topology. Samples of the original stay with the
- * triangle that they lie over: how far they are from it tells nearly how far the original is. So
- * the result is to be measured, and what is wrong with it can be undone.
+ * turned over (of an open hole, up to where its new border is); the link condition keeps the
+ * topology. Samples of the original stay with the triangle that they lie over: how far they are
+ * from it tells nearly how far the original is. So the result is to be measured, and what is wrong
+ * with it can be undone.
  *
  * A vertex at the border goes along this, and only if its edge there and the next one are on one
  * wall: what is put in their place is so, too. Where no walls are known the border stays. No new
@@ -162,7 +163,11 @@ private:
     return SmallestSine(
       this->Positions[points[0]], this->Positions[points[1]], this->Positions[points[2]]);
   }
+  bool CanFill(std::uint32_t vertex, Hole& hole);
   bool Fill(std::uint32_t vertex, const Hole& hole);
+  void FillWithTheSame(std::uint32_t vertex, const Hole& hole);
+  bool MakesCrease(std::uint32_t vertex, const Hole& hole) const;
+  bool MakesCrease(const Flip& flip) const;
   bool MayGo(std::uint32_t vertex) const
   {
     return this->AnyTriangle[vertex] != None && !this->IsFixed[vertex] &&

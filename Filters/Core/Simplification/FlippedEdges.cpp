@@ -47,7 +47,8 @@ void EdgeCollapses::FlipEdges()
       for (int edge = 0; edge < 3; ++edge)
       {
         Flip flip;
-        if (this->SeeFlip(triangle, edge, flip) && this->IsWorthIt(flip) && this->IsNewEdge(flip))
+        if (this->SeeFlip(triangle, edge, flip) && this->IsWorthIt(flip) && this->IsNewEdge(flip) &&
+          !this->MakesCrease(flip))
         {
           this->Do(flip);
           changed.push_back(flip.First);

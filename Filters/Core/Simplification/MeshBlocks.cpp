@@ -42,9 +42,9 @@ private:
       return;
     }
     const std::size_t axis = this->LongestAxis(begin, end);
-    const std::size_t middle = std::clamp(
-      first + static_cast<std::size_t>(this->Part * static_cast<double>(last - first)), first + 1,
-      last - 1);
+    const std::size_t middle =
+      std::clamp(first + static_cast<std::size_t>(this->Part * static_cast<double>(last - first)),
+        first + 1, last - 1);
     std::nth_element(begin, this->Blocks.Order.begin() + static_cast<std::ptrdiff_t>(middle), end,
       [&](std::uint32_t a, std::uint32_t b)
       { return std::pair(this->Middles[a][axis], a) < std::pair(this->Middles[b][axis], b); });

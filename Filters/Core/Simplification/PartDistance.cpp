@@ -157,10 +157,8 @@ private:
   /** Nothing is near to a triangle of the original. */
   void MarkOriginal(std::uint32_t original)
   {
-    const auto mark = [&](const IdRange& triangles)
-    {
-      this->Found.Triangles.insert(
-        this->Found.Triangles.end(), triangles.begin(), triangles.end());
+    const auto mark = [&](const IdRange& triangles) {
+      this->Found.Triangles.insert(this->Found.Triangles.end(), triangles.begin(), triangles.end());
     };
     const IdRange near = this->Part.Near[original];
     mark(near);

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes that surfaces of fields hardly have, or have in few places, simplified.
+#include "Simplification/MeshBlocks.h"
+#include "Simplification/Simplification.h"
+#include "SimplificationTestTools.h"
+#include "TopologyTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+
+using namespace isodiamond;
+
+namespace
+{
+
+/** Two sheets of squares, one above the other, that have the point in the middle in common. */
+AllowedMesh SheetsThatMeet(int half, double allowed)
+{
+  AllowedMesh mesh;
+  mesh.Mesh.Positions = { { 0, 0, 0 } };
+  for (const int sign : { -1, 1 })
+  {
+    std::map<std::array<int, 2>, std::uint32_t> ids = { { { 0, 0 }, 0 } };
+    const auto at = [&](int x, int y)
+    {
+      const auto [found, isNew] =
+        ids.try_emplace({ x, y }, static_cast<std::uint32_t>(mesh.Mesh.Positions.size()));
+      if (isNew)
+      {
+        const double height = 0.1 * (x * x + y * y) + 2.0;
+        mesh.Mesh.Positions.push_back({ 1.0 * x, 1.0 * y, sign * height });
+      }
+      return found->second;
+    };
+    for (int y = -half; y < half; ++y)
+    {
+      for (int x = -half; x < half; ++x)
+      {
+        const std::array<std::uint32_t, 4> square = { at(x, y), at(x + 1, y), at(x + 1, y + 1),
+          at(x, y + 1) };
+        const auto [a, b, c, d] = square;
+        const std::array<Triangle, 2> up = { { { a, b, c }, { a, c, d } } };
+        const std::array<Triangle, 2> down = { { { a, c, b }, { a, d, c } } };
+        const auto& both = sign > 0 ? up : down;
+        mesh.Mesh.Triangles.insert(mesh.Mesh.Triangles.end(), both.begin(), both.end());
+      }
+    }
+  }
+  mesh.Allowances.assign(mesh.Mesh.Triangles.size(), allowed);
+  return mesh;
+}
+
+}
+
+// Parts may have one sheet each, to which the point looks like any other one.
+TEST(OddMeshes, KeepSheetsTogetherThatMeetInAPoint)
+{
+  const AllowedMesh mesh = SheetsThatMeet(5, 5.0);
+  const Connectivity links(mesh.Mesh.Positions.size(), mesh.Mesh.Triangles);
+  EXPECT_TRUE(links.FaultyPoints().empty());
+  for (std::uint32_t point = 0; point < mesh.Mesh.Positions.size(); ++point)
+  {
+    EXPECT_EQ(links.IsPinched(point), point == 0);
+  }
+  for (const std::size_t most : { mesh.Mesh.Triangles.size() / 2, MostOfPart })
+  {
+    const SimplerMesh after = Simplify(mesh, SerialFor, most);
+    EXPECT_LT(after.Triangles.size(), mesh.Mesh.Triangles.size() / 2);
+    std::array<int, 2> fans{};
+    for (const Triangle& triangle : after.Triangles)
+    {
+      if (std::count(triangle.begin(), triangle.end(), 0U) > 0)
+      {
+        const double height = after.Positions[triangle[0]][2] + after.Positions[triangle[1]][2] +
+          after.Positions[triangle[2]][2];
+        ++fans[height > 0.0 ? 1 : 0];
+      }
+    }
+    EXPECT_GT(fans[0], 2);
+    EXPECT_GT(fans[1], 2);
+    EXPECT_EQ(after.Homes[0], None);
+  }
+}
+
+// A flat tetrahedron of which one part has three faces, and another one the fourth.
+TEST(OddMeshes, KeepSpecksThatPartsShare)
+{
+  AllowedMesh specks;
+  for (std::uint32_t i = 0; i < 40; ++i)
+  {
+    const double z = 10.0 * i;
+    for (const Vector& corner :
+      { Vector{ 0, 0, z }, Vector{ 1, 0, z }, Vector{ 0, 1, z }, Vector{ 0.3, 0.3, z + 0.4 } })
+    {
+      specks.Mesh.Positions.push_back(corner);
+    }
+    const std::uint32_t first = 4 * i;
+    for (const auto& [a, b, c] :
+      { Triangle{ 0, 2, 1 }, Triangle{ 0, 1, 3 }, Triangle{ 1, 2, 3 }, Triangle{ 2, 0, 3 } })
+    {
+      specks.Mesh.Triangles.push_back({ first + a, first + b, first + c });
+    }
+  }
+  specks.Allowances.assign(specks.Mesh.Triangles.size(), 0.5);
+  for (const std::size_t most : { 3, 5, 7, 32 })
+  {
+    const TriangleMesh after = Simplify(specks, SerialFor, most);
+    EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(specks.Mesh)))
+      << most;
+  }
+}
+
+// As where points far away are rounded.
+TEST(OddMeshes, LoseTrianglesWithoutArea)
+{
+  AllowedMesh ball = test::MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 0.4);
+  for (Vector& position : ball.Mesh.Positions)
+  {
+    for (double& coordinate : position)
+    {
+      coordinate = std::round(8.0 * coordinate) / 8.0;
+    }
+  }
+  const auto countWithout = [](const TriangleMesh& mesh)
+  {
+    return std::count_if(mesh.Triangles.begin(), mesh.Triangles.end(),
+      [&](const Triangle& triangle) { return AreaOf(mesh.Positions, triangle) == 0.0; });
+  };
+  const auto before = countWithout(ball.Mesh);
+  EXPECT_GT(before, 50);
+  const TriangleMesh after = Simplify(ball, SerialFor);
+  EXPECT_LT(4 * countWithout(after), before);
+  EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(ball.Mesh)));
+}
+
+TEST(OddMeshes, AreCutIntoPartsOfAnySize)
+{
+  std::vector<Vector> middles(23);
+  for (std::size_t i = 0; i < middles.size(); ++i)
+  {
+    middles[i] = { static_cast<double>(i % 5), static_cast<double>(i % 3), 0.0 };
+  }
+  for (const std::size_t most : { 1, 2, 3, 22, 23 })
+  {
+    for (const double cut : { 0.01, 0.35, 0.5, 1.0 })
+    {
+      const MeshBlocks blocks = CutIntoBlocks(middles, most, cut);
+      std::vector<std::uint32_t> all;
+      for (std::size_t i = 0; i < blocks.Count(); ++i)
+      {
+        EXPECT_LE(blocks[i].size(), most);
+        EXPECT_GT(blocks[i].size(), 0U);
+        all.insert(all.end(), blocks[i].begin(), blocks[i].end());
+      }
+      std::sort(all.begin(), all.end());
+      std::vector<std::uint32_t> expected(middles.size());
+      std::iota(expected.begin(), expected.end(), 0U);
+      EXPECT_EQ(all, expected);
+    }
+  }
+}
