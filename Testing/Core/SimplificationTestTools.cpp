@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <map>
 
 using namespace isodiamond;
@@ -80,6 +81,17 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> BorderOf(const TriangleMesh
     }
   }
   return border;
+}
+
+bool HasTwins(const TriangleMesh& mesh)
+{
+  std::set<Triangle> all;
+  return !std::all_of(mesh.Triangles.begin(), mesh.Triangles.end(),
+    [&](Triangle triangle)
+    {
+      std::sort(triangle.begin(), triangle.end());
+      return all.insert(triangle).second;
+    });
 }
 
 void ExpectBorder(const AllowedMesh& before, const TriangleMesh& after)

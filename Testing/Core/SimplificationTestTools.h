@@ -31,6 +31,9 @@ std::vector<std::array<std::int32_t, 3>> IdsOf(const isodiamond::TriangleMesh& m
 /** The edges of one triangle. Expects no edge of three. */
 std::vector<std::pair<std::uint32_t, std::uint32_t>> BorderOf(const isodiamond::TriangleMesh& mesh);
 
+/** Whether two triangles have the same points. */
+bool HasTwins(const isodiamond::TriangleMesh& mesh);
+
 /** Border edges are on walls, as they were, or the same. */
 void ExpectBorder(const isodiamond::AllowedMesh& before, const isodiamond::TriangleMesh& after);
 

@@ -110,9 +110,34 @@ TEST(OddMeshes, KeepSpecksThatPartsShare)
   for (const std::size_t most : { 3, 5, 7, 32 })
   {
     const TriangleMesh after = Simplify(specks, SerialFor, most);
-    EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(specks.Mesh)))
-      << most;
+    EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(specks.Mesh)));
+    EXPECT_FALSE(test::HasTwins(after)) << most;
   }
+}
+
+// A point on the line between two neighbours, one triangle of which has no area.
+TEST(OddMeshes, LosePointsOnALine)
+{
+  constexpr std::uint32_t size = 6;
+  AllowedMesh flat;
+  for (std::uint32_t y = 0; y <= size; ++y)
+  {
+    for (std::uint32_t x = 0; x <= size; ++x)
+    {
+      const double shift = x == 3 && y == 3 ? 0.5 : 0.0;
+      flat.Mesh.Positions.push_back({ x - shift, y + shift, 0.0 });
+      if (x < size && y < size)
+      {
+        const std::uint32_t a = y * (size + 1) + x;
+        flat.Mesh.Triangles.push_back({ a, a + 1, a + size + 2 });
+        flat.Mesh.Triangles.push_back({ a, a + size + 2, a + size + 1 });
+      }
+    }
+  }
+  flat.Allowances.assign(flat.Mesh.Triangles.size(), 0.1);
+  const std::vector<std::uint32_t> homes = Simplify(flat, SerialFor).Homes;
+  EXPECT_NE(homes[3 * (size + 1) + 3], None);
+  EXPECT_EQ(homes.size() - std::count(homes.begin(), homes.end(), None), 25U) << "all inside";
 }
 
 // As where points far away are rounded.
