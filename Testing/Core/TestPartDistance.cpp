@@ -220,6 +220,26 @@ TEST(Covering, UsesAllOfATriangleOrTellsThatItDoesNot)
         return true;
       });
     EXPECT_EQ(isAll, length < 100);
-    EXPECT_EQ(isAll, std::abs(area - 0.5 * std::sqrt(Dot(normal, normal))) < 1e-9);
+    const double whole = 0.5 * std::sqrt(Dot(normal, normal));
+    EXPECT_EQ(isAll, std::abs(area - whole) < 1e-9);
+    // By looking around, if walking was in vain: that does not count then.
+    constexpr double allowed = 4.0;
+    int tries = 0;
+    double used = 0.0;
+    EXPECT_TRUE(covering.Covers(
+      corners, 0, allowed,
+      [&]
+      {
+        ++tries;
+        used = 0.0;
+      },
+      [&](std::uint32_t triangle, const Vector* piece, int count)
+      {
+        const bool isNear = covering.IsNear(triangle, piece, count, allowed);
+        used += isNear ? Covering::AreaOf(piece, count) : 0.0;
+        return isNear;
+      }));
+    EXPECT_EQ(tries, length < 100 ? 1 : 2);
+    EXPECT_NEAR(used, whole, 1e-9 * whole);
   }
 }
