@@ -153,7 +153,7 @@ int vtkIsodiamondBuilder::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->Plan->Request(inputVector[0]->GetInformationObject(0),
-    outputVector->GetInformationObject(0), this->CanBeCut(), this->NumberOfBlocks);
+    outputVector->GetInformationObject(0), this->CanBeCut() ? this->NumberOfBlocks : 1);
   return 1;
 }
 

@@ -171,7 +171,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->Plan->Request(inputVector[0]->GetInformationObject(0),
-    outputVector->GetInformationObject(0), true, this->NumberOfBlocks);
+    outputVector->GetInformationObject(0), this->NumberOfBlocks);
   return 1;
 }
 

@@ -102,7 +102,7 @@ bool HasFailed(vtkInformation* input)
 
 }
 
-void SlabPlan::Request(vtkInformation* input, vtkInformation* output, bool canBeCut, int blocks)
+void SlabPlan::Request(vtkInformation* input, vtkInformation* output, int blocks)
 {
   const bool isImage =
     input && vtkImageData::GetData(input) && input->Has(Pipeline::WHOLE_EXTENT());
@@ -112,13 +112,12 @@ void SlabPlan::Request(vtkInformation* input, vtkInformation* output, bool canBe
   {
     this->Peers.emplace();
   }
-  this->CanBeCut = canBeCut;
   this->Blocks = blocks;
   this->IsPeerWithout = false;
   this->AreParts = false;
   this->Gathered = nullptr;
   this->Count = 1;
-  if (isImage && canBeCut && MakesParts(input))
+  if (isImage && MakesParts(input))
   {
     this->Count = CountShared(input, blocks, peers);
     if (this->Count == 1)
@@ -212,9 +211,7 @@ std::unique_ptr<Slabs> SlabPlan::OpenParts(
   vtkInformation* input, ArrayFinder findArray, bool closeBoundary)
 {
   auto parts = std::make_unique<Parts>(input, *this->Peers);
-  this->Count = this->CanBeCut && !parts->HaveBlanks()
-    ? CountShared(input, this->Blocks, this->Peers->Count())
-    : 1;
+  this->Count = parts->HaveBlanks() ? 1 : CountShared(input, this->Blocks, this->Peers->Count());
   this->IsShared = this->Count > 1;
   if (!this->IsShared)
   {

@@ -34,11 +34,11 @@ public:
   /**
    * For RequestUpdateExtent: decides, and asks upstream for the whole input, or for one slab.
    *
-   * @param canBeCut whether the filter can do with slabs
-   * @param blocks how many there should be; 0 for one, or for one a process of those that work
-   *        together, or for as many as keep the input within what memory is there
+   * @param blocks how many there should be: 1 if the filter cannot do with slabs; 0 for one, or for
+   *        one a process of those that work together, or for as many as keep the input within what
+   *        memory is there
    */
-  void Request(vtkInformation* input, vtkInformation* output, bool canBeCut, int blocks);
+  void Request(vtkInformation* input, vtkInformation* output, int blocks);
 
   /** For ModifyRequest: who gets nothing from upstream is not executed, and tells its peers, who
    *  would wait for it; who gets another part, too. */
@@ -77,8 +77,7 @@ private:
     vtkInformation* input, ArrayFinder findArray, bool closeBoundary);
 
   std::optional<ControllerPeers> Peers; ///< who execute the filter together, on images
-  bool CanBeCut = false;
-  int Blocks = 0; ///< how many are asked for
+  int Blocks = 0;                       ///< how many are asked for
   int Count = 1;
   bool IsShared = false;
   bool IsPeerWithout = false; ///< whether one of the peers has got nothing

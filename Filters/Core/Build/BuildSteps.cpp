@@ -181,11 +181,16 @@ FieldMetric BuildSteps::ByField() const
 
 DiamondCodes BuildSteps::MeasureField() const
 {
-  Tell(this->Options, "Measuring errors", 0.25, 0.8);
-  DiamondCodes own = this->FieldCodes
-    ? *this->FieldCodes
-    : OwnFieldCodes(this->Origin, this->ByField(), this->Members, this->For);
-  this->SubdivideAlways(own);
+  DiamondCodes own;
+  InStep(this->Options.Together,
+    [&]
+    {
+      Tell(this->Options, "Measuring errors", 0.25, 0.8);
+      own = this->FieldCodes
+        ? *this->FieldCodes
+        : OwnFieldCodes(this->Origin, this->ByField(), this->Members, this->For);
+      this->SubdivideAlways(own);
+    });
   return own;
 }
 

@@ -124,15 +124,9 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
   {
     kept.Errors.emplace(kept.TheGrid, kept.Samples, kept.For);
   }
-  DiamondCodes codes;
-  if (options.Metric == ErrorMetric::Distance)
-  {
-    codes = kept.Done->MeasureDistances(*kept.Hierarchy, *kept.IsFinite);
-  }
-  else
-  {
-    InStep(options.Together, [&] { codes = kept.Done->MeasureField(); });
-  }
+  DiamondCodes codes = options.Metric == ErrorMetric::Field
+    ? kept.Done->MeasureField()
+    : kept.Done->MeasureDistances(*kept.Hierarchy, *kept.IsFinite);
   Encoding finished;
   InStep(options.Together,
     [&]

@@ -147,7 +147,6 @@ private:
 
 BlockFits::BlockFits(const std::array<int, 3>& dimensions, const SampleSlab& slab,
   const SliceRange& own, int levels, const ParallelFor& parallelFor)
-  : Dimensions(dimensions)
 {
   std::visit(
     [&](const auto& view)
@@ -155,7 +154,7 @@ BlockFits::BlockFits(const std::array<int, 3>& dimensions, const SampleSlab& sla
       for (int level = 0; level < levels; ++level)
       {
         this->AddLevel(
-          own,
+          dimensions, own,
           [&](const Point& block)
           {
             return level == 0 ? Block(dimensions, view, slab.First, Edge * block).Fit()
@@ -167,40 +166,33 @@ BlockFits::BlockFits(const std::array<int, 3>& dimensions, const SampleSlab& sla
     slab.Samples);
 }
 
-/** All of the volume's. */
-Point BlockFits::CountAll(int level) const
-{
-  const int edge = Edge << level;
-  Point count{};
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    count[axis] = (this->Dimensions[axis] - 1 + edge - 1) / edge;
-  }
-  return count;
-}
-
 template <typename Fit>
-void BlockFits::AddLevel(const SliceRange& own, const Fit& fit, const ParallelFor& parallelFor)
+void BlockFits::AddLevel(const std::array<int, 3>& dimensions, const SliceRange& own,
+  const Fit& fit, const ParallelFor& parallelFor)
 {
   Level level;
   const auto number = static_cast<int>(this->Levels.size());
-  level.End = this->CountAll(number);
-  const int firstOwn = (own.Begin + Edge - 1) / Edge;
-  const int endOwn = (own.End + Edge - 1) / Edge;
-  level.First[2] = firstOwn >> number;
-  level.End[2] = std::min(level.End[2], ((endOwn - 1) >> number) + 1);
-  const int slices = endOwn > firstOwn ? std::max(level.End[2] - level.First[2], 0) : 0;
-  level.End[2] = level.First[2] + slices;
-  level.Blocks.resize(std::size_t{ 1 } * level.End[0] * level.End[1] * slices);
+  const auto blocksIn = [](int edges, int edge) { return (edges + edge - 1) / edge; };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    level.Count[axis] = blocksIn(dimensions[axis] - 1, Edge << number);
+  }
+  // Of the finest ones; and what holds these.
+  const int begin = blocksIn(own.Begin, Edge);
+  const int end = std::min(blocksIn(own.End, Edge), blocksIn(dimensions[2] - 1, Edge));
+  const bool isAny = begin < end;
+  level.Slices = { begin >> number, isAny ? ((end - 1) >> number) + 1 : begin >> number };
+  const int slices = level.Slices.End - level.Slices.Begin;
+  level.Blocks.resize(std::size_t{ 1 } * level.Count[0] * level.Count[1] * slices);
   parallelFor(slices, 1,
-    [&](std::int64_t begin, std::int64_t end)
+    [&](std::int64_t first, std::int64_t last)
     {
-      for (Point block{ 0, 0, level.First[2] + static_cast<int>(begin) };
-           block[2] < level.First[2] + end; ++block[2])
+      Point block{ 0, 0, level.Slices.Begin + static_cast<int>(first) };
+      for (; block[2] < level.Slices.Begin + last; ++block[2])
       {
-        for (block[1] = 0; block[1] < level.End[1]; ++block[1])
+        for (block[1] = 0; block[1] < level.Count[1]; ++block[1])
         {
-          for (block[0] = 0; block[0] < level.End[0]; ++block[0])
+          for (block[0] = 0; block[0] < level.Count[0]; ++block[0])
           {
             level.Blocks[level.Index(block)] = fit(block);
           }
@@ -214,7 +206,6 @@ void BlockFits::AddLevel(const SliceRange& own, const Fit& fit, const ParallelFo
 BlockFit BlockFits::Merge(int level, const Point& block) const
 {
   const Level& finer = this->Levels[level - 1];
-  const Point finerCount = this->CountAll(level - 1);
   const int half = Edge << (level - 1);
   const Point middle{ half / 2, half / 2, half / 2 };
   BlockFit fit;
@@ -225,7 +216,7 @@ BlockFit BlockFits::Merge(int level, const Point& block) const
   {
     const Point side = { i & 1, (i >> 1) & 1, i >> 2 };
     const Point part = 2 * block + side;
-    if (part[0] >= finerCount[0] || part[1] >= finerCount[1] || part[2] >= finerCount[2])
+    if (part[0] >= finer.Count[0] || part[1] >= finer.Count[1] || part[2] >= finer.Count[2])
     {
       continue;
     }

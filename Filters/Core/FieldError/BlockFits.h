@@ -54,7 +54,7 @@ public:
    *  divided by its edge */
   bool Has(int level, int z) const
   {
-    return z >= this->Levels[level].First[2] && z < this->Levels[level].End[2];
+    return z >= this->Levels[level].Slices.Begin && z < this->Levels[level].Slices.End;
   }
 
   /** @param block coordinates of a cube that meets the grid, divided by its edge; the slab Has() it
@@ -67,23 +67,21 @@ public:
 private:
   struct Level
   {
-    Point First{}; ///< of the blocks that there are
-    Point End{};   ///< behind them
+    Point Count{};     ///< of the volume's blocks
+    SliceRange Slices; ///< of blocks, that there are
     std::vector<BlockFit> Blocks;
 
     std::int64_t Index(const Point& block) const
     {
-      return (std::int64_t{ block[2] - this->First[2] } * this->End[1] + block[1]) * this->End[0] +
-        block[0];
+      const std::int64_t slice = block[2] - this->Slices.Begin;
+      return (slice * this->Count[1] + block[1]) * this->Count[0] + block[0];
     }
   };
 
   template <typename Fit>
-  void AddLevel(const SliceRange& own, const Fit& fit, const ParallelFor& parallelFor);
+  void AddLevel(const std::array<int, 3>& dimensions, const SliceRange& own, const Fit& fit,
+    const ParallelFor& parallelFor);
   BlockFit Merge(int level, const Point& block) const;
-  Point CountAll(int level) const;
-
-  std::array<int, 3> Dimensions;
   std::vector<Level> Levels;
 };
 
