@@ -401,6 +401,7 @@ vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamon
         hierarchy, this->Hierarchies->StoredPointData(volume, region, need, wanted, building))
     : vtkIsodiamond::FromVolume(volume, wanted);
   this->RemovedFromBlock += hierarchy.Header().RemovedPieces;
+  options.AreErrorsKnown = need.AllErrors;
   vtkIsodiamond::Task extracting = task.Part(buildPart, 1.0);
   return vtkIsodiamond::ExtractAsAsked(hierarchy, query, options, extracting);
 }

@@ -19,6 +19,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSignedCharArray.h"
+#include "vtkUnsignedShortArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -248,6 +249,12 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& op
     [&](const isodiamond::CellRange& cells, auto* connectivity, std::int8_t* levels)
     { extraction.WriteTriangles(cells, options.World.Mirrors(), connectivity, levels); });
   AddPoints(extraction, options, false, mesh);
+  if (options.WithThresholds)
+  {
+    const auto codes = NewArray<vtkUnsignedShortArray>(ThresholdsArray, extraction.TriangleCount());
+    extraction.WriteThresholds(codes->GetPointer(0));
+    mesh.CellData->AddArray(codes);
+  }
   if (options.WithValues)
   {
     const auto values = NewArray<vtkFloatArray>(options.ArrayName.c_str(), extraction.PointCount());

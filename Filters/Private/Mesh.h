@@ -64,9 +64,15 @@ struct MeshOptions
   double DistanceTolerance = 0.0; ///< the least that it may be away from full resolution
   /** The same in a triangle or tetrahedron, by its corners in the world; none to not measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
-  bool MayRefine = true;    ///< whether FarDiamonds are looked at
-  bool KeepsInside = false; ///< whether points on no surface stay
+  /** Whether the hierarchy's thresholds tell errors: else they are known to be tolerated only. */
+  bool AreErrorsKnown = true;
+  bool WithThresholds = false; ///< whether triangles have ThresholdsArray; all of them are wanted
+  bool MayRefine = true;       ///< whether FarDiamonds are looked at
+  bool KeepsInside = false;    ///< whether points on no surface stay
 };
+
+/** By triangle, unsigned short: SurfaceExtraction::WriteThresholds(). */
+inline constexpr const char* ThresholdsArray = "IsodiamondThresholds";
 
 /** Extracts a mesh, or a share of it: of that no more is written than there is in it, unless cells
  *  have to be left out or moved first. Runs in the calling thread's vtkSMPTools scope. */

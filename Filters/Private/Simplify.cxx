@@ -15,6 +15,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedShortArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ PointDataMaker WithWalls(PointDataMaker others, const isodiamond::Grid& grid)
   };
 }
 
-/** @param allowed (tolerance of a place) -> what is left of it */
+/** @param allowed (triangle, tolerance of its place) -> what is left of that */
 template <typename Allowed>
 isodiamond::AllowedMesh ToCore(
   const Mesh& mesh, const PlacedTolerance& tolerance, Allowed&& allowed)
@@ -67,7 +68,7 @@ isodiamond::AllowedMesh ToCore(
     result.Mesh.Triangles.push_back({ static_cast<std::uint32_t>(ids[0]),
       static_cast<std::uint32_t>(ids[1]), static_cast<std::uint32_t>(ids[2]) });
     const std::array<isodiamond::Vector, 3> corners = result.Mesh.Corners(cell);
-    result.Allowances.push_back(allowed(tolerance.In(corners.data(), 3)));
+    result.Allowances.push_back(allowed(cell, tolerance.In(corners.data(), 3)));
   }
   const auto* walls =
     vtkUnsignedCharArray::FastDownCast(mesh.PointData->GetArray(WallsArray))->GetPointer(0);
@@ -76,22 +77,31 @@ isodiamond::AllowedMesh ToCore(
 }
 
 /**
- * Simplifies the mesh of HierarchyQuery() within what is left of the tolerances. Points stay
- * what they are, with their data, but for normals, which become means; cell data have no meaning
- * any more and go.
+ * Simplifies the mesh of HierarchyQuery() within what is left of the tolerances: of each triangle
+ * what the error of its diamond leaves, mostly more than the least that HierarchyQuery() does. It
+ * adds up, since what a point of full resolution was measured from lies in the same diamond, or in
+ * a coarser one, whose error is no less. Points stay what they are, with their data, but for
+ * normals, which become means; cell data have no meaning any more and go.
  *
  * @param query the one that was asked for
  */
-void SimplifyMesh(const WorldQuery& query, const Measure& measure,
-  const isodiamond::GridGeometry& world, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
+void SimplifyMesh(const WorldQuery& query, const isodiamond::IsodiamondHierarchy& hierarchy,
+  const MeshOptions& options, const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
+  const isodiamond::GridGeometry& world = options.World;
   const double least = query.AreTrianglesShaped ? LeastTolerance * world.SmallestStep() : 0.0;
-  const auto allowed = [&](double tolerance)
+  const auto* codes =
+    vtkUnsignedShortArray::FastDownCast(mesh.CellData->GetArray(ThresholdsArray))->GetPointer(0);
+  const auto allowed = [&](vtkIdType triangle, double tolerance)
   {
     const double used = std::max(tolerance, least);
-    return (1.0 - PartForHierarchy(query, used, world)) * used;
+    const double error = codes[triangle] == 0 ? 0.0
+      : options.AreErrorsKnown                ? hierarchy.Codes().Decode(codes[triangle])
+                                              : PartForHierarchy(query, used, world) * used;
+    return std::max(0.0, used - error);
   };
-  isodiamond::AllowedMesh original = ToCore(mesh, PlacedTolerance(query, measure, world), allowed);
+  isodiamond::AllowedMesh original =
+    ToCore(mesh, PlacedTolerance(query, Measure(hierarchy), world), allowed);
   original.LeastAngle = query.AreTrianglesShaped ? LeastAngle : 0.0;
   const isodiamond::SimplerMesh simple = isodiamond::Simplify(original, parallelFor);
   mesh.PointData->RemoveArray(WallsArray);
@@ -138,10 +148,11 @@ Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& que
   }
   MeshOptions whole = options;
   whole.Wanted = {};
+  whole.WithThresholds = true;
   whole.MorePointData = WithWalls(whole.MorePointData, refined.Hierarchy().SampleGrid());
   Mesh mesh = ExtractMesh(refined, whole, extracting);
   task.Begin("Simplifying", 0.3, 1.0);
-  SimplifyMesh(query, Measure(refined.Hierarchy()), options.World, task.For(), mesh);
+  SimplifyMesh(query, refined.Hierarchy(), options, task.For(), mesh);
   KeepShare(options.Wanted, mesh);
   return mesh;
 }

@@ -3,6 +3,7 @@
 // every tolerance.
 #include "CoreTestTools.h"
 #include "Mesh/DiamondMesh.h"
+#include "Mesh/SurfaceExtraction.h"
 #include "Refinement/ScalarQuery.h"
 
 #include "ReferenceError.h"
@@ -61,6 +62,52 @@ TEST(Surface, IsTheFullResolutionSurfaceAtToleranceZero)
       EXPECT_EQ(mesh.Points.size(), reference::IsoverticesOf(patches).size());
       EXPECT_EQ(int(mesh.Triangles.size()), reference::CountTriangles(patches));
     }
+  }
+}
+
+// A triangle is there, at its level, from the threshold of its diamond on, and not below.
+TEST(Surface, ThresholdsTellBelowWhatTrianglesGo)
+{
+  for (const test::Field& field : test::SmallFields())
+  {
+    SCOPED_TRACE(field.Name);
+    const test::Built built = test::Build(Model::Minimal, field, test::Distance());
+    const ErrorCode& codes = built.Hierarchy->Codes();
+    const RefinedSet refined(*built.Hierarchy, { 0.02 * codes.Scale() }, SerialFor);
+    const SurfaceExtraction extraction(refined, SerialFor);
+    std::vector<ErrorCode::Type> thresholds(extraction.TriangleCount());
+    extraction.WriteThresholds(thresholds.data());
+
+    const test::Mesh mesh = test::Extract(*built.Hierarchy, 0.02 * codes.Scale());
+    ASSERT_EQ(mesh.Triangles.size(), thresholds.size());
+    std::map<ErrorCode::Type, std::vector<test::PlacedTriangle>> byThreshold;
+    for (std::size_t i = 0; i < thresholds.size(); ++i)
+    {
+      const auto [a, b, c] = mesh.Triangles[i];
+      byThreshold[thresholds[i]].push_back(
+        test::Place(mesh.Points[a], mesh.Points[b], mesh.Points[c], mesh.Levels[i]));
+      EXPECT_EQ(thresholds[i] == 0, mesh.Levels[i] == Grid(field.Dims).Depth());
+    }
+    const auto countAt = [&](double tolerance, const std::vector<test::PlacedTriangle>& wanted)
+    {
+      std::vector<test::PlacedTriangle> there =
+        test::PlacedTriangles(test::Extract(*built.Hierarchy, tolerance));
+      std::sort(there.begin(), there.end());
+      return std::count_if(wanted.begin(), wanted.end(),
+        [&](const test::PlacedTriangle& triangle)
+        { return std::binary_search(there.begin(), there.end(), triangle); });
+    };
+    // Cut in two, a leaf may have the same triangle again: in a half that its surface lies in.
+    std::ptrdiff_t all = 0;
+    std::ptrdiff_t left = 0;
+    for (const auto& [code, triangles] : byThreshold)
+    {
+      const double least = code == 0 ? 0.0 : codes.Decode(code);
+      EXPECT_EQ(countAt(least, triangles), std::ptrdiff_t(triangles.size())) << code;
+      all += code == 0 ? 0 : std::ptrdiff_t(triangles.size());
+      left += code == 0 ? 0 : countAt(std::nextafter(least, 0.0), triangles);
+    }
+    EXPECT_LE(3 * left, all);
   }
 }
 

@@ -175,6 +175,37 @@ TEST(Simplify, KeepsToleranceAndTopology)
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
 }
 
+// Of each triangle as much is left as the error of its diamond leaves. With the whole tolerance
+// left for each, these surfaces are up to a twentieth too far away, one of them with OneTolerance
+// only.
+TEST(Simplify, AddsUpWithTheErrorsOfTheHierarchy)
+{
+  for (const int seed : { 16, 24, 50 })
+  {
+    const auto image = test::MakeImage({ 18, 18, 18 },
+      [&](double x, double y, double z)
+      {
+        const double phase = 1.7 * seed;
+        return std::sin(0.61 * x + 0.2 * y + phase) + std::sin(0.57 * y - 0.3 * z + 2.0 * phase) +
+          std::sin(0.53 * z + 0.25 * x + 3.0 * phase) + std::sin(0.9 * (x - y + z) + phase);
+      });
+    const auto contour = MakeContour(image);
+    contour->SetValue(0, 0.0);
+    const auto full = Update(contour);
+    contour->SimplifyOn();
+    contour->SetErrorTolerance(1.0);
+    for (const bool isOnly : { false, true })
+    {
+      SCOPED_TRACE(std::to_string(seed) + (isOnly ? ", one tolerance" : ""));
+      contour->SetOneTolerance(isOnly);
+      const auto simple = Update(contour);
+      const auto everywhere = [&](const double[3]) { return 1.0 + 1e-6; };
+      EXPECT_LE(Excess(full, simple, everywhere), 0.0);
+      EXPECT_LE(Excess(simple, full, everywhere), 0.0);
+    }
+  }
+}
+
 // Of a noisy ball: how far normals are from the right ones, beside the gradients at the same
 // points.
 TEST(Simplify, NormalsAreMeans)

@@ -6,6 +6,8 @@
 #include "Mesh/VertexWindow.h"
 #include "Patches/SurfacePatch.h"
 
+#include <cassert>
+
 namespace isodiamond
 {
 namespace
@@ -26,6 +28,21 @@ HalfTetrahedronMask TrianglesOf(const LeafParent& parent, HalfTetrahedronMask cr
 {
   // There are two where two vertices lie on the other side than the third and the centre.
   return parent.Leaves | ((parent.Leaves & HalvesWithTwo(crossed)) << 1);
+}
+
+/** Of the diamond that a leaf with triangles lies in; 0 at full resolution. */
+ErrorCode::Type ThresholdOfLeaf(
+  const IsodiamondHierarchy& hierarchy, const LeafParent& parent, int half)
+{
+  if (parent.LeafScale() < 0)
+  {
+    return 0;
+  }
+  const TypeTable& shape = parent.Shape();
+  const int child = shape.HalfTetrahedra[half].Child;
+  const std::int64_t rank = hierarchy.Diamonds().Rank(ChildPlace(shape, parent.At, child));
+  assert(rank >= 0); // it is active, so it is stored
+  return hierarchy.Threshold(rank);
 }
 
 /** Writes the triangles of one brick's leaves, one after the other. */
@@ -104,6 +121,22 @@ void SurfaceExtraction::WriteTriangles(
       TriangleWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored, ids, levelsOfIds);
       this->Passes.ForEachLeafParent(
         brick, [&](const LeafParent& parent) { writer.Write(parent); });
+    });
+}
+
+void SurfaceExtraction::WriteThresholds(ErrorCode::Type* codes) const
+{
+  const IsodiamondHierarchy& hierarchy = this->Passes.Hierarchy();
+  this->Passes.ForEachBrickWithCells(this->Passes.AllCells(),
+    [&](std::int64_t brick, const CellRange& own)
+    {
+      ErrorCode::Type* next = codes + own.First;
+      this->Passes.ForEachLeafParent(brick,
+        [&](const LeafParent& parent)
+        {
+          ForEachBit(TrianglesOf(parent, CrossedVertices(hierarchy, parent)),
+            [&](int bit) { *next++ = ThresholdOfLeaf(hierarchy, parent, bit / 4); });
+        });
     });
 }
 

@@ -45,6 +45,10 @@ public:
   template <typename Id>
   void WriteTriangles(
     const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const;
+
+  /** Writes the code of the threshold of the diamond that each triangle lies in: a bound of its own
+   *  error, since it is not subdivided. 0 at full resolution. */
+  void WriteThresholds(ErrorCode::Type* codes) const;
 };
 
 }

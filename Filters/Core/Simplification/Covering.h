@@ -164,7 +164,7 @@ public:
 private:
   /** Pieces that are nearer than this part of what is allowed are not cut any further. */
   static constexpr double UncutPart = 0.3;
-  static constexpr int MostDepth = 5;
+  static constexpr int MostDepth = 3;
 
   struct Ball
   {
