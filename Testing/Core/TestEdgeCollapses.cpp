@@ -157,7 +157,11 @@ TEST(EdgeCollapses, CanBeUndone)
     EXPECT_EQ(test::TrianglesLeft(collapses.Mesh()).size(), before.Mesh.Triangles.size());
     all.resize(isChanged.size());
     std::iota(all.begin(), all.end(), 0U);
-    collapses.Undo(all, {});
+    std::vector<bool> isUndone; // of triangles that were flipped twice the last time first
+    do
+    {
+      isUndone = collapses.Undo(all, {});
+    } while (std::find(isUndone.begin(), isUndone.end(), true) != isUndone.end());
     std::vector<Triangle> now = test::TrianglesLeft(collapses.Mesh());
     std::vector<Triangle> then = before.Mesh.Triangles;
     for (std::vector<Triangle>* triangles : { &now, &then })

@@ -132,9 +132,9 @@ public:
   bool Covers(const std::array<Vector, 3>& corners, std::uint32_t start, double allowed,
     Begin&& begin, Use&& use)
   {
-    const auto lookAround = [&](const std::array<Vector, 3>& piece, std::uint32_t from)
+    const auto lookAround = [&](const std::array<Vector, 3>& piece, std::uint32_t from, int depth)
     {
-      return this->LookAround(piece, from, allowed,
+      return this->LookAround(piece, from, allowed, depth,
         [&](std::uint32_t triangle, const std::array<Vector, 3>& part)
         { return use(triangle, part.data(), 3); });
     };
@@ -149,8 +149,8 @@ public:
         }
         for (int i = 2; i < piece.Count && !isFar; ++i)
         {
-          isFar =
-            !lookAround({ piece.Corners[0], piece.Corners[i - 1], piece.Corners[i] }, triangle);
+          isFar = !lookAround(
+            { piece.Corners[0], piece.Corners[i - 1], piece.Corners[i] }, triangle, DepthOfPiece);
         }
         return !isFar;
       });
@@ -158,13 +158,16 @@ public:
     {
       begin();
     }
-    return isCovered || lookAround(corners, start);
+    return isCovered || lookAround(corners, start, isFar ? DepthOfPiece : DepthOfWhole);
   }
 
 private:
   /** Pieces that are nearer than this part of what is allowed are not cut any further. */
   static constexpr double UncutPart = 0.3;
-  static constexpr int MostDepth = 3;
+  /** How often a piece that was walked to is cut in four, and a triangle that is too large for
+   * that: where a piece was too far away already more is not worth it. */
+  static constexpr int DepthOfPiece = 3;
+  static constexpr int DepthOfWhole = 5;
 
   struct Ball
   {
@@ -185,13 +188,14 @@ private:
   /** Where walking finds no good pieces, which takes longer: a triangle is cut in four until each
    *  piece is near to any of the triangles around.
    *  @param reach how far away from it triangles are of interest
+   *  @param depth how often, at the most
    *  @param use (triangle of the mesh, piece) -> whether the piece is near enough to it */
   template <typename Use>
   bool LookAround(
-    const std::array<Vector, 3>& corners, std::uint32_t start, double reach, Use&& use)
+    const std::array<Vector, 3>& corners, std::uint32_t start, double reach, int depth, Use&& use)
   {
     const std::vector<std::uint32_t> around = this->Around(corners, start, reach);
-    return this->IsNearAround(corners, around, reach, 0, use);
+    return this->IsNearAround(corners, around, reach, depth, use);
   }
 
   /** Triangles that may be within reach, connected to the start. */
@@ -227,16 +231,16 @@ private:
       }
       left.push_back(triangle);
     }
-    if (depth == MostDepth)
+    if (depth == 0)
     {
       return false;
     }
     const std::array<Vector, 3> sides = { 0.5 * (corners[0] + corners[1]),
       0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0]) };
-    return this->IsNearAround(sides, left, reach, depth + 1, use) &&
-      this->IsNearAround({ corners[0], sides[0], sides[2] }, left, reach, depth + 1, use) &&
-      this->IsNearAround({ corners[1], sides[1], sides[0] }, left, reach, depth + 1, use) &&
-      this->IsNearAround({ corners[2], sides[2], sides[1] }, left, reach, depth + 1, use);
+    return this->IsNearAround(sides, left, reach, depth - 1, use) &&
+      this->IsNearAround({ corners[0], sides[0], sides[2] }, left, reach, depth - 1, use) &&
+      this->IsNearAround({ corners[1], sides[1], sides[0] }, left, reach, depth - 1, use) &&
+      this->IsNearAround({ corners[2], sides[2], sides[1] }, left, reach, depth - 1, use);
   }
 
   static constexpr int MostSteps = 1000;

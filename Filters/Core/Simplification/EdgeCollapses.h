@@ -52,6 +52,7 @@ public:
  *
  * Last, edges that are left are flipped where that brings samples nearer, all in all: quadrics tell
  * which vertices to keep, but not which of two diagonals follows a ridge or a groove between them.
+ * Where both do as well the one of the better shape is taken.
  */
 class EdgeCollapses
 {

@@ -20,6 +20,12 @@ constexpr double WorthPartOfSliver = 0.75;
 /** The sine of the smallest angle of what is no sliver: of 10 degrees. */
 constexpr double SliverSine = 0.17;
 
+/** Of what could be better: of 30 degrees; how much better that is; and what the mean squared
+ *  distance may grow by for it, as a part of what is allowed. */
+constexpr double ShapelySine = 0.5;
+constexpr double BetterShape = 1.2;
+constexpr double PriceOfShape = 0.05;
+
 /** An edge, whichever way. */
 std::uint64_t KeyOf(std::uint32_t a, std::uint32_t b)
 {
@@ -98,8 +104,9 @@ bool EdgeCollapses::SeeFlip(std::uint32_t triangle, int edge, Flip& flip) const
     turn({ flip.D, flip.B, flip.C }, flip.SecondNormal);
 }
 
-/** Whether the samples are nearer to the surface after a flip, all in all, and each near enough;
- *  and no angle is less than wanted, unless one was. */
+/** Whether the samples are nearer to the surface after a flip, all in all, or not much farther
+ * where the shape gets better; and each near enough, and no angle less than wanted, unless one was.
+ */
 bool EdgeCollapses::IsWorthIt(const Flip& flip) const
 {
   const auto [first, second, a, b, c, d] = flip.Numbers();
@@ -111,6 +118,7 @@ bool EdgeCollapses::IsWorthIt(const Flip& flip) const
   }
   double before = 0.0;
   double after = 0.0;
+  double allowed = 0.0;
   for (const std::uint32_t triangle : { first, second })
   {
     for (std::uint32_t at = this->FirstSample[triangle]; at != None; at = this->Samples[at].Next)
@@ -126,7 +134,12 @@ bool EdgeCollapses::IsWorthIt(const Flip& flip) const
       }
       before += now * now;
       after += then * then;
+      allowed += double{ sample.Allowance } * sample.Allowance;
     }
+  }
+  if (sineBefore < ShapelySine && sineAfter > BetterShape * sineBefore)
+  {
+    return after <= before + PriceOfShape * allowed;
   }
   const bool isSliver = sineAfter < std::min(sineBefore, SliverSine);
   return after < (isSliver ? WorthPartOfSliver : WorthPart) * before;
