@@ -42,20 +42,19 @@ public:
     }
   }
 
-  StoredTriangle Place(const HalfPlace& tetrahedron, const std::array<std::uint8_t, 3>& edges) const
+  /** @param cell as in a brick */
+  StoredTriangle Place(
+    int cell, const HalfPlace& tetrahedron, const std::array<std::uint8_t, 3>& edges) const
   {
-    StoredTriangle triangle{};
+    const Point inBrick = { cell & 7, (cell >> 3) & 7, cell >> 6 };
+    StoredTriangle triangle;
     for (int i = 0; i < 3; ++i)
     {
-      const OwnedEdge owned = OwnedEdgeOf(tetrahedron, edges[i]);
-      const auto rank = static_cast<std::uint32_t>(this->Window.Rank(owned.Owner.Position));
-      const FinePosition corner =
-        IsovertexAt(this->Hierarchy, owned.Owner, rank, owned.Edge, this->Surface);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        triangle[i][axis] =
-          static_cast<std::int16_t>(corner[axis] - FineUnits * this->Origin[axis]);
-      }
+      const auto [owner, edge] = OwnedEdgeOf(tetrahedron, edges[i]);
+      const auto rank = static_cast<std::uint32_t>(this->Window.Rank(owner.Position));
+      triangle[i] = { IsovertexAt(this->Hierarchy, owner, rank, edge, this->Surface),
+        this->Origin + inBrick, owner.Position,
+        tables::Parities[Parity(owner.Position)].Offsets[edge] };
     }
     return triangle;
   }
@@ -187,7 +186,7 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
           for (int t = 0; t < patch.TriangleCount; ++t)
           {
             this->Triangles[brick.First + write[cell]++] =
-              reader.Place(tetrahedron, patch.Triangles[t]);
+              reader.Place(cell, tetrahedron, patch.Triangles[t]);
           }
         });
     });

@@ -43,7 +43,7 @@ struct CellBox
 };
 
 /**
- * The triangles of a surface of full resolution by cell: 18 bytes a triangle, and two for each cell
+ * The triangles of a surface of full resolution by cell: 6 bytes a triangle, and two for each cell
  * of bricks of 8 x 8 x 8 cells that have some.
  */
 class FineSurface
@@ -87,8 +87,45 @@ public:
   bool AnyHidden(const CellBox& box) const;
 
 private:
-  /** Corners from the brick's first sample on. */
-  using StoredTriangle = std::array<std::array<std::int16_t, 3>, 3>;
+  /** A corner of a triangle, from its cell's first sample on: it lies between two of the cell's,
+   * each told by a bit an axis, at a part of the way in 256ths. */
+  class StoredCorner
+  {
+  public:
+    StoredCorner() = default;
+
+    /** @param position of what is on an edge @param cell that has the edge
+     *  @param from, offset where the edge begins, and where it leads from there */
+    StoredCorner(
+      const FinePosition& position, const Point& cell, const Point& from, const Point& offset)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const int begin = from[axis] - cell[axis];
+        const int along = (position[axis] - FineUnits * from[axis]) * offset[axis];
+        this->Bits |= static_cast<std::uint16_t>(begin << axis);
+        this->Bits |= static_cast<std::uint16_t>((begin + offset[axis]) << (3 + axis));
+        this->Along = offset[axis] != 0 ? static_cast<std::uint8_t>(along) : this->Along;
+      }
+    }
+
+    FinePosition After(const FinePosition& origin) const
+    {
+      FinePosition position = origin;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const int begin = (this->Bits >> axis) & 1;
+        const int end = (this->Bits >> (3 + axis)) & 1;
+        position[axis] += FineUnits * begin + this->Along * (end - begin);
+      }
+      return position;
+    }
+
+  private:
+    std::uint8_t Bits = 0;
+    std::uint8_t Along = 0;
+  };
+  using StoredTriangle = std::array<StoredCorner, 3>;
 
   struct CellBrick
   {
@@ -108,13 +145,8 @@ private:
     {
       for (const StoredTriangle* stored = this->Begin; stored != this->End; ++stored)
       {
-        Triangle triangle;
-        for (int i = 0; i < 3; ++i)
-        {
-          triangle[i] =
-            this->Origin + FinePosition{ (*stored)[i][0], (*stored)[i][1], (*stored)[i][2] };
-        }
-        body(triangle);
+        body(Triangle{ (*stored)[0].After(this->Origin), (*stored)[1].After(this->Origin),
+          (*stored)[2].After(this->Origin) });
       }
     }
   };
@@ -139,10 +171,11 @@ private:
         for (int x = low[0]; x < high[0]; ++x)
         {
           const int cell = x + 8 * y + 64 * z;
+          const Point position = origin + Point{ x, y, z };
           if (brick.Before[cell] < brick.Before[cell + 1] &&
-            !body(origin + Point{ x, y, z },
+            !body(position,
               TriangleRange{
-                all + brick.Before[cell], all + brick.Before[cell + 1], FineUnits * origin }))
+                all + brick.Before[cell], all + brick.Before[cell + 1], FineUnits * position }))
           {
             return false;
           }
