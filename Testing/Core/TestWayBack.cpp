@@ -166,7 +166,7 @@ public:
 
   void Check(const GridGeometry& world, bool preserve, const HiddenCells* hidden, Seen& seen) const
   {
-    MapBounds bounds(this->Hierarchy.Diamonds().Size(), this->Hierarchy.Region().SurfaceCount());
+    MapBounds bounds(this->Hierarchy.Diamonds(), this->Hierarchy.Region().SurfaceCount());
     const std::vector<ErrorCode::Type> before = DistanceErrors(
       this->Hierarchy, Finiteness(this->Samples), world, preserve, SerialFor, {}, &bounds);
     const BeforeWayBack known{ hidden, seen.Compared % 3 != 0 ? &bounds : nullptr, {} };

@@ -204,7 +204,7 @@ DiamondCodes BuildSteps::MeasureDistances(
     [&]
     {
       Tell(this->Options, "Measuring errors", 0.25, 0.5);
-      bounds = MapBounds(this->Members.Size(), this->Header.Region.SurfaceCount());
+      bounds = MapBounds(this->Members, this->Header.Region.SurfaceCount());
       own = DiamondCodes(this->Members.Size(), false);
       this->SubdivideAlways(own);
       if (this->Interior)

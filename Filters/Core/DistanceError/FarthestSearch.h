@@ -78,14 +78,14 @@ public:
 
   /** The same for one isovertex, that some tetrahedra hold.
    *  @param around the edges of a triangle between them that it lies on, or the edge; or none
-   *  @return the squared distance to where the patches of all meet that; else infinite */
-  double Propose(std::uint32_t tetrahedra, std::uint32_t around, const FinePosition& position,
+   */
+  void Propose(std::uint32_t tetrahedra, std::uint32_t around, const FinePosition& position,
     Farthest& farthest)
   {
     const std::uint32_t holders = tetrahedra & this->Patches.AreThere();
     if (holders == 0)
     {
-      return 0.0;
+      return;
     }
     farthest.IsAny = true;
     const double squared = this->SquaredToBorder(around, position);
@@ -95,16 +95,6 @@ public:
       *this->Room(1) = { bound, holders, position };
       ++this->CandidateCount;
     }
-    return squared;
-  }
-
-  /** The tetrahedra that are there, a mask. */
-  std::uint32_t AreThere() const { return this->Patches.AreThere(); }
-
-  /** The squared distance to the patch of one; infinite without. */
-  double SquaredToPatch(int tetrahedron, const FinePosition& position)
-  {
-    return this->Patches.SquaredTo(tetrahedron, this->InWorld(position));
   }
 
   /** The squared distance to where the patches of all tetrahedra meet an edge or a triangle between

@@ -4,6 +4,7 @@
 
 #include "Field/Peers.h"
 #include "Hierarchy/ErrorCode.h"
+#include "Lattice/DiamondSet.h"
 
 #include <array>
 #include <cstdint>
@@ -13,7 +14,8 @@ namespace isodiamond
 {
 
 /**
- * Bounds of the way back that the way forth finds as it goes, for each tetrahedron of each diamond.
+ * Bounds of the way back that the way forth finds as it goes, for each tetrahedron of each diamond
+ * above scale 0: of the many of that scale a map of the whole domain tells as well (DomainMap.h).
  *
  * Let a map take every isovertex of full resolution in a tetrahedron to a point of the patch: on an
  * edge, to the patch's corner on it; on a triangle, to a point of the patch's side in it; inside,
@@ -37,11 +39,13 @@ public:
   /** No bounds, of no diamonds: none are wanted. */
   MapBounds() = default;
 
-  MapBounds(std::size_t diamondCount, int surfaceCount)
+  MapBounds(const DiamondSet& diamonds, int surfaceCount)
   {
+    const std::vector<Brick>& last = diamonds.Level(0).Bricks; // in the order of ranks
+    const std::size_t count = last.empty() ? diamonds.Size() : last.front().First;
     for (int surface = 0; surface < surfaceCount; ++surface)
     {
-      this->Codes[surface].assign(diamondCount, NoneOfDiamond);
+      this->Codes[surface].assign(count, NoneOfDiamond);
     }
   }
 
@@ -50,9 +54,10 @@ public:
   /** @param rank of the diamond */
   const OfDiamond& Of(int surface, std::uint32_t rank) const
   {
-    return this->AreWanted() ? this->Codes[surface][rank] : NoneOfDiamond;
+    return rank < this->Codes[surface].size() ? this->Codes[surface][rank] : NoneOfDiamond;
   }
 
+  /** @param rank of a diamond above scale 0 */
   void Set(int surface, std::uint32_t rank, int tetrahedron, ErrorCode::Type code)
   {
     this->Codes[surface][rank][tetrahedron] = code;

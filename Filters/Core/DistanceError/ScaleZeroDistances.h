@@ -123,29 +123,12 @@ private:
     this->Errors.RaiseToFarthest(diamond, rank,
       [&](Farthest& farthest)
       {
-        std::array<double, 8> bounds{}; // of the way back: where isovertices are taken
         for (const LocatedIsovertex& isovertex : this->Located)
         {
           const FineDomain::Edge& edge = *isovertex.Edge;
-          const double squared =
-            this->Search.Propose(edge.Tetrahedra, edge.Around, isovertex.Position, farthest);
-          ForEachBit(edge.Tetrahedra & this->Search.AreThere(),
-            [&](int tetrahedron)
-            {
-              bounds[tetrahedron] = std::max(bounds[tetrahedron],
-                edge.Around != 0 ? squared
-                                 : this->Search.SquaredToPatch(tetrahedron, isovertex.Position));
-            });
+          this->Search.Propose(edge.Tetrahedra, edge.Around, isovertex.Position, farthest);
         }
         this->Search.Decide(farthest);
-        if (this->Errors.AreBoundsWanted())
-        {
-          ForEachBit(this->Search.AreThere(),
-            [&](int tetrahedron) {
-              this->Errors.SetBound(
-                this->Clusters.Surface(), rank, tetrahedron, bounds[tetrahedron]);
-            });
-        }
       });
   }
 
