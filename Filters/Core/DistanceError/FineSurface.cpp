@@ -109,6 +109,19 @@ private:
   BrickWindow Window;
 };
 
+void FineSurface::CellBrick::SumUp()
+{
+  for (int row = 0; row < Rows; ++row)
+  {
+    int sum = this->Before[row];
+    for (int x = 0; x < 8; ++x)
+    {
+      sum += this->Count(x + 8 * row);
+    }
+    this->Before[row + 1] = static_cast<std::uint16_t>(sum);
+  }
+}
+
 FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
   const HiddenCells* hidden, const ParallelFor& parallelFor)
   : TheGrid(hierarchy.SampleGrid())
@@ -150,14 +163,11 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
   ForEachIndex(parallelFor, brickCount, 16,
     [&](std::int64_t i)
     {
-      std::array<std::uint16_t, 513>& before = this->Bricks[i].Before;
+      CellBrick& brick = this->Bricks[i];
       Reader(hierarchy, surface, hidden, placeOf(indices[i]))
         .ForEachPatch([&](int cell, const HalfPlace&, const SurfacePatch& patch)
-          { before[cell + 1] += static_cast<std::uint16_t>(patch.TriangleCount); });
-      for (int cell = 0; cell < 512; ++cell)
-      {
-        before[cell + 1] = static_cast<std::uint16_t>(before[cell] + before[cell + 1]);
-      }
+          { brick.Add(cell, patch.TriangleCount); });
+      brick.SumUp();
     });
 
   // Prefix sum.
@@ -165,7 +175,7 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
   for (CellBrick& brick : this->Bricks)
   {
     brick.First = next;
-    next += brick.Before[512];
+    next += brick.Before[CellBrick::Rows];
   }
   this->Triangles.resize(next);
 
@@ -174,19 +184,24 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
     [&](std::int64_t i)
     {
       const CellBrick& brick = this->Bricks[i];
-      if (brick.Before[512] == 0)
+      if (brick.Before[CellBrick::Rows] == 0)
       {
         return;
       }
-      std::array<std::uint16_t, 513> write = brick.Before;
+      std::array<StoredTriangle*, CellBrick::Cells> write;
+      StoredTriangle* begin = this->Triangles.data() + brick.First;
+      for (int cell = 0; cell < CellBrick::Cells; ++cell)
+      {
+        write[cell] = begin;
+        begin += brick.Count(cell);
+      }
       const Reader reader(hierarchy, surface, hidden, placeOf(indices[i]));
       reader.ForEachPatch(
         [&](int cell, const HalfPlace& tetrahedron, const SurfacePatch& patch)
         {
           for (int t = 0; t < patch.TriangleCount; ++t)
           {
-            this->Triangles[brick.First + write[cell]++] =
-              reader.Place(cell, tetrahedron, patch.Triangles[t]);
+            *write[cell]++ = reader.Place(cell, tetrahedron, patch.Triangles[t]);
           }
         });
     });

@@ -43,7 +43,7 @@ struct CellBox
 };
 
 /**
- * The triangles of a surface of full resolution by cell: 6 bytes a triangle, and two for each cell
+ * The triangles of a surface of full resolution by cell: 6 bytes a triangle, and 0.8 for each cell
  * of bricks of 8 x 8 x 8 cells that have some.
  */
 class FineSurface
@@ -129,8 +129,20 @@ private:
 
   struct CellBrick
   {
-    std::int64_t First = 0;                  ///< its triangles in the list of all
-    std::array<std::uint16_t, 513> Before{}; ///< those of cells before a cell, from there on
+    static constexpr int Cells = 512;
+    static constexpr int Rows = 64; ///< of 8 cells along x
+
+    std::int64_t First = 0;                       ///< its triangles in the list of all
+    std::array<std::uint16_t, Rows + 1> Before{}; ///< those of rows before a row, from there on
+    std::array<std::uint8_t, Cells / 2> Counts{}; ///< those of two cells: each has 12 at the most
+
+    int Count(int cell) const { return (this->Counts[cell / 2] >> (4 * (cell & 1))) & 15; }
+    void Add(int cell, int count)
+    {
+      this->Counts[cell / 2] += static_cast<std::uint8_t>(count << (4 * (cell & 1)));
+    }
+    /** Once all are counted. */
+    void SumUp();
   };
 
   /** The triangles of one cell. */
@@ -163,19 +175,23 @@ private:
       low[axis] = std::max(box.Low[axis] - origin[axis], 0);
       high[axis] = std::min(box.High[axis] - origin[axis], 8);
     }
-    const StoredTriangle* all = this->Triangles.data() + brick.First;
     for (int z = low[2]; z < high[2]; ++z)
     {
       for (int y = low[1]; y < high[1]; ++y)
       {
-        for (int x = low[0]; x < high[0]; ++x)
+        const int row = y + 8 * z;
+        if (brick.Before[row] == brick.Before[row + 1])
         {
-          const int cell = x + 8 * y + 64 * z;
+          continue;
+        }
+        const StoredTriangle* next = this->Triangles.data() + brick.First + brick.Before[row];
+        for (int x = 0; x < high[0]; ++x)
+        {
+          const StoredTriangle* const begin = next;
+          next += brick.Count(x + 8 * row);
           const Point position = origin + Point{ x, y, z };
-          if (brick.Before[cell] < brick.Before[cell + 1] &&
-            !body(position,
-              TriangleRange{
-                all + brick.Before[cell], all + brick.Before[cell + 1], FineUnits * position }))
+          if (x >= low[0] && begin != next &&
+            !body(position, TriangleRange{ begin, next, FineUnits * position }))
           {
             return false;
           }
