@@ -102,10 +102,15 @@ private:
       for (int axis = 0; axis < 3; ++axis)
       {
         const int begin = from[axis] - cell[axis];
-        const int along = (position[axis] - FineUnits * from[axis]) * offset[axis];
-        this->Bits |= static_cast<std::uint16_t>(begin << axis);
-        this->Bits |= static_cast<std::uint16_t>((begin + offset[axis]) << (3 + axis));
-        this->Along = offset[axis] != 0 ? static_cast<std::uint8_t>(along) : this->Along;
+        const int end = begin + offset[axis];
+        assert((begin == 0 || begin == 1) && (end == 0 || end == 1) && "corners of the cell");
+        this->Bits |= static_cast<std::uint8_t>(begin << axis | end << (3 + axis));
+        if (begin != end)
+        {
+          const int along = (position[axis] - FineUnits * from[axis]) * offset[axis];
+          assert(along >= 0 && along < FineUnits && "between them");
+          this->Along = static_cast<std::uint8_t>(along);
+        }
       }
     }
 
@@ -126,6 +131,7 @@ private:
     std::uint8_t Along = 0;
   };
   using StoredTriangle = std::array<StoredCorner, 3>;
+  static_assert(sizeof(StoredTriangle) == 6, "of dense surfaces there are more than of all else");
 
   struct CellBrick
   {
