@@ -77,8 +77,7 @@ public:
   }
 
   /** The same for one isovertex, that some tetrahedra hold.
-   *  @param around the edges of a triangle between them that it lies on, or the edge; or none
-   */
+   *  @param around the edges of a triangle between them that it lies on, or the edge; or none */
   void Propose(std::uint32_t tetrahedra, std::uint32_t around, const FinePosition& position,
     Farthest& farthest)
   {

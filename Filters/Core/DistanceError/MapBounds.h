@@ -39,6 +39,7 @@ public:
   /** No bounds, of no diamonds: none are wanted. */
   MapBounds() = default;
 
+  /** None yet, of the diamonds above scale 0. */
   MapBounds(const DiamondSet& diamonds, int surfaceCount)
   {
     const std::vector<Brick>& last = diamonds.Level(0).Bricks; // in the order of ranks
