@@ -303,6 +303,74 @@ TEST(Simplification, HoldsTheAllowanceOfEachPlace)
   EXPECT_EQ(test::FaultOf(promise, test::TrianglesOf(after), test::TrianglesOf(fine.Mesh)), "");
 }
 
+// Beside each other triangles may be told to stay, or to go far: as what a diamond's error leaves.
+// What is too far away is found, too, in what was simplified without a care for them.
+TEST(Simplification, HoldsTheAllowanceOfEachTriangle)
+{
+  constexpr double slack = 1e-9;
+  constexpr double step = 0.2;
+  std::size_t saved = 0;
+  std::size_t right = 0;
+  const int cases = test::ForRandomSeeds(
+    [&](std::uint32_t seed)
+    {
+      SCOPED_TRACE(seed);
+      test::Random random(seed);
+      const int size = 3 + test::Pick(random, 2);
+      AllowedMesh before = test::MeshOf(test::NoiseField({ size, size, size + 1 }, seed), 0.0, 0.4);
+      const TriangleMesh careless = Simplify(before, SerialFor);
+      for (double& allowance : before.Allowances)
+      {
+        allowance = 0.1 * test::Pick(random, 4);
+      }
+      const TriangleMesh after = Simplify(before, SerialFor, 30 + test::Pick(random, 500));
+      saved += before.Mesh.Triangles.size() - after.Triangles.size();
+
+      const test::SurfaceTriangles originals = test::TrianglesOf(before.Mesh);
+      const test::NearestTriangle result(test::TrianglesOf(after));
+      std::vector<test::NearestTriangle> ofEach;
+      for (std::size_t i = 0; i < originals.size(); ++i)
+      {
+        const double allowance = before.Allowances[i] + slack;
+        test::ForEachSample(originals[i], step,
+          [&](const std::array<double, 3>& place)
+          { EXPECT_LE(result.Distance(place, allowance), allowance); });
+        ofEach.emplace_back(test::SurfaceTriangles{ originals[i] });
+      }
+      const auto expectNear = [&](const reference::SurfaceTriangle& triangle)
+      {
+        test::ForEachSample(triangle, step,
+          [&](const std::array<double, 3>& place)
+          {
+            bool isNear = false;
+            for (std::size_t i = 0; i < ofEach.size() && !isNear; ++i)
+            {
+              const double allowance = before.Allowances[i] + slack;
+              isNear = ofEach[i].Distance(place, allowance) <= allowance;
+            }
+            EXPECT_TRUE(isNear);
+          });
+      };
+      for (const reference::SurfaceTriangle& triangle : test::TrianglesOf(after))
+      {
+        expectNear(triangle);
+      }
+      const PartDistance::Faults faults = FaultsOf(before, careless.Triangles);
+      const test::SurfaceTriangles all = test::TrianglesOf(careless);
+      for (std::uint32_t i = 0; i < all.size(); ++i)
+      {
+        if (std::count(faults.Triangles.begin(), faults.Triangles.end(), i) == 0)
+        {
+          expectNear(all[i]);
+          ++right;
+        }
+      }
+    });
+  EXPECT_GT(cases, 0);
+  EXPECT_GT(saved, 1000);
+  EXPECT_GT(right, 1000);
+}
+
 // Without flips it is 0.106.
 TEST(Simplification, IsNearOnAverage)
 {
