@@ -88,6 +88,7 @@ TEST(MapBounds, BoundTheWayBackFromEveryFlatPatch)
     ASSERT_TRUE(bounds.AreWanted());
     DistanceErrors(hierarchy, Finiteness(field.View()), map.World, true, SerialFor, {}, &bounds);
     const ErrorCode code(DistanceErrorScale(hierarchy.SampleGrid(), map.World));
+    const int before = found;
     hierarchy.Diamonds().ForEach(
       [&](const Place& diamond, std::uint32_t rank)
       {
@@ -109,6 +110,7 @@ TEST(MapBounds, BoundTheWayBackFromEveryFlatPatch)
             }
           });
       });
+    EXPECT_GT(found, before);
   }
   EXPECT_GT(found, all / 20);
 }
