@@ -64,11 +64,11 @@ struct MeshOptions
   double DistanceTolerance = 0.0; ///< the least that it may be away from full resolution
   /** The same in a triangle or tetrahedron, by its corners in the world; none to not measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
-  /** Whether the hierarchy's thresholds tell errors: else they are known to be tolerated only. */
-  bool AreErrorsKnown = true;
-  bool WithThresholds = false; ///< whether triangles have ThresholdsArray; all of them are wanted
   bool MayRefine = true;       ///< whether FarDiamonds are looked at
   bool KeepsInside = false;    ///< whether points on no surface stay
+  bool WithThresholds = false; ///< whether triangles have ThresholdsArray; all of them are wanted
+  /** Whether thresholds tell errors: else it is known only that those of a mesh are tolerated. */
+  bool AreErrorsKnown = true;
 };
 
 /** By triangle, unsigned short: SurfaceExtraction::WriteThresholds(). */
