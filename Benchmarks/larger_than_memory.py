@@ -92,7 +92,7 @@ def main():
     contour.ComputeNormalsOff()
     contour.SetNumberOfThreads(arguments.threads)
     samples = arguments.size[0] * arguments.size[1] * arguments.size[2]
-    print(f"{rank}: {samples / 2**28:.2f} GiB of floats; {memory():.2f} GiB before anything")
+    print(f"{rank}: {samples / 2**28:.2f} GiB of floats; {memory():.3f} GiB before anything")
     for tolerance in (1.0, 0.5):
         contour.SetErrorTolerance(tolerance)
         source.voxels, source.seconds = 0, 0.0
@@ -102,7 +102,7 @@ def main():
         print(
             f"{rank}: tolerance {tolerance}: {contour.GetOutput().GetNumberOfPolys()} triangles in {seconds:.1f} s, of"
             f" which the source {source.seconds:.1f} s for {source.voxels / samples:.2f} times the volume;"
-            f" {memory():.2f} GiB",
+            f" {memory():.3f} GiB",
             flush=True)
 
 

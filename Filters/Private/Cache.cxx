@@ -108,10 +108,17 @@ isodiamond::BuildOptions Cache::OptionsFor(
   return options;
 }
 
+/** Whether errors are measured as soon as there are isovertices, without a mesh before. */
+bool Cache::MeasuresAtOnce(const Need& need)
+{
+  return need.AllErrors || need.RefinedInterior;
+}
+
 void Cache::Build(
   const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task)
 {
-  const isodiamond::BuildOptions options = this->OptionsFor(volume, need.RefinedInterior, task);
+  isodiamond::BuildOptions options = this->OptionsFor(volume, need.RefinedInterior, task);
+  options.InParts = MeasuresAtOnce(need);
   std::list<Entry> added(1);
   Entry& entry = added.front();
   entry.From = this->Current;
@@ -229,7 +236,7 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
     this->Entries.splice(this->Entries.begin(), this->Entries, found);
   }
   // One whose inside has a tolerance of its own is built at once, but for slabs.
-  if (this->Entries.front().Staged && (need.AllErrors || need.RefinedInterior))
+  if (this->Entries.front().Staged && MeasuresAtOnce(need))
   {
     this->MeasureErrors(volume, task);
   }

@@ -120,6 +120,7 @@ private:
   };
 
   isodiamond::BuildOptions OptionsFor(const Volume& volume, bool refineInterior, Task& task) const;
+  static bool MeasuresAtOnce(const Need& need);
   /** Adds an entry, in front. */
   void Build(
     const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task);

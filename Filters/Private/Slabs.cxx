@@ -203,7 +203,7 @@ isodiamond::StagedBuild BuildInSlabs(const Slabs& slabs, const isodiamond::Isore
     [&]
     {
       slabs.ForEach(task, "Reading signs", 0.05, 0.1, Reading::Signs,
-        [&](const Slab& slab) { build->AddSigns(slab.Samples); });
+        [&](const Slab& slab) { build->AddSigns(slab.Samples, slab.Slices); });
     });
   build->Classify();
   isodiamond::InStep(peers,

@@ -69,7 +69,7 @@ StagedBuild BuildInSlabs(const AnySamples& samples, const Isoregion& region, int
   {
     if (isOwn(i))
     {
-      WithSlab(samples, cut[i], [&](const SampleSlab& slab) { build.AddSigns(slab); });
+      WithSlab(samples, cut[i], [&](const SampleSlab& slab) { build.AddSigns(slab, cut[i]); });
     }
   }
   build.Classify();
@@ -272,7 +272,8 @@ TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
     {
       SCOPED_TRACE(seed);
       test::Random random(seed);
-      const RandomCase whole(random, 40, 4000);
+      RandomCase whole(random, 40, 4000);
+      whole.Options.InParts = test::Pick(random, 4) != 0;
       const int peers = 1 + test::Pick(random, std::min(4, whole.Samples.Dimensions[2]));
       const int slabs = peers + test::Pick(random, 5);
       const Encoding& expected = whole.Expected.TheEncoding;
@@ -286,6 +287,39 @@ TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
         [&](const Encoding& found) { test::ExpectSame(found, expected); });
     });
   EXPECT_GT(cases, 0);
+}
+
+// Most of a tall volume is elsewhere: isovertices, errors and triangles that a part needs come from
+// its neighbours, and of large diamonds from beyond.
+TEST(Slabs, OfPeersMakeTheSameInPartsOfATallVolume)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const test::Field& field : { test::WaveField({ 17, 20, 131 }),
+         test::NoiseField({ 9, 12, 129 }, 3), test::SphereField({ 40, 33, 100 }),
+         test::SparseField({ 33, 17, 120 }, 4), test::SpikeField({ 12, 40, 97 }, nan) })
+  {
+    SCOPED_TRACE(field.Name);
+    for (const Isoregion& region :
+      { Isoregion(field.Isovalue), Isoregion(field.Isovalue - 1.0, field.Isovalue + 0.5) })
+    {
+      BuildOptions options = test::Distance();
+      options.InParts = true;
+      options.RefineInterior = region.IsVolume();
+      options.PreserveFeatures = !region.IsVolume();
+      for (const int peers : { 2, 5 })
+      {
+        const Whole expected(Model::Minimal, field.View(), region, options);
+        ForEachPeer(
+          peers, options,
+          [&](const BuildOptions& together)
+          {
+            return BuildInSlabs(field.View(), region, peers + 1, SerialFor, together)
+              .Finish(Model::Minimal, SampleView<float>(), SerialFor, together);
+          },
+          [&](const Encoding& found) { test::ExpectSame(found, expected.TheEncoding); });
+      }
+    }
+  }
 }
 
 TEST(Slabs, OfPeersRefineToTheSameMesh)
@@ -329,35 +363,43 @@ TEST(Slabs, OfPeersFailForAllOfThem)
     { "Classifying diamonds", "Measuring errors", "Finding thresholds", "of one tolerance" })
   {
     const bool isOne = phase == "of one tolerance";
-    std::atomic<int> failed(0);
-    Gathering(3).Run(
-      [&](Peers& own)
+    for (const bool inParts : { false, true })
+    {
+      if (isOne && inParts)
       {
-        BuildOptions together = test::Distance();
-        together.Together = &own;
-        together.Report = [&](const char* current, double, double)
+        continue; // there is no mesh before the end
+      }
+      std::atomic<int> failed(0);
+      Gathering(3).Run(
+        [&](Peers& own)
         {
-          if (own.Rank() == 1 && current == (isOne ? "Measuring errors" : phase))
+          BuildOptions together = test::Distance();
+          together.Together = &own;
+          together.InParts = inParts;
+          together.Report = [&](const char* current, double, double)
           {
-            throw std::runtime_error("stopped");
-          }
-        };
-        try
-        {
-          StagedBuild staged = BuildInSlabs(field.View(), field.Isovalue, 5, SerialFor, together);
-          if (isOne)
+            if (own.Rank() == 1 && current == (isOne ? "Measuring errors" : phase))
+            {
+              throw std::runtime_error("stopped");
+            }
+          };
+          try
           {
-            staged.RefineTo(
-              [](const Place&) { return 0.5; }, SampleView<float>(), SerialFor, together);
+            StagedBuild staged = BuildInSlabs(field.View(), field.Isovalue, 5, SerialFor, together);
+            if (isOne)
+            {
+              staged.RefineTo(
+                [](const Place&) { return 0.5; }, SampleView<float>(), SerialFor, together);
+            }
+            staged.Finish(Model::Minimal, SampleView<float>(), SerialFor, together);
           }
-          staged.Finish(Model::Minimal, SampleView<float>(), SerialFor, together);
-        }
-        catch (const std::runtime_error& problem)
-        {
-          failed += (std::string(problem.what()) == "stopped") == (own.Rank() == 1) ? 1 : 0;
-        }
-      });
-    EXPECT_EQ(failed, 3) << phase;
+          catch (const std::runtime_error& problem)
+          {
+            failed += (std::string(problem.what()) == "stopped") == (own.Rank() == 1) ? 1 : 0;
+          }
+        });
+      EXPECT_EQ(failed, 3) << phase << (inParts ? " in parts" : "");
+    }
   }
 }
 

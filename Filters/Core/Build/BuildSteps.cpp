@@ -2,6 +2,7 @@
 #include "Build/BuildSteps.h"
 
 #include "Build/ActivationThresholds.h"
+#include "Build/Assembly.h"
 #include "Build/ToleratedSet.h"
 #include "DistanceError/DistanceError.h"
 #include "Hierarchy/Encoder.h"
@@ -26,19 +27,21 @@ namespace
 /**
  * Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
  * ancestors, and what follows these.
+ * @param part that the members are of; null for all
  * @param haveFollowers without, what something else than a threshold leads to may have any error
  */
-void RaiseToThresholds(const Grid& grid, const DiamondSet& members, bool haveFollowers,
-  const ParallelFor& parallelFor, DiamondCodes& codes)
+void RaiseToThresholds(const Grid& grid, const DiamondSet& members, const PeerPart* part,
+  bool haveFollowers, const ParallelFor& parallelFor, DiamondCodes& codes)
 {
   const std::vector<ErrorCode::Type> own =
     haveFollowers ? codes.Surface : std::vector<ErrorCode::Type>();
-  codes.Surface = ActivationThresholds(grid, members, std::move(codes.Surface), parallelFor);
+  codes.Surface = ActivationThresholds(grid, members, std::move(codes.Surface), parallelFor, part);
   codes.Followers = FindFollowers(own, codes.Surface);
   std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
   if (!codes.Interior.empty())
   {
-    codes.Interior = SaturateUpward(grid, members, codes.Interior, codes.Followers, parallelFor);
+    codes.Interior =
+      SaturateUpward(grid, members, codes.Interior, codes.Followers, parallelFor, part);
     std::fill_n(codes.Interior.begin(), 8, ErrorCode::Always);
   }
 }
@@ -112,6 +115,33 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
   shorten(arrays.InteriorCodes, arrays.InteriorCodes.empty() ? 0 : diamonds);
 }
 
+/** The diamonds of a mask, or of two, and the corners of the base cube. */
+DiamondSet SetOf(const Grid& grid, const DiamondMask& mask, const DiamondMask* other = nullptr)
+{
+  DiamondSet set(grid);
+  set.Append(grid.Depth(), 0, CornerBrick());
+  for (int scale = grid.Depth() - 1; scale >= 0; --scale)
+  {
+    for (std::int64_t index = 0; index < mask.Box(scale).Size(); ++index)
+    {
+      BrickMask bits{};
+      for (const BrickMask* some :
+        { mask.Find(scale, index), other != nullptr ? other->Find(scale, index) : nullptr })
+      {
+        for (int z = 0; z < 8 && some != nullptr; ++z)
+        {
+          bits[z] |= (*some)[z];
+        }
+      }
+      if (bits != BrickMask{})
+      {
+        set.Append(scale, index, bits);
+      }
+    }
+  }
+  return set;
+}
+
 SignLattice SignsOf(const Source& source, const Isoregion& region, const BuildOptions& options,
   const ParallelFor& parallelFor)
 {
@@ -133,7 +163,8 @@ BuildSteps::BuildSteps(const Source& source, const Isoregion& region, const Buil
 }
 
 BuildSteps::BuildSteps(const Source& source, SignLattice signs, const Isoregion& region,
-  const BuildOptions& options, double errorScale, const ParallelFor& parallelFor)
+  const BuildOptions& options, double errorScale, const ParallelFor& parallelFor,
+  const std::vector<int>& begins)
   : Origin(source)
   , Options(options)
   , For(parallelFor)
@@ -147,8 +178,17 @@ BuildSteps::BuildSteps(const Source& source, SignLattice signs, const Isoregion&
     this->ForTopology =
       RefinedForTopology(grid, *this->Signs, this->Kinds.Active, options, parallelFor);
   }
+  const std::int64_t relevantCount = this->Kinds.Members.Size();
   this->Kinds.Members.Insert(grid.Depth(), 0, CornerBrick());
-  this->Members = DiamondSet(grid, this->Kinds.Members);
+  if (!begins.empty())
+  {
+    this->Part.emplace(grid, begins, std::move(this->Kinds.Members), *options.Together);
+    this->Members = this->Part->TakeMembers();
+  }
+  else
+  {
+    this->Members = DiamondSet(grid, this->Kinds.Members);
+  }
   this->Kinds.Members = DiamondMask();
 
   this->Header.TheModel = Model::Relevant;
@@ -164,7 +204,7 @@ BuildSteps::BuildSteps(const Source& source, SignLattice signs, const Isoregion&
   this->Header.RemovedPieces = this->Signs->RemovedPieces();
   this->Header.ActiveCount = this->Kinds.Active.Size();
   this->Header.CreationCount = this->Kinds.Creation.Size();
-  this->Header.RelevantCount = this->Members.Size() - 8 - this->Header.ActiveCount;
+  this->Header.RelevantCount = relevantCount - this->Header.ActiveCount;
 }
 
 Encoded BuildSteps::PlaceIsovertices(double begin, double end, bool withEdges) const
@@ -214,26 +254,41 @@ DiamondCodes BuildSteps::MeasureDistances(
           : InteriorCodes(this->Origin, this->SignsToGoBy(), this->Members, this->For);
       }
       own = OwnDistanceCodes(this->Origin, isFinite, relevant, this->SignsToGoBy(), this->Options,
-        std::move(own), bounds, this->For);
+        this->Part ? &this->Part->Diamonds() : nullptr, std::move(own), bounds, this->For);
     });
-  if (peers != nullptr)
+  this->Merge(own.Surface);
+  if (this->Part)
   {
-    peers->Max(own.Surface.data(), this->Members.Size());
+    bounds.Merge(*this->Part);
+  }
+  else if (peers != nullptr)
+  {
     bounds.Merge(*peers);
   }
-  InStep(peers,
+  this->Do("Measuring errors", 0.5, 0.8,
     [&]
     {
-      Tell(this->Options, "Measuring errors", 0.5, 0.8);
       const BeforeWayBack known{ this->Options.Hidden, &bounds,
-        ActivationThresholds(this->Origin.SampleGrid, this->Members, own.Surface, this->For) };
+        ActivationThresholds(
+          this->Origin.SampleGrid, this->Members, own.Surface, this->For, this->PartOfPeers()),
+        this->PartOfPeers() };
       RaiseByWayBack(relevant, this->Options.World, known, own.Surface, Loops(this->For, peers));
     });
-  if (peers != nullptr)
-  {
-    peers->Max(own.Surface.data(), this->Members.Size());
-  }
+  this->Merge(own.Surface);
   return own;
+}
+
+/** Errors that peers have found. */
+void BuildSteps::Merge(std::vector<ErrorCode::Type>& codes) const
+{
+  if (this->Part)
+  {
+    this->Part->Max(codes);
+  }
+  else if (this->Options.Together != nullptr)
+  {
+    this->Options.Together->Max(codes.data(), static_cast<std::int64_t>(codes.size()));
+  }
 }
 
 std::vector<ErrorCode::Type> BuildSteps::RefineTo(const IsodiamondHierarchy& relevant,
@@ -272,9 +327,12 @@ void BuildSteps::SetThresholds(const std::vector<ErrorCode::Type>& thresholds, E
 
 void BuildSteps::FindThresholds(DiamondCodes& codes) const
 {
-  Tell(this->Options, "Finding thresholds", 0.8, 0.9);
-  RaiseToThresholds(this->Origin.SampleGrid, this->Members,
-    this->Header.Metric == ErrorMetric::Distance, this->For, codes);
+  this->Do("Finding thresholds", 0.8, 0.9,
+    [&]
+    {
+      RaiseToThresholds(this->Origin.SampleGrid, this->Members, this->PartOfPeers(),
+        this->Header.Metric == ErrorMetric::Distance, this->For, codes);
+    });
 }
 
 Encoding BuildSteps::Complete(Model model, Encoding relevant, DiamondCodes thresholds) const
@@ -288,6 +346,41 @@ Encoding BuildSteps::Complete(Model model, Encoding relevant, DiamondCodes thres
   return relevant;
 }
 
+Encoding BuildSteps::CompleteOfParts(Model model, Encoding relevant,
+  const IsodiamondHierarchy& hierarchy, DiamondCodes thresholds) const
+{
+  DiamondSet kept;
+  this->Options.Together->Together(
+    [&]
+    {
+      SetCodes(relevant, this->Members, std::move(thresholds));
+      relevant.Header.TheModel = model;
+      const Grid& grid = this->Origin.SampleGrid;
+      kept = model == Model::Minimal ? SetOf(grid, this->Kinds.Active, &this->Kinds.Creation)
+                                     : SetOf(grid, this->Part->All());
+    });
+  return Assemble(*this->Part, std::move(relevant), hierarchy, kept);
+}
+
+/** Work that is told first, which may stop it. Where peers have parts it asks them by itself. */
+template <typename Work>
+void BuildSteps::Do(const char* phase, double begin, double end, const Work& work) const
+{
+  InStep(this->Options.Together,
+    [&]
+    {
+      Tell(this->Options, phase, begin, end);
+      if (!this->Part)
+      {
+        work();
+      }
+    });
+  if (this->Part)
+  {
+    work();
+  }
+}
+
 /** What is always subdivided, whatever its error. */
 void BuildSteps::SubdivideAlways(DiamondCodes& codes) const
 {
@@ -296,7 +389,13 @@ void BuildSteps::SubdivideAlways(DiamondCodes& codes) const
     RefineAtHiddenCells(*this->Options.Hidden, this->Kinds.Active, this->Members, this->For, codes);
   }
   this->ForTopology.ForEach(
-    [&](const Place& place) { codes.Surface[this->Members.Rank(place)] = ErrorCode::Always; });
+    [&](const Place& place)
+    {
+      if (const std::int64_t rank = this->Members.Rank(place); rank != DiamondSet::None)
+      {
+        codes.Surface[rank] = ErrorCode::Always; // others have the others
+      }
+    });
 }
 
 void BuildSteps::DropSigns()

@@ -4,6 +4,7 @@
 
 #include "Build/Classification.h"
 #include "Build/OwnErrors.h"
+#include "Field/PeerPart.h"
 
 #include <functional>
 #include <optional>
@@ -23,14 +24,18 @@ public:
   BuildSteps(const Source& source, const Isoregion& region, const BuildOptions& options,
     double errorScale, const ParallelFor& parallelFor);
 
-  /** The same of a volume that comes in slabs. @param signs of all of its samples, without the
-   *  pieces that are too small */
+  /** The same of a volume that comes in slabs.
+   *  @param signs of all of its samples, without the pieces that are too small
+   *  @param begins of the peers' slabs, where each is to have a part; else empty */
   BuildSteps(const Source& source, SignLattice signs, const Isoregion& region,
-    const BuildOptions& options, double errorScale, const ParallelFor& parallelFor);
+    const BuildOptions& options, double errorScale, const ParallelFor& parallelFor,
+    const std::vector<int>& begins = {});
 
   /** What is known of an RI, whose error codes are Always, before its isovertices. */
   const EncodingHeader& RelevantHeader() const { return this->Header; }
   const DiamondSet& Relevant() const { return this->Members; }
+  /** That the diamonds are of; null if they are all. */
+  const PeerPart* PartOfPeers() const { return this->Part ? &*this->Part : nullptr; }
   const SignLattice* SignsIfKept() const { return this->Signs ? &*this->Signs : nullptr; }
 
   /** An RI without errors. @param begin, end of its part of the whole @param withEdges see Encode()
@@ -46,9 +51,12 @@ public:
   /** Field errors that are known already: of a volume that came in slabs. */
   void SetFieldCodes(DiamondCodes codes) { this->FieldCodes = std::move(codes); }
 
+  ///@{
+  /** Done with peers, as what follows. */
   DiamondCodes MeasureField() const;
   DiamondCodes MeasureDistances(
     const IsodiamondHierarchy& relevant, const Finiteness& isFinite) const;
+  ///@}
 
   /** What one mesh subdivides, in the place of thresholds: ToleratedSet(). Not where what is inside
    *  is refined. @param accepted the greatest code that is tolerated of a diamond */
@@ -64,7 +72,14 @@ public:
 
   Encoding Complete(Model model, Encoding relevant, DiamondCodes thresholds) const;
 
+  /** The same where this process has a part. @param hierarchy of the encoding */
+  Encoding CompleteOfParts(Model model, Encoding relevant, const IsodiamondHierarchy& hierarchy,
+    DiamondCodes thresholds) const;
+
 private:
+  template <typename Work>
+  void Do(const char* phase, double begin, double end, const Work& work) const;
+  void Merge(std::vector<ErrorCode::Type>& codes) const;
   void SubdivideAlways(DiamondCodes& codes) const;
   BuildSigns SignsToGoBy() const;
 
@@ -76,6 +91,7 @@ private:
   Classification Kinds;
   std::optional<DiamondCodes> FieldCodes; ///< if they are known already
   DiamondMask ForTopology;                ///< empty if topology need not be preserved
+  std::optional<PeerPart> Part;
   DiamondSet Members;
   EncodingHeader Header;
 };

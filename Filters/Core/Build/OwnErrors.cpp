@@ -80,10 +80,11 @@ std::vector<ErrorCode::Type> InteriorCodes(const Source& source, const BuildSign
 
 DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
   const IsodiamondHierarchy& relevant, const BuildSigns& signs, const BuildOptions& options,
-  DiamondCodes own, MapBounds& bounds, const ParallelFor& parallelFor)
+  const DiamondPart* part, DiamondCodes own, MapBounds& bounds, const ParallelFor& parallelFor)
 {
   own.Surface = DistanceErrors(relevant, isFinite, options.World, options.PreserveFeatures,
-    Loops(parallelFor, options.Together), std::move(own.Surface), &bounds);
+    part != nullptr ? Loops(parallelFor) : Loops(parallelFor, options.Together),
+    std::move(own.Surface), &bounds, part);
   ForEachMember(relevant.Diamonds(), parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {

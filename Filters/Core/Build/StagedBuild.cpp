@@ -127,11 +127,16 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
   DiamondCodes codes = options.Metric == ErrorMetric::Field
     ? kept.Done->MeasureField()
     : kept.Done->MeasureDistances(*kept.Hierarchy, *kept.IsFinite);
+  kept.Done->FindThresholds(codes);
+  if (kept.Done->PartOfPeers() != nullptr)
+  {
+    return kept.Done->CompleteOfParts(
+      model, std::move(kept.Relevant), *kept.Hierarchy, std::move(codes));
+  }
   Encoding finished;
   InStep(options.Together,
     [&]
     {
-      kept.Done->FindThresholds(codes);
       kept.Hierarchy.reset();
       finished = kept.Done->Complete(model, std::move(kept.Relevant), std::move(codes));
     });
@@ -151,6 +156,38 @@ SliceRange OfCentres(const Grid& grid, const StreamedBuild::Slices& slices)
 
 }
 
+/** The slices of the slabs that a process has. */
+class OwnSlices
+{
+public:
+  void Add(const StreamedBuild::Slices& slices)
+  {
+    this->AreBehindEachOther =
+      this->AreBehindEachOther && (this->Begin == this->End || slices.Begin == this->End);
+    this->Begin = this->Begin == this->End ? slices.Begin : this->Begin;
+    this->End = slices.End;
+  }
+
+  /** Where those of all peers begin, if together they are all there are, one behind the other; else
+   *  nothing. */
+  std::vector<int> BeginsOf(Peers& peers, int all) const
+  {
+    std::vector<double> begins(peers.Count(), 0.0);
+    begins[peers.Rank()] = this->Begin;
+    peers.Max(begins.data(), peers.Count());
+    begins.push_back(all);
+    const bool fits = this->AreBehindEachOther && this->End == begins[peers.Rank() + 1];
+    return peers.Any(!fits || begins.front() != 0.0)
+      ? std::vector<int>()
+      : std::vector<int>(begins.begin(), begins.end() - 1);
+  }
+
+private:
+  bool AreBehindEachOther = true;
+  int Begin = 0;
+  int End = 0;
+};
+
 /** What slabs have told. */
 struct StreamedBuild::Progress
 {
@@ -163,6 +200,7 @@ struct StreamedBuild::Progress
   Isoregion Region;
   std::optional<SignLattice> Signs; ///< until diamonds are classified: they have them then
   FiniteRangeOfSlabs Range;
+  OwnSlices Own;
   std::optional<GatheredSamples> Coarse;  ///< where field errors are asked for, until then
   std::optional<StreamedEncoder> Encoder; ///< from then on
   std::optional<StreamedFieldCodes> FieldCodes;
@@ -211,8 +249,9 @@ std::vector<StreamedBuild::Slices> StreamedBuild::Cut(
   return cut;
 }
 
-void StreamedBuild::AddSigns(const SampleSlab& slab)
+void StreamedBuild::AddSigns(const SampleSlab& slab, const Slices& slices)
 {
+  this->Current->Own.Add(slices);
   this->Current->Signs->Add(slab, this->Kept->For);
   this->Current->Range.Add(slab.Samples);
   this->Kept->IsFinite->Add(slab);
@@ -237,6 +276,9 @@ void StreamedBuild::Classify()
       current.Coarse->Merge(*peers);
     }
   }
+  const std::vector<int> begins = peers != nullptr && kept.Options.InParts
+    ? current.Own.BeginsOf(*peers, kept.TheGrid.Dimensions()[2])
+    : std::vector<int>();
   InStep(peers,
     [&]
     {
@@ -245,7 +287,7 @@ void StreamedBuild::Classify()
       const ValueRange range = current.Range.Range();
       kept.From.FieldScale = ErrorCode(range.Maximum - range.Minimum).Scale();
       kept.Done.emplace(kept.From, std::move(*current.Signs), current.Region, kept.Options,
-        kept.ErrorScale(), kept.For);
+        kept.ErrorScale(), kept.For, begins);
       current.Signs.reset();
       current.Encoder.emplace(kept.Done->RelevantHeader(), kept.TheGrid, kept.Done->Relevant(),
         ErrorCode::Always, *kept.Done->SignsIfKept(), kept.For);
@@ -256,6 +298,10 @@ void StreamedBuild::Classify()
         current.Coarse.reset();
       }
     });
+  if (kept.Done->PartOfPeers() != nullptr)
+  {
+    current.Encoder->WantTogether(*peers);
+  }
 }
 
 void StreamedBuild::AddValues(const SampleSlab& slab, const Slices& slices)
@@ -278,10 +324,11 @@ StagedBuild StreamedBuild::Finish()
   Peers* const peers = this->Kept->Options.Together;
   if (peers != nullptr)
   {
-    this->Current->Encoder->Merge(*peers);
+    const PeerPart* const part = this->Kept->Done->PartOfPeers();
+    this->Current->Encoder->Merge(*peers, part);
     if (this->Current->FieldCodes)
     {
-      this->Current->FieldCodes->Merge(*peers);
+      this->Current->FieldCodes->Merge(*peers, part);
     }
   }
   InStep(peers,

@@ -76,7 +76,9 @@ private:
  * bit, however it is cut.
  *
  * Peers (BuildOptions::Together) have some slabs each: they add these, and skip those of others.
- * All of them classify and finish, and have the whole hierarchy in the end.
+ * All of them classify and finish, and have the whole hierarchy in the end; until then, if they ask
+ * for that (BuildOptions::InParts) and have their slabs one behind the other, a part of it
+ * (DiamondPart). Then there is nothing to be done in between: StagedBuild::Finish() has to follow.
  */
 class StreamedBuild
 {
@@ -104,8 +106,8 @@ public:
   /** Cuts a volume into so many slabs, or fewer if it has not as many slices. */
   static std::vector<Slices> Cut(const std::array<int, 3>& dimensions, int slabs);
 
-  /** The first time. What slabs share is not needed. */
-  void AddSigns(const SampleSlab& slab);
+  /** The first time. What slabs share is not needed. @param slices of the cut that the slab is */
+  void AddSigns(const SampleSlab& slab, const Slices& slices);
 
   /** Between the times: what peers have added, and which diamonds there are. */
   void Classify();

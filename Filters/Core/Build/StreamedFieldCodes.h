@@ -31,8 +31,8 @@ public:
    *  @param own slices @param centres the slices of the centres of small domains */
   void Add(const SampleSlab& slab, const SliceRange& own, const SliceRange& centres);
 
-  /** What peers have added. */
-  void Merge(Peers& peers);
+  /** What peers have added. @param part that the members are of; null if all peers have the same */
+  void Merge(Peers& peers, const PeerPart* part);
 
   /** Once all slabs have been added. */
   DiamondCodes Finish();

@@ -9,7 +9,7 @@ void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengt
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const Loops& loops)
 {
-  MeasureAllBack(relevant, lengths, known, code, codes, loops);
+  AllWaysBack(relevant, lengths, known, code, codes).Run(loops);
 }
 
 }

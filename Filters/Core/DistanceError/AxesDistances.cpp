@@ -24,7 +24,7 @@ void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const Loops& loops)
 {
-  MeasureAllBack(relevant, lengths, known, code, codes, loops);
+  AllWaysBack(relevant, lengths, known, code, codes).Run(loops);
 }
 
 void TestTolerances(const TestedSurface& surface, const TestedHierarchy& tested,

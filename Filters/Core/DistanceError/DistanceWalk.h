@@ -357,9 +357,11 @@ private:
     const FinePosition* const first = positions.data() + holder.Begin;
     const std::size_t count = holder.End - holder.Begin;
     const double squared = search.Propose(tetrahedron, first, count, farthest);
-    if (this->Errors.AreBoundsWanted() && squared < std::numeric_limits<double>::infinity())
+    if (this->Errors.AreBoundsWanted())
     {
-      const double onBorder = search.SquaredToBorder(tetrahedron, holder.Tetrahedron, first, count);
+      const double onBorder = squared < std::numeric_limits<double>::infinity()
+        ? search.SquaredToBorder(tetrahedron, holder.Tetrahedron, first, count)
+        : squared;
       this->Errors.SetBound(
         this->Clusters.Surface(), holder.Rank, tetrahedron, std::max(squared, onBorder));
     }

@@ -2,6 +2,8 @@
 #include "DistanceError/FineSurface.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 namespace isodiamond
 {
@@ -123,38 +125,51 @@ void FineSurface::CellBrick::SumUp()
 }
 
 FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
-  const HiddenCells* hidden, const ParallelFor& parallelFor)
+  const HiddenCells* hidden, const ParallelFor& parallelFor, const PeerPart* part)
   : TheGrid(hierarchy.SampleGrid())
   , Hidden(hidden)
+  , Part(part)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
     this->Count[axis] = (this->TheGrid.Last(axis) + 7) / 8;
   }
   const std::int64_t all = std::int64_t{ 1 } * this->Count[0] * this->Count[1] * this->Count[2];
-  const auto placeOf = [&](std::int64_t index)
-  {
-    return Point{ static_cast<int>(index % this->Count[0]),
-      static_cast<int>(index / this->Count[0] % this->Count[1]),
-      static_cast<int>(index / this->Count[0] / this->Count[1]) };
-  };
 
   // The bricks of cells next to which there are diamonds.
-  this->Lookup.assign(all, -1);
+  this->Lookup.assign(all, None);
   const BrickLevel& level = hierarchy.Diamonds().Level(0);
+  const auto hasDiamonds = [&](const Point& brick)
+  {
+    const std::int64_t index = level.Box.Index(brick);
+    return index >= 0 &&
+      (part != nullptr ? part->All().Find(0, index) != nullptr : level.Find(index) != nullptr);
+  };
   std::vector<std::int64_t> indices;
   for (std::int64_t index = 0; index < all; ++index)
   {
+    const Point place = this->PlaceOf(index);
     bool any = false;
     for (int i = 0; i < 8 && !any; ++i)
     {
-      any = level.Find(8 * (placeOf(index) + Point{ i & 1, (i >> 1) & 1, i >> 2 })) != nullptr;
+      any = hasDiamonds(place + Point{ i & 1, (i >> 1) & 1, i >> 2 });
     }
-    if (any)
+    if (any && part != nullptr && !part->Diamonds().Owns(8 * place[2]))
+    {
+      this->Lookup[index] = NotHere;
+    }
+    else if (any)
     {
       this->Lookup[index] = static_cast<std::int32_t>(indices.size());
       indices.push_back(index);
     }
+  }
+  if (part != nullptr)
+  {
+    this->Wanted = std::vector<std::atomic<std::uint8_t>>(all);
+    this->Note({ { 0, 0, part->Diamonds().Begin() - 8 },
+      { this->TheGrid.Last(0), this->TheGrid.Last(1),
+        std::min(part->Diamonds().End(), this->TheGrid.Last(2)) + 8 } });
   }
 
   // Count.
@@ -164,7 +179,7 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
     [&](std::int64_t i)
     {
       CellBrick& brick = this->Bricks[i];
-      Reader(hierarchy, surface, hidden, placeOf(indices[i]))
+      Reader(hierarchy, surface, hidden, this->PlaceOf(indices[i]))
         .ForEachPatch([&](int cell, const HalfPlace&, const SurfacePatch& patch)
           { brick.Add(cell, patch.TriangleCount); });
       brick.SumUp();
@@ -172,12 +187,17 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
 
   // Prefix sum.
   std::int64_t next = 0;
-  for (CellBrick& brick : this->Bricks)
+  for (const CellBrick& brick : this->Bricks)
   {
-    brick.First = next;
     next += brick.Before[CellBrick::Rows];
   }
   this->Triangles.resize(next);
+  const StoredTriangle* first = this->Triangles.data();
+  for (CellBrick& brick : this->Bricks)
+  {
+    brick.First = first;
+    first += brick.Before[CellBrick::Rows];
+  }
 
   // Write.
   ForEachIndex(parallelFor, brickCount, 16,
@@ -189,13 +209,13 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
         return;
       }
       std::array<StoredTriangle*, CellBrick::Cells> write;
-      StoredTriangle* begin = this->Triangles.data() + brick.First;
+      StoredTriangle* begin = this->Triangles.data() + (brick.First - this->Triangles.data());
       for (int cell = 0; cell < CellBrick::Cells; ++cell)
       {
         write[cell] = begin;
         begin += brick.Count(cell);
       }
-      const Reader reader(hierarchy, surface, hidden, placeOf(indices[i]));
+      const Reader reader(hierarchy, surface, hidden, this->PlaceOf(indices[i]));
       reader.ForEachPatch(
         [&](int cell, const HalfPlace& tetrahedron, const SurfacePatch& patch)
         {
@@ -205,6 +225,113 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
           }
         });
     });
+}
+
+void FineSurface::Note(const CellBox& box) const
+{
+  for (int z = std::max(box.Low[2] >> 3, 0);
+       z <= std::min((box.High[2] - 1) >> 3, this->Count[2] - 1); ++z)
+  {
+    for (int y = box.Low[1] >> 3; y <= (box.High[1] - 1) >> 3; ++y)
+    {
+      for (int x = box.Low[0] >> 3; x <= (box.High[0] - 1) >> 3; ++x)
+      {
+        const std::int64_t index = this->Index({ x, y, z });
+        if (this->Lookup[index] == NotHere)
+        {
+          this->Wanted[index].store(1, std::memory_order_relaxed);
+        }
+      }
+    }
+  }
+}
+
+void FineSurface::Fetch()
+{
+  std::vector<std::uint8_t> wanted(this->Wanted.begin(), this->Wanted.end());
+  this->Part->Others().Or(wanted);
+  // Some at once: nobody needs more memory for what others want.
+  constexpr std::size_t some = 64;
+  std::vector<std::int64_t> indices;
+  for (std::size_t index = 0; index < wanted.size(); ++index)
+  {
+    if (wanted[index] != 0)
+    {
+      indices.push_back(static_cast<std::int64_t>(index));
+    }
+    if (indices.size() == some || (index + 1 == wanted.size() && !indices.empty()))
+    {
+      this->Fetch(indices);
+      indices.clear();
+    }
+  }
+}
+
+void FineSurface::Fetch(const std::vector<std::int64_t>& indices)
+{
+  // How many triangles each has.
+  std::vector<std::uint16_t> sizes(indices.size(), 0);
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    if (const std::int32_t brick = this->Lookup[indices[i]]; brick >= 0)
+    {
+      sizes[i] = this->Bricks[brick].Before[CellBrick::Rows];
+    }
+  }
+  this->Part->Others().Max(sizes.data(), static_cast<std::int64_t>(sizes.size()));
+
+  // Prefix sum.
+  std::vector<std::size_t> begins(indices.size() + 1, 0);
+  std::inclusive_scan(
+    sizes.begin(), sizes.end(), begins.begin() + 1, std::plus<>(), std::size_t{ 0 });
+
+  // The triangles, and how many there are in each cell.
+  constexpr std::size_t counts = CellBrick::Cells / 2;
+  std::vector<StoredTriangle> triangles(begins.back());
+  std::vector<std::uint8_t> inCells(indices.size() * counts, 0);
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    if (const std::int32_t brick = this->Lookup[indices[i]]; brick >= 0)
+    {
+      const CellBrick& own = this->Bricks[brick];
+      std::copy_n(own.First, sizes[i], triangles.begin() + begins[i]);
+      std::copy(own.Counts.begin(), own.Counts.end(), inCells.begin() + i * counts);
+    }
+  }
+  this->Part->Others().Or(triangles);
+  this->Part->Others().Or(inCells);
+
+  // Keep what was wanted here.
+  std::vector<StoredTriangle> kept;
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    if (this->Wanted[indices[i]] != 0)
+    {
+      kept.insert(kept.end(), triangles.begin() + begins[i], triangles.begin() + begins[i + 1]);
+    }
+  }
+  kept.shrink_to_fit();
+  const StoredTriangle* next = kept.data();
+  this->OfOthers.push_back(std::move(kept));
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    if (this->Wanted[indices[i]].exchange(0) == 0)
+    {
+      continue;
+    }
+    std::int32_t& entry = this->Lookup[indices[i]];
+    entry = None;
+    if (sizes[i] > 0)
+    {
+      entry = static_cast<std::int32_t>(this->Bricks.size());
+      CellBrick brick;
+      brick.First = next;
+      next += sizes[i];
+      std::copy_n(inCells.begin() + i * counts, counts, brick.Counts.begin());
+      brick.SumUp();
+      this->Bricks.push_back(brick);
+    }
+  }
 }
 
 bool FineSurface::AnyHidden(const CellBox& box) const

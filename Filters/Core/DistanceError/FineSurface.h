@@ -4,11 +4,12 @@
 
 #include "DistanceError/IsovertexClusters.h"
 #include "Field/HiddenCells.h"
-#include "Field/Parallel.h"
+#include "Field/PeerPart.h"
 #include "Lattice/DiamondTetrahedra.h"
 #include "Patches/SurfacePatch.h"
 
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cstdint>
 #include <vector>
@@ -45,18 +46,31 @@ struct CellBox
 /**
  * The triangles of a surface of full resolution by cell: 6 bytes a triangle, and 0.8 for each cell
  * of bricks of 8 x 8 x 8 cells that have some.
+ *
+ * In a part of a hierarchy those of its own bricks are there. Who looks at others learns that they
+ * are Elsewhere, and that is noted: in the next Fetch() the peers who own them give them.
  */
 class FineSurface
 {
 public:
   using Triangle = std::array<FinePosition, 3>;
 
-  /** @param hidden cells that count as empty; null for none; must outlive it */
+  /** Thrown where triangles are wanted that are not here yet. */
+  struct Elsewhere
+  {
+  };
+
+  /** @param hidden cells that count as empty; null for none; must outlive it
+   *  @param part that the hierarchy is; null for all; must outlive it */
   FineSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
-    const ParallelFor& parallelFor);
+    const ParallelFor& parallelFor, const PeerPart* part = nullptr);
+
+  /** Brings what has been noted, or else what is next to its own bricks. By all peers. */
+  void Fetch();
 
   /** Calls body(cell, triangles) for the cells of a box that have some, where `triangles` calls
-   *  what it is given with each. Stops where body returns false. @return whether it did not */
+   *  what it is given with each. Stops where body returns false. @return whether it did not
+   *  @throws Elsewhere */
   template <typename Body>
   bool ForEachCell(const CellBox& box, const Body& body) const
   {
@@ -67,6 +81,11 @@ public:
         for (int x = box.Low[0] >> 3; x <= (box.High[0] - 1) >> 3; ++x)
         {
           const std::int32_t brick = this->Lookup[this->Index({ x, y, z })];
+          if (brick == NotHere)
+          {
+            this->Note(box);
+            throw Elsewhere{};
+          }
           if (brick >= 0 && !this->ForEachCellOfBrick({ x, y, z }, this->Bricks[brick], box, body))
           {
             return false;
@@ -138,7 +157,7 @@ private:
     static constexpr int Cells = 512;
     static constexpr int Rows = 64; ///< of 8 cells along x
 
-    std::int64_t First = 0;                       ///< its triangles in the list of all
+    const StoredTriangle* First = nullptr;        ///< its triangles
     std::array<std::uint16_t, Rows + 1> Before{}; ///< those of rows before a row, from there on
     std::array<std::uint8_t, Cells / 2> Counts{}; ///< those of two cells: each has 12 at the most
 
@@ -190,7 +209,7 @@ private:
         {
           continue;
         }
-        const StoredTriangle* next = this->Triangles.data() + brick.First + brick.Before[row];
+        const StoredTriangle* next = brick.First + brick.Before[row];
         for (int x = 0; x < high[0]; ++x)
         {
           const StoredTriangle* const begin = next;
@@ -212,14 +231,33 @@ private:
     return (std::int64_t{ brick[2] } * this->Count[1] + brick[1]) * this->Count[0] + brick[0];
   }
 
+  Point PlaceOf(std::int64_t index) const
+  {
+    return { static_cast<int>(index % this->Count[0]),
+      static_cast<int>(index / this->Count[0] % this->Count[1]),
+      static_cast<int>(index / this->Count[0] / this->Count[1]) };
+  }
+
+  /** Wants what is elsewhere of the bricks of a box. By any thread. */
+  void Note(const CellBox& box) const;
+
+  /** Brings some bricks, each from who owns it, to those who want it. */
+  void Fetch(const std::vector<std::int64_t>& indices);
+
   class Reader;
+
+  static constexpr std::int32_t None = -1;    ///< in the lookup: there are no triangles
+  static constexpr std::int32_t NotHere = -2; ///< there may be some, elsewhere
 
   Grid TheGrid;
   const HiddenCells* Hidden;
+  const PeerPart* Part;
   std::array<int, 3> Count{};
-  std::vector<std::int32_t> Lookup; ///< of all bricks of cells: index in Bricks, or -1
+  std::vector<std::int32_t> Lookup; ///< of all bricks of cells: index in Bricks, or one of these
+  mutable std::vector<std::atomic<std::uint8_t>> Wanted; ///< of a part: 1 where noted
   std::vector<CellBrick> Bricks;
-  std::vector<StoredTriangle> Triangles;
+  std::vector<StoredTriangle> Triangles;             ///< of its own bricks
+  std::vector<std::vector<StoredTriangle>> OfOthers; ///< of those that were fetched, some each
 };
 
 }

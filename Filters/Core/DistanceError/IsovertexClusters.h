@@ -5,6 +5,7 @@
 #include "Field/Parallel.h"
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
+#include "Lattice/DiamondPart.h"
 #include "Lattice/DiamondTetrahedra.h"
 #include "Patches/ExactPlane.h"
 
@@ -70,13 +71,15 @@ public:
     NotFinite
   };
 
-  /** Hierarchy and finiteness must outlive it. */
+  /** Hierarchy and finiteness must outlive it.
+   *  @param part whose own it has; null for all */
   IsovertexClusters(const IsodiamondHierarchy& hierarchy, const Finiteness& isFinite, int surface,
-    Ends ends, const ParallelFor& parallelFor)
+    Ends ends, const ParallelFor& parallelFor, const DiamondPart* part = nullptr)
     : Hierarchy(hierarchy)
     , IsFinite(isFinite)
     , OnSurface(surface)
     , Wanted(ends)
+    , Part(part)
   {
     // Some bricks at once: of most eighths there is nothing to keep.
     constexpr std::size_t some = 4096;
@@ -97,6 +100,14 @@ public:
 
   int Surface() const { return this->OnSurface; }
   bool AlwaysSubdivide() const { return this->Wanted == Ends::NotFinite; }
+
+  /** Whether it has those of a brick of scale 0. */
+  bool Has(const Brick& brick) const
+  {
+    return this->Part == nullptr ||
+      this->Part->Owns(this->Hierarchy.Diamonds().Level(0).Box.Origin(brick.BoxIndex)[2]);
+  }
+
   const std::vector<IsovertexCluster>& All() const { return this->Clusters; }
 
   /** Calls body(position) for the isovertices of a cluster. */
@@ -139,6 +150,10 @@ private:
   /** Finds the clusters of a brick, some of them empty. */
   void Find(std::uint32_t brick, std::array<IsovertexCluster, 8>& eighths) const
   {
+    if (!this->Has(this->Hierarchy.Diamonds().Level(0).Bricks[brick]))
+    {
+      return;
+    }
     for (int octant = 0; octant < 8; ++octant)
     {
       IsovertexCluster& cluster = eighths[octant];
@@ -152,6 +167,7 @@ private:
   const Finiteness& IsFinite;
   int OnSurface;
   Ends Wanted;
+  const DiamondPart* Part;
   std::vector<IsovertexCluster> Clusters;
 };
 

@@ -2,7 +2,7 @@
 #ifndef isodiamond_MapBounds_h
 #define isodiamond_MapBounds_h
 
-#include "Field/Peers.h"
+#include "Field/PeerPart.h"
 #include "Hierarchy/ErrorCode.h"
 #include "Lattice/DiamondSet.h"
 
@@ -25,16 +25,19 @@ namespace isodiamond
  * is taken. Of a patch of two triangles, which can be bent, any point is by the bend farther.
  *
  * Without a bound where an isovertex lies on an edge that the patch does not cross, or on a
- * triangle where it has no side.
+ * triangle where it has no side; or where nobody has looked at one.
+ *
+ * Peers who have some of the isovertices each find bounds of these: the greatest counts.
  */
 class MapBounds
 {
 public:
-  static constexpr ErrorCode::Type None = ErrorCode::Always;
+  /** Where nobody has looked. No bound has it: ErrorCode::Least. */
+  static constexpr ErrorCode::Type None = 0;
 
   /** Of one diamond and one surface, by tetrahedron, as ForEachParentHalf() counts. */
   using OfDiamond = std::array<ErrorCode::Type, 8>;
-  static constexpr OfDiamond NoneOfDiamond = { None, None, None, None, None, None, None, None };
+  static constexpr OfDiamond NoneOfDiamond{};
 
   /** No bounds, of no diamonds: none are wanted. */
   MapBounds() = default;
@@ -58,13 +61,14 @@ public:
     return rank < this->Codes[surface].size() ? this->Codes[surface][rank] : NoneOfDiamond;
   }
 
-  /** @param rank of a diamond above scale 0 */
+  /** @param rank of a diamond above scale 0 @param code ErrorCode::Always if there is no bound */
   void Set(int surface, std::uint32_t rank, int tetrahedron, ErrorCode::Type code)
   {
     this->Codes[surface][rank][tetrahedron] = code;
   }
 
-  /** Puts the bounds together that peers have found. */
+  ///@{
+  /** Puts the bounds together that peers have found: of the same diamonds, or of parts. */
   void Merge(Peers& peers)
   {
     for (std::vector<OfDiamond>& codes : this->Codes)
@@ -72,10 +76,21 @@ public:
       static_assert(sizeof(OfDiamond) == 8 * sizeof(ErrorCode::Type), "codes in a row");
       if (!codes.empty())
       {
-        peers.Min(codes.data()->data(), static_cast<std::int64_t>(8 * codes.size()));
+        peers.Max(codes.data()->data(), static_cast<std::int64_t>(8 * codes.size()));
       }
     }
   }
+  void Merge(const PeerPart& part)
+  {
+    for (std::vector<OfDiamond>& codes : this->Codes)
+    {
+      if (!codes.empty())
+      {
+        part.Max(codes, 1);
+      }
+    }
+  }
+  ///@}
 
 private:
   std::array<std::vector<OfDiamond>, 2> Codes;

@@ -36,7 +36,10 @@ public:
         ScaleZeroDistances some(clusters, lengths, errors);
         for (std::int64_t i = begin; i < end; ++i)
         {
-          some.MeasureBrick(bricks[i]);
+          if (clusters.Has(bricks[i]))
+          {
+            some.MeasureBrick(bricks[i]);
+          }
         }
       });
   }

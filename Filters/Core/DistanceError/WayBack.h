@@ -18,6 +18,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -598,50 +600,146 @@ private:
 
 /** Raises the errors of all diamonds to the way back. */
 template <typename Lengths>
-void MeasureAllBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
-  const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
-  const Loops& loops)
+class AllWaysBack
 {
-  const HiddenCells* hidden =
-    known.Hidden != nullptr && known.Hidden->Any() ? known.Hidden : nullptr;
-  const DiamondSet& set = relevant.Diamonds();
-  const std::vector<BrickPlace> bricks = AllBricks(set);
-  for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
+public:
+  /** All must outlive it. */
+  AllWaysBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
+    const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes)
+    : Relevant(relevant)
+    , InWorld(lengths)
+    , Known(known)
+    , Hidden(known.Hidden != nullptr && known.Hidden->Any() ? known.Hidden : nullptr)
+    , Code(code)
+    , Codes(codes)
   {
-    const FineSurface fine(relevant, surface, hidden, loops.Whole);
-    loops.Share(static_cast<std::int64_t>(bricks.size()), 4,
+  }
+
+  void Run(const Loops& loops)
+  {
+    for (int surface = 0; surface < this->Relevant.Region().SurfaceCount(); ++surface)
+    {
+      if (this->Known.Part == nullptr)
+      {
+        const FineSurface fine(this->Relevant, surface, this->Hidden, loops.Whole);
+        this->Measure(surface, fine, loops.Share);
+      }
+      else
+      {
+        this->MeasurePart(surface, loops.Whole);
+      }
+    }
+  }
+
+private:
+  struct Member
+  {
+    Place Diamond;
+    std::uint32_t Rank = 0;
+  };
+
+  /** In a part some need triangles that are elsewhere: once more when these have been fetched. */
+  void MeasurePart(int surface, const ParallelFor& parallelFor)
+  {
+    Peers& others = this->Known.Part->Others();
+    std::optional<FineSurface> fine;
+    others.Together(
+      [&] { fine.emplace(this->Relevant, surface, this->Hidden, parallelFor, this->Known.Part); });
+    fine->Fetch();
+    others.Together([&] { this->Measure(surface, *fine, parallelFor); });
+    while (others.Any(!this->Left.empty()))
+    {
+      fine->Fetch();
+      others.Together([&] { this->MeasureLeft(surface, *fine, parallelFor); });
+    }
+  }
+
+  void Measure(int surface, const FineSurface& fine, const ParallelFor& parallelFor)
+  {
+    const DiamondSet& set = this->Relevant.Diamonds();
+    const std::vector<BrickPlace> bricks = AllBricks(set);
+    parallelFor(static_cast<std::int64_t>(bricks.size()), 4,
       [&](std::int64_t begin, std::int64_t end)
       {
-        const MapBounds none;
-        const MapBounds& bounds = known.Bounds != nullptr ? *known.Bounds : none;
-        WayBack<Lengths> wayBack(relevant, lengths, surface, fine, code);
+        WayBack<Lengths> wayBack(this->Relevant, this->InWorld, surface, fine, this->Code);
         for (std::int64_t i = begin; i < end; ++i)
         {
           const int scale = bricks[i].Scale;
           const BrickLevel& level = set.Level(scale);
           const Brick& brick = level.Bricks[bricks[i].Index];
-          set.ForEachInBrick(scale, brick,
-            [&](const Place& place, std::uint32_t rank)
+          const int first = level.Box.Origin(brick.BoxIndex)[2];
+          for (int z = 0; z < 8; ++z)
+          {
+            if (this->IsOwn((first + z) << scale))
             {
-              const ErrorCode::Type before = known.Thresholds.empty()
-                ? codes[rank]
-                : std::max(codes[rank], known.Thresholds[rank]);
-              if (codes[rank] == 0 || before == ErrorCode::Always)
-              {
-                return;
-              }
-              const double error = code.Decode(before) / DistanceMargin;
-              const double greater = wayBack.Measure(
-                place, bounds.Of(surface, rank), error, hidden == nullptr || !hidden->Touch(place));
-              if (greater > error)
-              {
-                codes[rank] = code.Encode(greater * DistanceMargin);
-              }
-            });
+              set.ForEachInWord(scale, brick, z,
+                [&](const Place& place, std::uint32_t rank) {
+                  this->Measure(surface, { place, rank }, wayBack);
+                });
+            }
+          }
         }
       });
   }
-}
+
+  void MeasureLeft(int surface, const FineSurface& fine, const ParallelFor& parallelFor)
+  {
+    const std::vector<Member> left = std::exchange(this->Left, {});
+    parallelFor(static_cast<std::int64_t>(left.size()), 16,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        WayBack<Lengths> wayBack(this->Relevant, this->InWorld, surface, fine, this->Code);
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          this->Measure(surface, left[i], wayBack);
+        }
+      });
+  }
+
+  bool IsOwn(int slice) const
+  {
+    return this->Known.Part == nullptr || this->Known.Part->Diamonds().Owns(slice);
+  }
+
+  void Measure(int surface, const Member& member, WayBack<Lengths>& wayBack)
+  {
+    const std::uint32_t rank = member.Rank;
+    const std::vector<ErrorCode::Type>& thresholds = this->Known.Thresholds;
+    const ErrorCode::Type before =
+      thresholds.empty() ? this->Codes[rank] : std::max(this->Codes[rank], thresholds[rank]);
+    if (this->Codes[rank] == 0 || before == ErrorCode::Always)
+    {
+      return;
+    }
+    const MapBounds& bounds = this->Known.Bounds != nullptr ? *this->Known.Bounds : this->NoBounds;
+    const bool isWhole = this->Hidden == nullptr || !this->Hidden->Touch(member.Diamond);
+    const double error = this->Code.Decode(before) / DistanceMargin;
+    try
+    {
+      const double greater =
+        wayBack.Measure(member.Diamond, bounds.Of(surface, rank), error, isWhole);
+      if (greater > error)
+      {
+        this->Codes[rank] = this->Code.Encode(greater * DistanceMargin);
+      }
+    }
+    catch (const FineSurface::Elsewhere&)
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->Left.push_back(member);
+    }
+  }
+
+  const IsodiamondHierarchy& Relevant;
+  const Lengths& InWorld;
+  const BeforeWayBack& Known;
+  const HiddenCells* Hidden;
+  const MapBounds NoBounds;
+  const ErrorCode& Code;
+  std::vector<ErrorCode::Type>& Codes;
+  std::vector<Member> Left; ///< to be measured when what they need has been fetched
+  std::mutex Mutex;         ///< of what is left
+};
 
 }
 

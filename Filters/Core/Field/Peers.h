@@ -49,6 +49,25 @@ public:
       static_cast<std::int64_t>(values.size() * sizeof(T)));
   }
 
+  /** The lists of all of them, one behind the other. */
+  std::vector<std::uint64_t> Gather(const std::vector<std::uint64_t>& own)
+  {
+    std::vector<double> sizes(this->Count(), 0.0);
+    sizes[this->Rank()] = static_cast<double>(own.size());
+    this->Max(sizes.data(), this->Count());
+    std::size_t all = 0;
+    std::size_t before = 0;
+    for (int i = 0; i < this->Count(); ++i)
+    {
+      all += static_cast<std::size_t>(sizes[i]);
+      before += i < this->Rank() ? static_cast<std::size_t>(sizes[i]) : 0;
+    }
+    std::vector<std::uint64_t> values(all, 0);
+    std::copy(own.begin(), own.end(), values.begin() + static_cast<std::ptrdiff_t>(before));
+    this->Or(values);
+    return values;
+  }
+
   /** Whether it is true of any of them. */
   bool Any(bool here)
   {

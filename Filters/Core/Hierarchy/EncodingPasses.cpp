@@ -17,17 +17,17 @@ EncodingPasses::EncodingPasses(
   , Edges(set.Size(), header.Region)
 {
   this->Result.Header = header;
-  this->WriteBricks();
+  WriteBricks(set, this->Result.Arrays);
 }
 
-void EncodingPasses::WriteBricks()
+void WriteBricks(const DiamondSet& set, EncodingArrays<OwnedArray>& arrays)
 {
-  EncodingArrays<OwnedArray>& arrays = this->Result.Arrays;
-  arrays.BrickIndices.reserve(this->Bricks.size());
-  arrays.BrickMasks.reserve(8 * this->Bricks.size());
-  for (int scale = this->Set.ScaleCount() - 1; scale >= 0; --scale)
+  const std::size_t count = AllBricks(set).size();
+  arrays.BrickIndices.reserve(count);
+  arrays.BrickMasks.reserve(8 * count);
+  for (int scale = set.ScaleCount() - 1; scale >= 0; --scale)
   {
-    const std::vector<Brick>& bricks = this->Set.Level(scale).Bricks;
+    const std::vector<Brick>& bricks = set.Level(scale).Bricks;
     arrays.BrickCounts.push_back(static_cast<std::uint32_t>(bricks.size()));
     for (const Brick& brick : bricks)
     {
@@ -52,6 +52,27 @@ void EncodingPasses::Merge(Peers& peers)
 {
   peers.Or(this->Result.Arrays.Isovertices);
   std::visit([&](auto& values) { peers.Or(values); }, this->Result.InsideValues);
+}
+
+void EncodingPasses::Merge(const PeerPart& part)
+{
+  std::vector<std::uint32_t> firsts(this->Set.Size() + 1, 0);
+  const auto add = [&](const auto& countOf, auto& values)
+  {
+    for (std::int64_t rank = 0; rank < this->Set.Size(); ++rank)
+    {
+      firsts[rank + 1] = firsts[rank] + countOf(rank);
+    }
+    part.Or(firsts, values);
+  };
+  add([&](std::int64_t rank) { return this->CountIsovertices(rank); },
+    this->Result.Arrays.Isovertices);
+  if (this->Result.Header.Region.IsVolume())
+  {
+    std::visit([&](auto& values)
+      { add([&](std::int64_t rank) { return this->IsInside(rank) ? 1 : 0; }, values); },
+      this->Result.InsideValues);
+  }
 }
 
 Encoded EncodingPasses::Take(ErrorCode::Type code, bool withEdges)

@@ -2,7 +2,7 @@
 #ifndef isodiamond_EncodingPasses_h
 #define isodiamond_EncodingPasses_h
 
-#include "Field/Peers.h"
+#include "Field/PeerPart.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 #include "Hierarchy/IsovertexPlacement.h"
 
@@ -12,6 +12,9 @@
 
 namespace isodiamond
 {
+
+/** Writes which bricks there are, and their masks. */
+void WriteBricks(const DiamondSet& set, EncodingArrays<OwnedArray>& arrays);
 
 /**
  * The passes of an encoding: every brick counts what its diamonds have, sums tell where it writes
@@ -65,8 +68,11 @@ public:
   /** Passes over what peers write: places are kept free. */
   void Skip(int endScale, const SliceRange& slices);
 
-  /** Puts together what peers have written. */
+  ///@{
+  /** Puts together what peers have written: of the same set, or of parts. */
   void Merge(Peers& peers);
+  void Merge(const PeerPart& part);
+  ///@}
 
   /** Makes room for the values inside an interval volume, of the samples' type. */
   template <typename Value>
@@ -122,7 +128,6 @@ private:
     std::int64_t InsideValues = 0;
   };
 
-  void WriteBricks();
   void MakeRoom();
 
   int CountIsovertices(std::int64_t rank) const

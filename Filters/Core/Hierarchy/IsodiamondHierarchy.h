@@ -307,12 +307,6 @@ private:
   std::array<std::int64_t, 3> Counts{};
 };
 
-/** The brick of the base cube's eight corners, at scale N. */
-inline BrickMask CornerBrick()
-{
-  return { 0x303, 0x303, 0, 0, 0, 0, 0, 0 };
-}
-
 }
 
 #endif

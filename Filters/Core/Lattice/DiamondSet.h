@@ -133,6 +133,12 @@ inline constexpr std::array<std::array<std::uint64_t, 2>, 3> ClassBits = MakeCla
 
 }
 
+/** The brick of the base cube's eight corners, at scale N. */
+inline BrickMask CornerBrick()
+{
+  return { 0x303, 0x303, 0, 0, 0, 0, 0, 0 };
+}
+
 /** A set of diamonds that grows, without ranks. */
 class DiamondMask
 {

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_PeerPart_h
+#define isodiamond_PeerPart_h
+
+#include "Field/Peers.h"
+#include "Lattice/DiamondPart.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * The part of a hierarchy that this process has while peers build it: a set of its own, with ranks
+ * of its own. Which diamonds there are in all parts is known to all of them, a bit each.
+ *
+ * What is found of a diamond that several have is put together in the order of all diamonds that
+ * some have in common: the same for all of them, whichever they have.
+ */
+class PeerPart
+{
+public:
+  /** @param begins as of DiamondPart, one a peer
+   *  @param all the members of the whole hierarchy, with the corners of the base cube
+   *  @param peers must outlive it */
+  PeerPart(const Grid& grid, const std::vector<int>& begins, DiamondMask all, Peers& peers);
+
+  const DiamondPart& Diamonds() const { return this->Part; }
+  const DiamondMask& All() const { return this->Mask; }
+  Peers& Others() const { return this->With; }
+
+  /** Those of this part. Whoever has it may keep it instead. */
+  DiamondSet TakeMembers() { return std::move(this->Members); }
+
+  /**
+   * Raises values to the greatest that one of the peers has of a diamond: numbers, or rows of them.
+   *
+   * @param values by rank @param firstScale the first that counts: of finer ones there are none
+   * @return whether any rose here
+   */
+  template <typename T>
+  bool Max(std::vector<T>& values, int firstScale = 0) const
+  {
+    using Element = typename Row<T>::Element;
+    bool rose = false;
+    using Limits = std::numeric_limits<Element>;
+    constexpr Element nothing = Limits::has_infinity ? -Limits::infinity() : Limits::lowest();
+    std::vector<Element> some;
+    this->ForEachBlock(firstScale,
+      [&](const std::uint32_t* ranks, std::size_t count)
+      {
+        some.assign(count * Row<T>::Size, nothing);
+        ForEachHere(ranks, count,
+          [&](std::size_t i, std::uint32_t rank)
+          {
+            const Element* const own = Row<T>::Data(values[rank]);
+            std::copy_n(own, Row<T>::Size, some.data() + i * Row<T>::Size);
+          });
+        this->With.Max(some.data(), static_cast<std::int64_t>(some.size()));
+        ForEachHere(ranks, count,
+          [&](std::size_t i, std::uint32_t rank)
+          {
+            Element* const own = Row<T>::Data(values[rank]);
+            const Element* const all = some.data() + i * Row<T>::Size;
+            rose = rose || !std::equal(own, own + Row<T>::Size, all);
+            std::copy_n(all, Row<T>::Size, own);
+          });
+      });
+    return rose;
+  }
+
+  /**
+   * Puts lists of values together, of which one of the peers has written what all but it have left
+   * at zero.
+   *
+   * @param firsts by rank, where a diamond's list begins, and at last the end
+   */
+  template <typename T>
+  void Or(const std::vector<std::uint32_t>& firsts, std::vector<T>& values) const
+  {
+    std::vector<std::uint16_t> sizes;
+    std::vector<T> some;
+    this->ForEachBlock(0,
+      [&](const std::uint32_t* ranks, std::size_t count)
+      {
+        sizes.assign(count, 0);
+        ForEachHere(ranks, count,
+          [&](std::size_t i, std::uint32_t rank)
+          { sizes[i] = static_cast<std::uint16_t>(firsts[rank + 1] - firsts[rank]); });
+        this->With.Max(sizes.data(), static_cast<std::int64_t>(count));
+        std::vector<std::size_t> begins(count + 1, 0);
+        std::inclusive_scan(
+          sizes.begin(), sizes.end(), begins.begin() + 1, std::plus<>(), std::size_t{ 0 });
+        some.assign(begins.back(), T{});
+        ForEachHere(ranks, count,
+          [&](std::size_t i, std::uint32_t rank)
+          { std::copy_n(values.data() + firsts[rank], sizes[i], some.data() + begins[i]); });
+        this->With.Or(some);
+        ForEachHere(ranks, count,
+          [&](std::size_t i, std::uint32_t rank)
+          { std::copy_n(some.data() + begins[i], sizes[i], values.data() + firsts[rank]); });
+      });
+  }
+
+private:
+  static constexpr std::uint32_t NotHere = ~std::uint32_t{ 0 };
+  static constexpr std::size_t Block = 8192;
+
+  /** A value, or values in a row. */
+  template <typename T>
+  struct Row
+  {
+    using Element = T;
+    static constexpr std::size_t Size = 1;
+    static T* Data(T& value) { return &value; }
+  };
+  template <typename T, std::size_t N>
+  struct Row<std::array<T, N>>
+  {
+    using Element = T;
+    static constexpr std::size_t Size = N;
+    static T* Data(std::array<T, N>& values) { return values.data(); }
+  };
+
+  /** Calls body(ranks, count) for some of the common diamonds at once. */
+  template <typename Body>
+  void ForEachBlock(int firstScale, const Body& body) const
+  {
+    const auto scale = static_cast<std::size_t>(firstScale);
+    const std::size_t end = scale < this->EndsOfScales.size() ? this->EndsOfScales[scale] : 0;
+    for (std::size_t begin = 0; begin < end; begin += Block)
+    {
+      body(this->Common.data() + begin, std::min(Block, end - begin));
+    }
+  }
+
+  template <typename Body>
+  static void ForEachHere(const std::uint32_t* ranks, std::size_t count, const Body& body)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (ranks[i] != NotHere)
+      {
+        body(i, ranks[i]);
+      }
+    }
+  }
+
+  DiamondPart Part;
+  DiamondMask Mask;
+  Peers& With;
+  DiamondSet Members;
+  std::vector<std::uint32_t> Common;     ///< ranks of what is common, coarse to fine
+  std::vector<std::size_t> EndsOfScales; ///< how many of them are of a scale or coarser, by scale
+};
+
+}
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_DiamondPart_h
+#define isodiamond_DiamondPart_h
+
+#include "Lattice/DiamondSet.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * Which diamonds one of several has who build a hierarchy together, each of them a part.
+ *
+ * The slices of the lattice are cut into parts, behind one another. A diamond is *owned* by who has
+ * the slice of its centre. Beyond its own a part *has* those that are near, of each scale as many
+ * slices of that scale: all whose domain touches its slices, and of each of these all ancestors. So
+ * the diamonds of a part are a closed set, as those of a whole hierarchy are; what is missing looks
+ * as if it did not lead to the surface.
+ */
+class DiamondPart
+{
+public:
+  /** Bricks of scale 0 have one owner each: parts begin with one. */
+  static constexpr int Step = 8;
+
+  /** @param begins the slices that parts begin with, ascending, the first 0; rounded to steps
+   *  @param number of the part */
+  DiamondPart(const std::vector<int>& begins, int number)
+    : Number(number)
+  {
+    assert(!begins.empty() && begins.front() == 0 && std::is_sorted(begins.begin(), begins.end()));
+    std::transform(begins.begin(), begins.end(), std::back_inserter(this->Begins),
+      [](int begin) { return (begin + Step / 2) / Step * Step; });
+  }
+
+  int Begin() const { return this->Begins[this->Number]; }
+
+  /** The last part has all behind it, too. */
+  int End() const
+  {
+    const auto next = static_cast<std::size_t>(this->Number) + 1;
+    return next < this->Begins.size() ? this->Begins[next] : std::numeric_limits<int>::max();
+  }
+
+  /** Whether it owns the diamonds with their centre in a slice. */
+  bool Owns(int slice) const { return slice >= this->Begin() && slice < this->End(); }
+
+  /** The diamonds that it has of a brick's word. @param z position of the word */
+  std::uint64_t Has(int scale, int z) const
+  {
+    return BitsWhere(z,
+      [&](int diamondClass)
+      {
+        const std::int64_t slice = std::int64_t{ z } << scale;
+        const std::int64_t reach = Reach(scale, diamondClass);
+        return slice + reach >= this->Begin() && slice - reach <= this->End();
+      });
+  }
+
+  /** Those that some parts have in common. */
+  std::uint64_t AreCommon(int scale, int z) const
+  {
+    return BitsWhere(z,
+      [&](int diamondClass)
+      {
+        const std::int64_t slice = std::int64_t{ z } << scale;
+        const std::int64_t reach = Reach(scale, diamondClass);
+        const auto next =
+          std::lower_bound(this->Begins.begin() + 1, this->Begins.end(), slice - reach);
+        return next != this->Begins.end() && *next <= slice + reach;
+      });
+  }
+
+private:
+  /** So many slices around its own a part has diamonds of. Where samples are cut may be half a step
+   *  from where parts are. Parents are of the next older class and at most a step of their scale
+   *  away: three classes take less than twice as much, which is what the next scale has. */
+  static std::int64_t Reach(int scale, int diamondClass)
+  {
+    static_assert(Step / 2 + 3 <= 2 * (Step / 2), "parents are there, too");
+    return std::int64_t{ Step / 2 + (2 - diamondClass) } << scale;
+  }
+
+  template <typename Condition>
+  static std::uint64_t BitsWhere(int z, const Condition& condition)
+  {
+    std::uint64_t bits = 0;
+    for (int diamondClass = 0; diamondClass < 3; ++diamondClass)
+    {
+      bits |= condition(diamondClass) ? tables::ClassBits[diamondClass][z & 1] : 0;
+    }
+    return bits;
+  }
+
+  std::vector<int> Begins;
+  int Number;
+};
+
+}
+
+#endif
