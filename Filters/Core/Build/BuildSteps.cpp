@@ -115,33 +115,6 @@ void KeepMinimal(Encoding& encoding, const DiamondSet& members, const Classifica
   shorten(arrays.InteriorCodes, arrays.InteriorCodes.empty() ? 0 : diamonds);
 }
 
-/** The diamonds of a mask, or of two, and the corners of the base cube. */
-DiamondSet SetOf(const Grid& grid, const DiamondMask& mask, const DiamondMask* other = nullptr)
-{
-  DiamondSet set(grid);
-  set.Append(grid.Depth(), 0, CornerBrick());
-  for (int scale = grid.Depth() - 1; scale >= 0; --scale)
-  {
-    for (std::int64_t index = 0; index < mask.Box(scale).Size(); ++index)
-    {
-      BrickMask bits{};
-      for (const BrickMask* some :
-        { mask.Find(scale, index), other != nullptr ? other->Find(scale, index) : nullptr })
-      {
-        for (int z = 0; z < 8 && some != nullptr; ++z)
-        {
-          bits[z] |= (*some)[z];
-        }
-      }
-      if (bits != BrickMask{})
-      {
-        set.Append(scale, index, bits);
-      }
-    }
-  }
-  return set;
-}
-
 SignLattice SignsOf(const Source& source, const Isoregion& region, const BuildOptions& options,
   const ParallelFor& parallelFor)
 {
@@ -163,8 +136,7 @@ BuildSteps::BuildSteps(const Source& source, const Isoregion& region, const Buil
 }
 
 BuildSteps::BuildSteps(const Source& source, SignLattice signs, const Isoregion& region,
-  const BuildOptions& options, double errorScale, const ParallelFor& parallelFor,
-  const std::vector<int>& begins)
+  const BuildOptions& options, double errorScale, const ParallelFor& parallelFor)
   : Origin(source)
   , Options(options)
   , For(parallelFor)
@@ -180,9 +152,9 @@ BuildSteps::BuildSteps(const Source& source, SignLattice signs, const Isoregion&
   }
   const std::int64_t relevantCount = this->Kinds.Members.Size();
   this->Kinds.Members.Insert(grid.Depth(), 0, CornerBrick());
-  if (!begins.empty())
+  if (options.InParts && options.Together != nullptr)
   {
-    this->Part.emplace(grid, begins, std::move(this->Kinds.Members), *options.Together);
+    this->Part.emplace(grid, std::move(this->Kinds.Members), *options.Together);
     this->Members = this->Part->TakeMembers();
   }
   else
@@ -346,6 +318,21 @@ Encoding BuildSteps::Complete(Model model, Encoding relevant, DiamondCodes thres
   return relevant;
 }
 
+/** The diamonds of a whole hierarchy. */
+DiamondSet BuildSteps::KeptOf(Model model) const
+{
+  const Grid& grid = this->Origin.SampleGrid;
+  if (model == Model::Relevant)
+  {
+    return { grid, this->Part->All() };
+  }
+  DiamondMask kept = this->Kinds.Active;
+  this->Kinds.Creation.ForEachBrick(
+    [&](int scale, std::int64_t index, const BrickMask& mask) { kept.Insert(scale, index, mask); });
+  kept.Insert(grid.Depth(), 0, CornerBrick());
+  return { grid, kept };
+}
+
 Encoding BuildSteps::CompleteOfParts(Model model, Encoding relevant,
   const IsodiamondHierarchy& hierarchy, DiamondCodes thresholds) const
 {
@@ -355,9 +342,7 @@ Encoding BuildSteps::CompleteOfParts(Model model, Encoding relevant,
     {
       SetCodes(relevant, this->Members, std::move(thresholds));
       relevant.Header.TheModel = model;
-      const Grid& grid = this->Origin.SampleGrid;
-      kept = model == Model::Minimal ? SetOf(grid, this->Kinds.Active, &this->Kinds.Creation)
-                                     : SetOf(grid, this->Part->All());
+      kept = this->KeptOf(model);
     });
   return Assemble(*this->Part, std::move(relevant), hierarchy, kept);
 }

@@ -24,12 +24,10 @@ public:
   BuildSteps(const Source& source, const Isoregion& region, const BuildOptions& options,
     double errorScale, const ParallelFor& parallelFor);
 
-  /** The same of a volume that comes in slabs.
-   *  @param signs of all of its samples, without the pieces that are too small
-   *  @param begins of the peers' slabs, where each is to have a part; else empty */
+  /** The same of a volume that comes in slabs. @param signs of all of its samples, without the
+   *  pieces that are too small */
   BuildSteps(const Source& source, SignLattice signs, const Isoregion& region,
-    const BuildOptions& options, double errorScale, const ParallelFor& parallelFor,
-    const std::vector<int>& begins = {});
+    const BuildOptions& options, double errorScale, const ParallelFor& parallelFor);
 
   /** What is known of an RI, whose error codes are Always, before its isovertices. */
   const EncodingHeader& RelevantHeader() const { return this->Header; }
@@ -77,6 +75,7 @@ public:
     DiamondCodes thresholds) const;
 
 private:
+  DiamondSet KeptOf(Model model) const;
   template <typename Work>
   void Do(const char* phase, double begin, double end, const Work& work) const;
   void Merge(std::vector<ErrorCode::Type>& codes) const;

@@ -2,6 +2,7 @@
 #include "Build/StagedBuild.h"
 
 #include "Build/BuildSteps.h"
+#include "Build/Dealing.h"
 #include "Build/StreamedFieldCodes.h"
 #include "DistanceError/DistanceError.h"
 #include "Hierarchy/StreamedEncoder.h"
@@ -156,38 +157,6 @@ SliceRange OfCentres(const Grid& grid, const StreamedBuild::Slices& slices)
 
 }
 
-/** The slices of the slabs that a process has. */
-class OwnSlices
-{
-public:
-  void Add(const StreamedBuild::Slices& slices)
-  {
-    this->AreBehindEachOther =
-      this->AreBehindEachOther && (this->Begin == this->End || slices.Begin == this->End);
-    this->Begin = this->Begin == this->End ? slices.Begin : this->Begin;
-    this->End = slices.End;
-  }
-
-  /** Where those of all peers begin, if together they are all there are, one behind the other; else
-   *  nothing. */
-  std::vector<int> BeginsOf(Peers& peers, int all) const
-  {
-    std::vector<double> begins(peers.Count(), 0.0);
-    begins[peers.Rank()] = this->Begin;
-    peers.Max(begins.data(), peers.Count());
-    begins.push_back(all);
-    const bool fits = this->AreBehindEachOther && this->End == begins[peers.Rank() + 1];
-    return peers.Any(!fits || begins.front() != 0.0)
-      ? std::vector<int>()
-      : std::vector<int>(begins.begin(), begins.end() - 1);
-  }
-
-private:
-  bool AreBehindEachOther = true;
-  int Begin = 0;
-  int End = 0;
-};
-
 /** What slabs have told. */
 struct StreamedBuild::Progress
 {
@@ -200,8 +169,9 @@ struct StreamedBuild::Progress
   Isoregion Region;
   std::optional<SignLattice> Signs; ///< until diamonds are classified: they have them then
   FiniteRangeOfSlabs Range;
-  OwnSlices Own;
+  std::vector<SliceRange> Own;            ///< of the slabs that are added here
   std::optional<GatheredSamples> Coarse;  ///< where field errors are asked for, until then
+  std::optional<Dealing> ToParts;         ///< where peers have parts, from then on
   std::optional<StreamedEncoder> Encoder; ///< from then on
   std::optional<StreamedFieldCodes> FieldCodes;
 };
@@ -251,7 +221,7 @@ std::vector<StreamedBuild::Slices> StreamedBuild::Cut(
 
 void StreamedBuild::AddSigns(const SampleSlab& slab, const Slices& slices)
 {
-  this->Current->Own.Add(slices);
+  this->Current->Own.push_back(OfCentres(this->Kept->TheGrid, slices));
   this->Current->Signs->Add(slab, this->Kept->For);
   this->Current->Range.Add(slab.Samples);
   this->Kept->IsFinite->Add(slab);
@@ -276,9 +246,6 @@ void StreamedBuild::Classify()
       current.Coarse->Merge(*peers);
     }
   }
-  const std::vector<int> begins = peers != nullptr && kept.Options.InParts
-    ? current.Own.BeginsOf(*peers, kept.TheGrid.Dimensions()[2])
-    : std::vector<int>();
   InStep(peers,
     [&]
     {
@@ -287,21 +254,22 @@ void StreamedBuild::Classify()
       const ValueRange range = current.Range.Range();
       kept.From.FieldScale = ErrorCode(range.Maximum - range.Minimum).Scale();
       kept.Done.emplace(kept.From, std::move(*current.Signs), current.Region, kept.Options,
-        kept.ErrorScale(), kept.For, begins);
+        kept.ErrorScale(), kept.For);
       current.Signs.reset();
-      current.Encoder.emplace(kept.Done->RelevantHeader(), kept.TheGrid, kept.Done->Relevant(),
-        ErrorCode::Always, *kept.Done->SignsIfKept(), kept.For);
+      if (const PeerPart* const part = kept.Done->PartOfPeers())
+      {
+        current.ToParts.emplace(kept.TheGrid, *part, kept.Done->Relevant(), current.Own);
+      }
+      const DiamondSet& told = current.ToParts ? current.ToParts->OfSlabs() : kept.Done->Relevant();
+      current.Encoder.emplace(kept.Done->RelevantHeader(), kept.TheGrid, told, ErrorCode::Always,
+        *kept.Done->SignsIfKept(), kept.For);
       if (current.Coarse)
       {
-        current.FieldCodes.emplace(kept.TheGrid, kept.Done->Relevant(), kept.Done->ByField(),
+        current.FieldCodes.emplace(kept.TheGrid, told, kept.Done->ByField(),
           ErrorCode(kept.From.FieldScale), std::move(*current.Coarse), kept.For);
         current.Coarse.reset();
       }
     });
-  if (kept.Done->PartOfPeers() != nullptr)
-  {
-    current.Encoder->WantTogether(*peers);
-  }
 }
 
 void StreamedBuild::AddValues(const SampleSlab& slab, const Slices& slices)
@@ -321,24 +289,41 @@ void StreamedBuild::SkipValues(const Slices& slices)
 
 StagedBuild StreamedBuild::Finish()
 {
+  Progress& current = *this->Current;
   Peers* const peers = this->Kept->Options.Together;
   if (peers != nullptr)
   {
-    const PeerPart* const part = this->Kept->Done->PartOfPeers();
-    this->Current->Encoder->Merge(*peers, part);
-    if (this->Current->FieldCodes)
+    current.Encoder->Merge(*peers, current.ToParts.has_value());
+    if (current.FieldCodes)
     {
-      this->Current->FieldCodes->Merge(*peers, part);
+      current.FieldCodes->Merge(*peers, current.ToParts.has_value());
     }
+  }
+  Encoded relevant;
+  DiamondCodes codes;
+  InStep(peers,
+    [&]
+    {
+      relevant = current.Encoder->Finish();
+      current.Encoder.reset();
+      if (current.FieldCodes)
+      {
+        codes = current.FieldCodes->Finish();
+      }
+    });
+  if (current.ToParts)
+  {
+    relevant = current.ToParts->Deal(relevant);
+    codes.Surface = current.ToParts->Deal(codes.Surface);
+    codes.Interior = current.ToParts->Deal(codes.Interior);
   }
   InStep(peers,
     [&]
     {
-      if (this->Current->FieldCodes)
+      if (current.FieldCodes)
       {
-        this->Kept->Done->SetFieldCodes(this->Current->FieldCodes->Finish());
+        this->Kept->Done->SetFieldCodes(std::move(codes));
       }
-      Encoded relevant = this->Current->Encoder->Finish();
       this->Current.reset();
       this->Kept->Done->DropSigns();
       this->Kept->SetRelevant(std::move(relevant));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Build/StreamedFieldCodes.h"
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
 namespace isodiamond
@@ -13,26 +11,15 @@ namespace
 /** Vertices of large domains are at its multiples. */
 constexpr int CoarseStep = 2 * FieldErrors::Overlap;
 
-/** From which scale on domains are large. */
-int FirstLargeScale()
-{
-  int scale = 0;
-  while (IsSmallDomain({ scale, {} }))
-  {
-    ++scale;
-  }
-  return scale;
-}
-
 /** How many members have large domains; their ranks come first. */
 std::int64_t CountLarge(const DiamondSet& members)
 {
   std::int64_t count = 0;
-  for (int scale = FirstLargeScale(); scale < members.ScaleCount(); ++scale)
+  for (int scale = 0; scale < members.ScaleCount(); ++scale)
   {
     for (const Brick& brick : members.Level(scale).Bricks)
     {
-      count += brick.Size();
+      count += IsSmallDomain({ scale, {} }) ? 0 : brick.Size();
     }
   }
   return count;
@@ -99,27 +86,26 @@ void StreamedFieldCodes::SetCodes(
   this->Metric.SetCodes(place, rank, this->Code.Encode(domain.Error), domain.Range, this->Codes);
 }
 
-void StreamedFieldCodes::Merge(Peers& peers, const PeerPart* part)
+void StreamedFieldCodes::Merge(Peers& peers, bool areSetsOther)
 {
-  std::vector<std::array<double, 4>> known(this->LargeDomains.size());
-  std::transform(this->LargeDomains.begin(), this->LargeDomains.end(), known.begin(),
-    [](const SummaryBuilder& domain) { return domain.AsMaxima(); });
-  if (part != nullptr)
-  {
-    part->Max(this->Codes.Surface);
-    if (!this->Codes.Interior.empty())
-    {
-      part->Max(this->Codes.Interior);
-    }
-    part->Max(known, FirstLargeScale());
-  }
-  else
+  if (!areSetsOther)
   {
     peers.Max(this->Codes.Surface.data(), this->Codes.Surface.size());
     peers.Max(this->Codes.Interior.data(), this->Codes.Interior.size());
-    peers.Max(known.data()->data(), 4 * known.size());
   }
-  std::transform(known.begin(), known.end(), this->LargeDomains.begin(), SummaryBuilder::OfMaxima);
+  std::vector<double> known;
+  for (const SummaryBuilder& domain : this->LargeDomains)
+  {
+    const std::array<double, 4> values = domain.AsMaxima();
+    known.insert(known.end(), values.begin(), values.end());
+  }
+  peers.Max(known.data(), known.size());
+  auto values = known.cbegin();
+  for (SummaryBuilder& domain : this->LargeDomains)
+  {
+    domain = SummaryBuilder::OfMaxima({ values[0], values[1], values[2], values[3] });
+    values += 4;
+  }
 }
 
 DiamondCodes StreamedFieldCodes::Finish()

@@ -31,8 +31,10 @@ public:
    *  @param own slices @param centres the slices of the centres of small domains */
   void Add(const SampleSlab& slab, const SliceRange& own, const SliceRange& centres);
 
-  /** What peers have added. @param part that the members are of; null if all peers have the same */
-  void Merge(Peers& peers, const PeerPart* part);
+  /** What peers have added.
+   *  @param areSetsOther whether each has members of its own, with the same large domains: of these
+   *         what all have added counts */
+  void Merge(Peers& peers, bool areSetsOther);
 
   /** Once all slabs have been added. */
   DiamondCodes Finish();

@@ -1,56 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Field/PeerPart.h"
 
+#include <numeric>
+
 namespace isodiamond
 {
 namespace
 {
 
-/** Calls body(scale, index of the brick, mask) for the bricks of a mask, coarse to fine, with what
- *  bitsOf(scale, z) leaves of theirs, and at scale N all: all parts have its corners. */
-template <typename BitsOf, typename Body>
-void ForEachBrick(const DiamondMask& mask, const BitsOf& bitsOf, const Body& body)
+/** The slices that parts begin with which have about as many diamonds, those of scale 0. */
+std::vector<int> CutEvenly(const DiamondMask& all, int parts)
 {
-  const int last = mask.ScaleCount() - 1;
-  for (int scale = last; scale >= 0; --scale)
-  {
-    const BrickBox& box = mask.Box(scale);
-    for (std::int64_t index = 0; index < box.Size(); ++index)
+  const BrickBox& box = all.Box(0);
+  std::vector<std::int64_t> before(box.Count[2] + 1, 0); // a layer of bricks
+  all.ForEachBrick(
+    [&](int scale, std::int64_t index, const BrickMask& mask)
     {
-      const BrickMask* found = mask.Find(scale, index);
-      if (found == nullptr)
+      for (int z = 0; z < 8 && scale == 0; ++z)
       {
-        continue;
+        before[box.Origin(index)[2] / DiamondPart::Step + 1] += PopCount(mask[z]);
       }
-      BrickMask some = *found;
-      const int first = box.Origin(index)[2];
-      for (int z = 0; z < 8 && scale < last; ++z)
-      {
-        some[z] &= bitsOf(scale, first + z);
-      }
-      if (some != BrickMask{})
-      {
-        body(scale, index, some);
-      }
-    }
+    });
+  std::partial_sum(before.begin(), before.end(), before.begin());
+  std::vector<int> begins(parts, 0);
+  for (int part = 1; part < parts; ++part)
+  {
+    // The layer whose begin is nearest to that share.
+    const std::int64_t share = before.back() / parts * part;
+    const auto above = std::lower_bound(before.begin(), before.end(), share);
+    const bool isBelowNearer =
+      above != before.begin() && share - *std::prev(above) < *above - share;
+    begins[part] = DiamondPart::Step *
+      static_cast<int>((isBelowNearer ? std::prev(above) : above) - before.begin());
   }
+  return begins;
 }
 
 }
 
-PeerPart::PeerPart(const Grid& grid, const std::vector<int>& begins, DiamondMask all, Peers& peers)
-  : Part(begins, peers.Rank())
+PeerPart::PeerPart(const Grid& grid, DiamondMask all, Peers& peers)
+  : Part(CutEvenly(all, peers.Count()), peers.Rank())
   , Mask(std::move(all))
   , With(peers)
-  , Members(grid)
   , EndsOfScales(grid.Depth() + 1, 0)
 {
-  ForEachBrick(
-    this->Mask, [&](int scale, int z) { return this->Part.Has(scale, z); },
-    [&](int scale, std::int64_t index, const BrickMask& mask)
-    { this->Members.Append(scale, index, mask); });
-  ForEachBrick(
-    this->Mask, [&](int scale, int z) { return this->Part.AreCommon(scale, z); },
+  // The corners of the base cube are in all parts.
+  const auto orCorners = [&](std::uint64_t (DiamondPart::*bitsOf)(int, int) const)
+  {
+    return [this, &grid, bitsOf](int scale, int z)
+    { return scale == grid.Depth() ? ~std::uint64_t{ 0 } : (this->Part.*bitsOf)(scale, z); };
+  };
+  this->Members = DiamondSet(grid, this->Mask, orCorners(&DiamondPart::Has));
+  this->Mask.ForEachBrick(orCorners(&DiamondPart::AreCommon),
     [&](int scale, std::int64_t index, const BrickMask& mask)
     {
       const BrickLevel& level = this->Members.Level(scale);

@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -27,10 +25,10 @@ namespace isodiamond
 class PeerPart
 {
 public:
-  /** @param begins as of DiamondPart, one a peer
+  /** Cuts so that all parts have about as many diamonds.
    *  @param all the members of the whole hierarchy, with the corners of the base cube
    *  @param peers must outlive it */
-  PeerPart(const Grid& grid, const std::vector<int>& begins, DiamondMask all, Peers& peers);
+  PeerPart(const Grid& grid, DiamondMask all, Peers& peers);
 
   const DiamondPart& Diamonds() const { return this->Part; }
   const DiamondMask& All() const { return this->Mask; }
@@ -74,39 +72,6 @@ public:
           });
       });
     return rose;
-  }
-
-  /**
-   * Puts lists of values together, of which one of the peers has written what all but it have left
-   * at zero.
-   *
-   * @param firsts by rank, where a diamond's list begins, and at last the end
-   */
-  template <typename T>
-  void Or(const std::vector<std::uint32_t>& firsts, std::vector<T>& values) const
-  {
-    std::vector<std::uint16_t> sizes;
-    std::vector<T> some;
-    this->ForEachBlock(0,
-      [&](const std::uint32_t* ranks, std::size_t count)
-      {
-        sizes.assign(count, 0);
-        ForEachHere(ranks, count,
-          [&](std::size_t i, std::uint32_t rank)
-          { sizes[i] = static_cast<std::uint16_t>(firsts[rank + 1] - firsts[rank]); });
-        this->With.Max(sizes.data(), static_cast<std::int64_t>(count));
-        std::vector<std::size_t> begins(count + 1, 0);
-        std::inclusive_scan(
-          sizes.begin(), sizes.end(), begins.begin() + 1, std::plus<>(), std::size_t{ 0 });
-        some.assign(begins.back(), T{});
-        ForEachHere(ranks, count,
-          [&](std::size_t i, std::uint32_t rank)
-          { std::copy_n(values.data() + firsts[rank], sizes[i], some.data() + begins[i]); });
-        this->With.Or(some);
-        ForEachHere(ranks, count,
-          [&](std::size_t i, std::uint32_t rank)
-          { std::copy_n(some.data() + begins[i], sizes[i], values.data() + firsts[rank]); });
-      });
   }
 
 private:

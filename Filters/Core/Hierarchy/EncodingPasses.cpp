@@ -54,27 +54,6 @@ void EncodingPasses::Merge(Peers& peers)
   std::visit([&](auto& values) { peers.Or(values); }, this->Result.InsideValues);
 }
 
-void EncodingPasses::Merge(const PeerPart& part)
-{
-  std::vector<std::uint32_t> firsts(this->Set.Size() + 1, 0);
-  const auto add = [&](const auto& countOf, auto& values)
-  {
-    for (std::int64_t rank = 0; rank < this->Set.Size(); ++rank)
-    {
-      firsts[rank + 1] = firsts[rank] + countOf(rank);
-    }
-    part.Or(firsts, values);
-  };
-  add([&](std::int64_t rank) { return this->CountIsovertices(rank); },
-    this->Result.Arrays.Isovertices);
-  if (this->Result.Header.Region.IsVolume())
-  {
-    std::visit([&](auto& values)
-      { add([&](std::int64_t rank) { return this->IsInside(rank) ? 1 : 0; }, values); },
-      this->Result.InsideValues);
-  }
-}
-
 Encoded EncodingPasses::Take(ErrorCode::Type code, bool withEdges)
 {
   std::vector<std::uint16_t>& edges = this->Edges.LowerAndKinds;

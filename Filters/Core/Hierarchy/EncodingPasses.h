@@ -2,7 +2,7 @@
 #ifndef isodiamond_EncodingPasses_h
 #define isodiamond_EncodingPasses_h
 
-#include "Field/PeerPart.h"
+#include "Field/Peers.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 #include "Hierarchy/IsovertexPlacement.h"
 
@@ -68,11 +68,8 @@ public:
   /** Passes over what peers write: places are kept free. */
   void Skip(int endScale, const SliceRange& slices);
 
-  ///@{
-  /** Puts together what peers have written: of the same set, or of parts. */
+  /** Puts together what peers have written. */
   void Merge(Peers& peers);
-  void Merge(const PeerPart& part);
-  ///@}
 
   /** Makes room for the values inside an interval volume, of the samples' type. */
   template <typename Value>

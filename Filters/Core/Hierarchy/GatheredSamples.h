@@ -21,9 +21,6 @@ public:
   /** @param dimensions of the volume @param indices of the samples in it, in any order */
   GatheredSamples(const std::array<int, 3>& dimensions, std::vector<std::int64_t> indices);
 
-  /** Ascending. */
-  const std::vector<std::int64_t>& WantedIndices() const { return this->Indices; }
-
   void Add(const SampleSlab& slab);
   /** What peers have added. */
   void Merge(Peers& peers) { peers.Or(this->Values); }

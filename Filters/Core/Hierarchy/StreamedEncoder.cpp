@@ -50,13 +50,6 @@ GatheredSamples StreamedEncoder::WantedSamples() const
   return { this->TheGrid.Dimensions(), std::move(wanted) };
 }
 
-void StreamedEncoder::WantTogether(Peers& peers)
-{
-  const std::vector<std::int64_t>& own = this->Gathered.WantedIndices();
-  const std::vector<std::uint64_t> all = peers.Gather({ own.begin(), own.end() });
-  this->Gathered = { this->TheGrid.Dimensions(), { all.begin(), all.end() } };
-}
-
 void StreamedEncoder::Add(const SampleSlab& slab, const SliceRange& slices)
 {
   this->Gathered.Add(slab);
@@ -83,13 +76,9 @@ void StreamedEncoder::Skip(const SliceRange& slices)
   this->Passes.Skip(FirstLongScale, slices);
 }
 
-void StreamedEncoder::Merge(Peers& peers, const PeerPart* part)
+void StreamedEncoder::Merge(Peers& peers, bool areSetsOther)
 {
-  if (part != nullptr)
-  {
-    this->Passes.Merge(*part);
-  }
-  else
+  if (!areSetsOther)
   {
     this->Passes.Merge(peers);
   }

@@ -31,16 +31,13 @@ public:
    *  @param slab with these and those that overlap */
   void Add(const SampleSlab& slab, const SliceRange& slices);
 
-  /** Before all else, where peers have parts: what one of them wants to know of a long edge, all
-   *  gather. */
-  void WantTogether(Peers& peers);
-
   /** Slices that a peer adds. */
   void Skip(const SliceRange& slices);
 
   /** What peers have added, each at least one slab; together all slices.
-   *  @param part that the set is; null if all peers have the same */
-  void Merge(Peers& peers, const PeerPart* part);
+   *  @param areSetsOther whether each has a set of its own, with the same long edges: what it has
+   *         written is its own then */
+  void Merge(Peers& peers, bool areSetsOther);
 
   /** Once all slices have come. */
   Encoded Finish();

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace isodiamond
@@ -28,14 +29,13 @@ public:
   /** Bricks of scale 0 have one owner each: parts begin with one. */
   static constexpr int Step = 8;
 
-  /** @param begins the slices that parts begin with, ascending, the first 0; rounded to steps
+  /** @param begins the slices that parts begin with, ascending, in steps, the first 0
    *  @param number of the part */
-  DiamondPart(const std::vector<int>& begins, int number)
-    : Number(number)
+  DiamondPart(std::vector<int> begins, int number)
+    : Begins(std::move(begins))
+    , Number(number)
   {
-    assert(!begins.empty() && begins.front() == 0 && std::is_sorted(begins.begin(), begins.end()));
-    std::transform(begins.begin(), begins.end(), std::back_inserter(this->Begins),
-      [](int begin) { return (begin + Step / 2) / Step * Step; });
+    assert(this->Begins.front() == 0 && std::is_sorted(this->Begins.begin(), this->Begins.end()));
   }
 
   int Begin() const { return this->Begins[this->Number]; }
@@ -77,13 +77,14 @@ public:
   }
 
 private:
-  /** So many slices around its own a part has diamonds of. Where samples are cut may be half a step
-   *  from where parts are. Parents are of the next older class and at most a step of their scale
-   *  away: three classes take less than twice as much, which is what the next scale has. */
+  /** So many slices around its own a part has diamonds of. A domain reaches one step of its scale
+   *  from its centre. Parents are of the next older class and at most a step away: after three
+   *  classes that is no more than the youngest of the next scale has. */
   static std::int64_t Reach(int scale, int diamondClass)
   {
-    static_assert(Step / 2 + 3 <= 2 * (Step / 2), "parents are there, too");
-    return std::int64_t{ Step / 2 + (2 - diamondClass) } << scale;
+    constexpr int youngest = 3;
+    static_assert(youngest + 3 <= 2 * youngest, "parents are there, too");
+    return std::int64_t{ youngest + 2 - diamondClass } << scale;
   }
 
   template <typename Condition>

@@ -187,16 +187,8 @@ DiamondSet::DiamondSet(const Grid& grid)
 DiamondSet::DiamondSet(const Grid& grid, const DiamondMask& mask)
   : DiamondSet(grid)
 {
-  for (int scale = grid.Depth(); scale >= 0; --scale)
-  {
-    for (std::int64_t index = 0; index < this->Levels[scale].Box.Size(); ++index)
-    {
-      if (const BrickMask* words = mask.Find(scale, index))
-      {
-        this->Append(scale, index, *words);
-      }
-    }
-  }
+  mask.ForEachBrick([&](int scale, std::int64_t index, const BrickMask& words)
+    { this->Append(scale, index, words); });
 }
 
 void DiamondSet::Append(int scale, std::int64_t brickIndex, const BrickMask& mask)

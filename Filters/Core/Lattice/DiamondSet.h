@@ -177,6 +177,41 @@ public:
   const BrickBox& Box(int scale) const { return this->Levels[scale].Box; }
   int ScaleCount() const { return static_cast<int>(this->Levels.size()); }
 
+  /** Calls body(scale, index, mask) for every brick, coarse to fine, in the order of the ranks. */
+  template <typename Body>
+  void ForEachBrick(const Body& body) const
+  {
+    for (int scale = this->ScaleCount() - 1; scale >= 0; --scale)
+    {
+      for (std::int64_t index = 0; index < this->Box(scale).Size(); ++index)
+      {
+        if (const BrickMask* mask = this->Find(scale, index))
+        {
+          body(scale, index, *mask);
+        }
+      }
+    }
+  }
+
+  /** The same with what bitsOf(scale, z) leaves of the words z, where it leaves any. */
+  template <typename BitsOf, typename Body>
+  void ForEachBrick(const BitsOf& bitsOf, const Body& body) const
+  {
+    this->ForEachBrick(
+      [&](int scale, std::int64_t index, BrickMask mask)
+      {
+        const int first = this->Box(scale).Origin(index)[2];
+        for (int z = 0; z < 8; ++z)
+        {
+          mask[z] &= bitsOf(scale, first + z);
+        }
+        if (mask != BrickMask{})
+        {
+          body(scale, index, mask);
+        }
+      });
+  }
+
   /** The number of diamonds. */
   std::int64_t Size() const;
 
@@ -346,6 +381,16 @@ public:
   DiamondSet() = default;
   explicit DiamondSet(const Grid& grid);
   DiamondSet(const Grid& grid, const DiamondMask& mask);
+
+  /** What bitsOf(scale, z) leaves of the words of a mask. */
+  template <typename BitsOf>
+  DiamondSet(const Grid& grid, const DiamondMask& mask, const BitsOf& bitsOf)
+    : DiamondSet(grid)
+  {
+    mask.ForEachBrick(bitsOf,
+      [&](int scale, std::int64_t index, const BrickMask& some)
+      { this->Append(scale, index, some); });
+  }
 
   /** Appends a brick; scales must come from coarse to fine and bricks of a scale in order.
    *  @throws std::length_error at more than 2^32 - 1 diamonds. */
