@@ -81,11 +81,11 @@ void ForEachBlock(
 
 /** Where lists of so many values begin that are one behind the other, and at last their end. */
 template <typename Size>
-std::vector<std::size_t> FirstsOf(const std::vector<Size>& sizes)
+std::vector<std::uint32_t> FirstsOf(const std::vector<Size>& sizes)
 {
-  std::vector<std::size_t> firsts(sizes.size() + 1, 0);
+  std::vector<std::uint32_t> firsts(sizes.size() + 1, 0);
   std::inclusive_scan(
-    sizes.begin(), sizes.end(), firsts.begin() + 1, std::plus<>(), std::size_t{ 0 });
+    sizes.begin(), sizes.end(), firsts.begin() + 1, std::plus<>(), std::uint32_t{ 0 });
   return firsts;
 }
 
@@ -126,8 +126,8 @@ public:
   std::vector<T> Lists(const std::vector<T>& told, const std::vector<std::uint8_t>& toldSizes,
     const std::vector<std::uint8_t>& hadSizes) const
   {
-    const std::vector<std::size_t> toldFirsts = FirstsOf(toldSizes);
-    const std::vector<std::size_t> hadFirsts = FirstsOf(hadSizes);
+    const std::vector<std::uint32_t> toldFirsts = FirstsOf(toldSizes);
+    const std::vector<std::uint32_t> hadFirsts = FirstsOf(hadSizes);
     std::vector<T> had(hadFirsts.back());
     std::vector<std::uint16_t> sizes;
     std::vector<T> some;
@@ -137,7 +137,7 @@ public:
         sizes.assign(block.Size(), 0);
         block.ForEachTold([&](std::size_t i, std::size_t rank) { sizes[i] = toldSizes[rank]; });
         this->Part.Others().Max(sizes.data(), static_cast<std::int64_t>(sizes.size()));
-        const std::vector<std::size_t> firsts = FirstsOf(sizes);
+        const std::vector<std::uint32_t> firsts = FirstsOf(sizes);
         some.assign(firsts.back(), T{});
         block.ForEachTold([&](std::size_t i, std::size_t rank)
           { std::copy_n(told.begin() + toldFirsts[rank], sizes[i], some.begin() + firsts[i]); });
@@ -200,26 +200,33 @@ Dealing::Dealing(const Grid& grid, const PeerPart& part, const DiamondSet& membe
 {
 }
 
-Encoded Dealing::Deal(const Encoded& told) const
+Encoded Dealing::Deal(Encoded told) const
 {
+  // What has been dealt is forgotten.
   const Dealer dealer(this->Part, this->Told, this->Members);
-  Encoded had;
-  had.Encoding.Header = told.Encoding.Header;
-  WriteBricks(this->Members, had.Encoding.Arrays);
-  had.Encoding.Arrays.Records = dealer.Values(told.Encoding.Arrays.Records);
-  had.Edges.LowerAndKinds = dealer.Values(told.Edges.LowerAndKinds);
-  had.Edges.Upper = dealer.Values(told.Edges.Upper);
-  had.Encoding.Arrays.Isovertices = dealer.Lists(
-    told.Encoding.Arrays.Isovertices, IsovertexCounts(told.Edges), IsovertexCounts(had.Edges));
-  std::visit(
-    [&](const auto& values)
-    {
-      had.Encoding.InsideValues = told.Encoding.Header.Region.IsVolume()
-        ? dealer.Lists(values, InsideCounts(told.Edges), InsideCounts(had.Edges))
-        : values;
-    },
-    told.Encoding.InsideValues);
-  return had;
+  const auto deal = [&](auto& values) { values = dealer.Values(std::exchange(values, {})); };
+  const DiamondEdges edges = told.Edges;
+  EncodingArrays<OwnedArray>& arrays = told.Encoding.Arrays;
+  arrays.BrickCounts.clear();
+  arrays.BrickIndices.clear();
+  arrays.BrickMasks.clear();
+  WriteBricks(this->Members, arrays);
+  deal(arrays.Records);
+  deal(told.Edges.LowerAndKinds);
+  deal(told.Edges.Upper);
+  arrays.Isovertices = dealer.Lists(
+    std::exchange(arrays.Isovertices, {}), IsovertexCounts(edges), IsovertexCounts(told.Edges));
+  if (told.Encoding.Header.Region.IsVolume())
+  {
+    std::visit(
+      [&](auto& values)
+      {
+        values =
+          dealer.Lists(std::exchange(values, {}), InsideCounts(edges), InsideCounts(told.Edges));
+      },
+      told.Encoding.InsideValues);
+  }
+  return told;
 }
 
 std::vector<ErrorCode::Type> Dealing::Deal(const std::vector<ErrorCode::Type>& told) const

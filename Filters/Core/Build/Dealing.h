@@ -32,7 +32,7 @@ public:
   const DiamondSet& OfSlabs() const { return this->Told; }
 
   /** What peers have encoded of these, as the encoding of the part. */
-  Encoded Deal(const Encoded& told) const;
+  Encoded Deal(Encoded told) const;
 
   /** Codes of these, 0 where others tell. */
   std::vector<ErrorCode::Type> Deal(const std::vector<ErrorCode::Type>& told) const;

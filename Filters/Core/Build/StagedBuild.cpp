@@ -313,7 +313,7 @@ StagedBuild StreamedBuild::Finish()
     });
   if (current.ToParts)
   {
-    relevant = current.ToParts->Deal(relevant);
+    relevant = current.ToParts->Deal(std::move(relevant));
     codes.Surface = current.ToParts->Deal(codes.Surface);
     codes.Interior = current.ToParts->Deal(codes.Interior);
   }
