@@ -337,7 +337,7 @@ void vtkIsodiamondBuilder::BuildFromSlabs(
   isodiamond::BuildOptions options = this->GetOptions(world);
   options.Report = task.Report();
   options.Together = slabs.Together();
-  options.InParts = true;
+  options.InPortions = true;
   isodiamond::Encoding encoding;
   std::vector<vtkSmartPointer<vtkDataArray>> pointArrays;
   vtkIsodiamond::RunThreaded(this->NumberOfThreads,

@@ -118,7 +118,7 @@ void Cache::Build(
   const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task)
 {
   isodiamond::BuildOptions options = this->OptionsFor(volume, need.RefinedInterior, task);
-  options.InParts = MeasuresAtOnce(need);
+  options.InPortions = MeasuresAtOnce(need);
   std::list<Entry> added(1);
   Entry& entry = added.front();
   entry.From = this->Current;

@@ -3,18 +3,16 @@
 
 #include "CoreTestTools.h"
 #include "RandomTestTools.h"
+#include "ThreadPeers.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
-#include <functional>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 using namespace isodiamond;
@@ -87,111 +85,12 @@ StagedBuild BuildInSlabs(const AnySamples& samples, const Isoregion& region, int
   return build.Finish();
 }
 
-/** Peers that are threads. */
-class Gathering
-{
-public:
-  explicit Gathering(int count)
-    : Places(count)
-  {
-  }
-
-  /** Runs body(peers) in all of them. */
-  void Run(const std::function<void(Peers&)>& body)
-  {
-    std::vector<std::thread> threads;
-    for (int rank = 0; rank < this->Count(); ++rank)
-    {
-      threads.emplace_back(
-        [&, rank]
-        {
-          Peer peer(*this, rank);
-          body(peer);
-        });
-    }
-    for (std::thread& thread : threads)
-    {
-      thread.join();
-    }
-  }
-
-private:
-  class Peer : public Peers
-  {
-  public:
-    Peer(Gathering& all, int rank)
-      : All(all)
-      , Number(rank)
-    {
-    }
-    int Count() const override { return this->All.Count(); }
-    int Rank() const override { return this->Number; }
-    void Or(std::uint8_t* bytes, std::int64_t count) override
-    {
-      this->Combine(bytes, count, [](auto a, auto b) { return a | b; });
-    }
-    void Max(std::uint16_t* values, std::int64_t count) override
-    {
-      this->Combine(values, count, [](auto a, auto b) { return std::max(a, b); });
-    }
-    void Min(std::uint16_t* values, std::int64_t count) override
-    {
-      this->Combine(values, count, [](auto a, auto b) { return std::min(a, b); });
-    }
-    void Max(double* values, std::int64_t count) override
-    {
-      this->Combine(values, count, [](auto a, auto b) { return std::max(a, b); });
-    }
-
-  private:
-    template <typename T, typename Operation>
-    void Combine(T* values, std::int64_t count, const Operation& operation)
-    {
-      this->All.Places[this->Number] = values;
-      this->All.Meet();
-      std::vector<T> all(values, values + count);
-      for (const void* place : this->All.Places)
-      {
-        const T* const others = static_cast<const T*>(place);
-        std::transform(all.begin(), all.end(), others, all.begin(), operation);
-      }
-      this->All.Meet();
-      std::copy(all.begin(), all.end(), values);
-    }
-
-    Gathering& All;
-    int Number;
-  };
-
-  int Count() const { return static_cast<int>(this->Places.size()); }
-
-  /** Waits for all others. */
-  void Meet()
-  {
-    std::unique_lock<std::mutex> lock(this->Mutex);
-    const int meeting = this->Meetings;
-    if (++this->Waiting == this->Count())
-    {
-      this->Waiting = 0;
-      ++this->Meetings;
-      this->Changed.notify_all();
-    }
-    this->Changed.wait(lock, [&] { return meeting != this->Meetings; });
-  }
-
-  std::vector<const void*> Places;
-  std::mutex Mutex;
-  std::condition_variable Changed;
-  int Waiting = 0;
-  int Meetings = 0;
-};
-
 /** Calls check(make(options)) for each of some peers, whose options these are. */
 template <typename Make, typename Check>
 void ForEachPeer(int peers, const BuildOptions& options, const Make& make, const Check& check)
 {
   std::mutex mutex; // of expectations
-  Gathering(peers).Run(
+  test::ThreadPeers(peers).Run(
     [&](Peers& own)
     {
       BuildOptions together = options;
@@ -273,7 +172,7 @@ TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
       SCOPED_TRACE(seed);
       test::Random random(seed);
       RandomCase whole(random, 40, 4000);
-      whole.Options.InParts = test::Pick(random, 4) != 0;
+      whole.Options.InPortions = test::Pick(random, 4) != 0;
       const int peers = 1 + test::Pick(random, std::min(4, whole.Samples.Dimensions[2]));
       const int slabs = peers + test::Pick(random, 5);
       const Encoding& expected = whole.Expected.TheEncoding;
@@ -289,9 +188,9 @@ TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
   EXPECT_GT(cases, 0);
 }
 
-// Most of a tall volume is elsewhere: isovertices, errors and triangles that a part needs come from
-// its neighbours, and of large diamonds from beyond.
-TEST(Slabs, OfPeersMakeTheSameInPartsOfATallVolume)
+// Most of a tall volume is elsewhere: isovertices, errors and triangles that a portion needs come
+// from its neighbours, and of large diamonds from beyond.
+TEST(Slabs, OfPeersMakeTheSameInPortionsOfATallVolume)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const test::Field& field : { test::WaveField({ 17, 20, 131 }),
@@ -303,7 +202,7 @@ TEST(Slabs, OfPeersMakeTheSameInPartsOfATallVolume)
       { Isoregion(field.Isovalue), Isoregion(field.Isovalue - 1.0, field.Isovalue + 0.5) })
     {
       BuildOptions options = test::Distance();
-      options.InParts = true;
+      options.InPortions = true;
       options.RefineInterior = region.IsVolume();
       options.PreserveFeatures = !region.IsVolume();
       for (const int peers : { 2, 5 })
@@ -363,19 +262,19 @@ TEST(Slabs, OfPeersFailForAllOfThem)
     { "Classifying diamonds", "Measuring errors", "Finding thresholds", "of one tolerance" })
   {
     const bool isOne = phase == "of one tolerance";
-    for (const bool inParts : { false, true })
+    for (const bool inPortions : { false, true })
     {
-      if (isOne && inParts)
+      if (isOne && inPortions)
       {
         continue; // there is no mesh before the end
       }
       std::atomic<int> failed(0);
-      Gathering(3).Run(
+      test::ThreadPeers(3).Run(
         [&](Peers& own)
         {
           BuildOptions together = test::Distance();
           together.Together = &own;
-          together.InParts = inParts;
+          together.InPortions = inPortions;
           together.Report = [&](const char* current, double, double)
           {
             if (own.Rank() == 1 && current == (isOne ? "Measuring errors" : phase))
@@ -398,7 +297,7 @@ TEST(Slabs, OfPeersFailForAllOfThem)
             failed += (std::string(problem.what()) == "stopped") == (own.Rank() == 1) ? 1 : 0;
           }
         });
-      EXPECT_EQ(failed, 3) << phase << (inParts ? " in parts" : "");
+      EXPECT_EQ(failed, 3) << phase << (inPortions ? " in portions" : "");
     }
   }
 }

@@ -318,18 +318,18 @@ private:
 }
 
 /**
- * What all parts of a hierarchy come to. Each finds what its own diamonds lead to; then those that
- * several parts have rise to the greatest code of them, and each goes on from there, until none
- * rises any more. No code is ever higher than in the whole hierarchy, and in the end what holds
- * there holds here: a diamond and its parents are in one part, whichever way a code goes.
+ * What all portions of a hierarchy come to. Each finds what its own diamonds lead to; then those
+ * that several portions have rise to the greatest code of them, and each goes on from there, until
+ * none rises any more. No code is ever higher than in the whole hierarchy, and in the end what
+ * holds there holds here: a diamond and its parents are in one portion, whichever way a code goes.
  */
 std::vector<ErrorCode::Type> InRounds(const Grid& grid, const DiamondSet& members,
   const std::vector<ErrorCode::Type>& own, std::vector<ErrorCode::Type> codes,
-  const ParallelFor& parallelFor, const PeerPart& part)
+  const ParallelFor& parallelFor, const PeerPortion& portion)
 {
-  while (part.Others().Any(part.Max(codes)))
+  while (portion.Others().Any(portion.Max(codes)))
   {
-    part.Others().Together(
+    portion.Others().Together(
       [&] { codes = RisingCodes(grid, members, own, codes, parallelFor).Saturated(); });
   }
   return codes;
@@ -338,14 +338,14 @@ std::vector<ErrorCode::Type> InRounds(const Grid& grid, const DiamondSet& member
 }
 
 std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
-  std::vector<ErrorCode::Type> own, const ParallelFor& parallelFor, const PeerPart* part)
+  std::vector<ErrorCode::Type> own, const ParallelFor& parallelFor, const PeerPortion* portion)
 {
-  if (part != nullptr)
+  if (portion != nullptr)
   {
     std::vector<ErrorCode::Type> codes;
-    part->Others().Together(
+    portion->Others().Together(
       [&] { codes = RisingCodes(grid, members, own, parallelFor).Thresholds(); });
-    return InRounds(grid, members, own, std::move(codes), parallelFor, *part);
+    return InRounds(grid, members, own, std::move(codes), parallelFor, *portion);
   }
   std::vector<ErrorCode::Type> thresholds =
     RisingCodes(grid, members, std::move(own), parallelFor).Thresholds();
@@ -369,19 +369,19 @@ std::vector<std::uint32_t> FindFollowers(
 
 std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
   const std::vector<ErrorCode::Type>& codes, const std::vector<std::uint32_t>& followers,
-  const ParallelFor& parallelFor, const PeerPart* part)
+  const ParallelFor& parallelFor, const PeerPortion* portion)
 {
   std::vector<ErrorCode::Type> own(members.Size(), 0);
   for (const std::uint32_t rank : followers)
   {
     own[rank] = ErrorCode::Always; // has the greatest code of its parents, however great
   }
-  if (part != nullptr)
+  if (portion != nullptr)
   {
     std::vector<ErrorCode::Type> risen;
-    part->Others().Together(
+    portion->Others().Together(
       [&] { risen = RisingCodes(grid, members, own, codes, parallelFor).Saturated(); });
-    return InRounds(grid, members, own, std::move(risen), parallelFor, *part);
+    return InRounds(grid, members, own, std::move(risen), parallelFor, *portion);
   }
   std::vector<ErrorCode::Type> saturated =
     RisingCodes(grid, members, std::move(own), codes, parallelFor).Saturated();

@@ -2,7 +2,7 @@
 #ifndef isodiamond_ActivationThresholds_h
 #define isodiamond_ActivationThresholds_h
 
-#include "Field/PeerPart.h"
+#include "Field/PeerPortion.h"
 #include "Hierarchy/ErrorCode.h"
 #include "Lattice/DiamondSet.h"
 
@@ -28,13 +28,14 @@ namespace isodiamond
  *
  * @param members a set that holds all ancestors of each of its diamonds (below scale N)
  * @param own by rank, the code of a diamond's own error; 0 where only closure subdivides it
- * @param part that the members are of: thresholds of the whole hierarchy, found in rounds, by all
- *        peers together. Null if these are all
+ * @param portion that the members are of: thresholds of the whole hierarchy, found in rounds, by
+ * all peers together. Null if these are all
  * @return by rank, the threshold's code; 0 for what is never reached (nothing, if the members are
  *         the ancestors of diamonds with an own error that counts)
  */
 std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
-  std::vector<ErrorCode::Type> own, const ParallelFor& parallelFor, const PeerPart* part = nullptr);
+  std::vector<ErrorCode::Type> own, const ParallelFor& parallelFor,
+  const PeerPortion* portion = nullptr);
 
 /**
  * The *followers*: diamonds whose own error exceeds their threshold. No parent of such a diamond is
@@ -51,12 +52,12 @@ std::vector<std::uint32_t> FindFollowers(
  * Raises codes to the greatest of their descendants', those of followers to the greatest of their
  * parents': what is subdivided where any of these is. The least solution, as above.
  *
- * @param members, codes, part as above
+ * @param members, codes, portion as above
  * @param followers ranks
  */
 std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
   const std::vector<ErrorCode::Type>& codes, const std::vector<std::uint32_t>& followers,
-  const ParallelFor& parallelFor, const PeerPart* part = nullptr);
+  const ParallelFor& parallelFor, const PeerPortion* portion = nullptr);
 
 }
 

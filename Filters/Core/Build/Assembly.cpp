@@ -17,8 +17,8 @@ namespace
 class Assembler
 {
 public:
-  Assembler(const PeerPart& part, const DiamondSet& members, const DiamondSet& kept)
-    : Part(part)
+  Assembler(const PeerPortion& portion, const DiamondSet& members, const DiamondSet& kept)
+    : Portion(portion)
     , Members(members)
     , Kept(kept)
   {
@@ -31,11 +31,12 @@ public:
     std::vector<T> all(this->Kept.Size(), T{});
     this->ForEachOwned(
       [&](std::uint32_t rank, std::uint32_t ownRank) { all[rank] = own[ownRank]; });
-    this->Part.Others().Or(all);
+    this->Portion.Others().Or(all);
     return all;
   }
 
-  /** Lists of values. @param countOf, firstOf by rank in this part, how many, and where they begin
+  /** Lists of values. @param countOf, firstOf by rank in this portion, how many, and where they
+   * begin
    */
   template <typename T, typename CountOf, typename FirstOf>
   std::vector<T> Lists(
@@ -59,12 +60,12 @@ public:
         }
         std::copy_n(own.begin() + firstOf(ownRank), counts[rank], next);
       });
-    this->Part.Others().Or(all);
+    this->Portion.Others().Or(all);
     return all;
   }
 
 private:
-  /** Calls body(rank in the whole, rank in this part), ascending. */
+  /** Calls body(rank in the whole, rank in this portion), ascending. */
   template <typename Body>
   void ForEachOwned(const Body& body) const
   {
@@ -77,7 +78,7 @@ private:
         const int first = level.Box.Origin(brick.BoxIndex)[2];
         for (int z = 0; z < 8 && own != nullptr; ++z)
         {
-          if (this->Part.Diamonds().Owns((first + z) << scale))
+          if (this->Portion.Diamonds().Owns((first + z) << scale))
           {
             ForEachBit(
               brick.Occupancy[z], [&](int bit) { body(brick.Rank(z, bit), own->Rank(z, bit)); });
@@ -87,7 +88,7 @@ private:
     }
   }
 
-  const PeerPart& Part;
+  const PeerPortion& Portion;
   const DiamondSet& Members;
   const DiamondSet& Kept;
 };
@@ -111,10 +112,10 @@ std::vector<T> InsideValuesOf(
 
 }
 
-Encoding Assemble(
-  const PeerPart& part, Encoding own, const IsodiamondHierarchy& hierarchy, const DiamondSet& kept)
+Encoding Assemble(const PeerPortion& portion, Encoding own, const IsodiamondHierarchy& hierarchy,
+  const DiamondSet& kept)
 {
-  const Assembler assembler(part, hierarchy.Diamonds(), kept);
+  const Assembler assembler(portion, hierarchy.Diamonds(), kept);
   const bool isVolume = own.Header.Region.IsVolume();
   const EncodingArrays<OwnedArray>& from = own.Arrays;
   Encoding whole;
@@ -145,8 +146,8 @@ Encoding Assemble(
 
   std::vector<std::uint64_t> followers;
   std::copy_if(from.Followers.begin(), from.Followers.end(), std::back_inserter(followers),
-    [&](std::uint64_t code) { return part.Diamonds().Owns(Centre(PlaceOfCentre(code))[2]); });
-  whole.Arrays.Followers = part.Others().Gather(followers);
+    [&](std::uint64_t code) { return portion.Diamonds().Owns(Centre(PlaceOfCentre(code))[2]); });
+  whole.Arrays.Followers = portion.Others().Gather(followers);
   std::sort(whole.Arrays.Followers.begin(), whole.Arrays.Followers.end());
   return whole;
 }

@@ -2,22 +2,22 @@
 #ifndef isodiamond_Assembly_h
 #define isodiamond_Assembly_h
 
-#include "Field/PeerPart.h"
+#include "Field/PeerPortion.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 
 namespace isodiamond
 {
 
 /**
- * Puts a hierarchy together of the parts that peers have of it: each gives what it owns, and all of
- * them have the whole in the end. By all of them.
+ * Puts a hierarchy together of the portions that peers have of it: each gives what it owns, and all
+ * of them have the whole in the end. By all of them.
  *
- * @param part that this process has
- * @param own the encoding of its part, an RI, and the hierarchy that was made of it
+ * @param portion that this process has
+ * @param own the encoding of its portion, an RI, and the hierarchy that was made of it
  * @param kept the diamonds that are to be in the whole: all, or those of an MI
  */
-Encoding Assemble(
-  const PeerPart& part, Encoding own, const IsodiamondHierarchy& hierarchy, const DiamondSet& kept);
+Encoding Assemble(const PeerPortion& portion, Encoding own, const IsodiamondHierarchy& hierarchy,
+  const DiamondSet& kept);
 
 }
 

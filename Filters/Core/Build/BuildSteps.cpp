@@ -27,21 +27,22 @@ namespace
 /**
  * Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
  * ancestors, and what follows these.
- * @param part that the members are of; null for all
+ * @param portion that the members are of; null for all
  * @param haveFollowers without, what something else than a threshold leads to may have any error
  */
-void RaiseToThresholds(const Grid& grid, const DiamondSet& members, const PeerPart* part,
+void RaiseToThresholds(const Grid& grid, const DiamondSet& members, const PeerPortion* portion,
   bool haveFollowers, const ParallelFor& parallelFor, DiamondCodes& codes)
 {
   const std::vector<ErrorCode::Type> own =
     haveFollowers ? codes.Surface : std::vector<ErrorCode::Type>();
-  codes.Surface = ActivationThresholds(grid, members, std::move(codes.Surface), parallelFor, part);
+  codes.Surface =
+    ActivationThresholds(grid, members, std::move(codes.Surface), parallelFor, portion);
   codes.Followers = FindFollowers(own, codes.Surface);
   std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
   if (!codes.Interior.empty())
   {
     codes.Interior =
-      SaturateUpward(grid, members, codes.Interior, codes.Followers, parallelFor, part);
+      SaturateUpward(grid, members, codes.Interior, codes.Followers, parallelFor, portion);
     std::fill_n(codes.Interior.begin(), 8, ErrorCode::Always);
   }
 }
@@ -152,10 +153,10 @@ BuildSteps::BuildSteps(const Source& source, SignLattice signs, const Isoregion&
   }
   const std::int64_t relevantCount = this->Kinds.Members.Size();
   this->Kinds.Members.Insert(grid.Depth(), 0, CornerBrick());
-  if (options.InParts && options.Together != nullptr)
+  if (options.InPortions && options.Together != nullptr)
   {
-    this->Part.emplace(grid, std::move(this->Kinds.Members), *options.Together);
-    this->Members = this->Part->TakeMembers();
+    this->Portion.emplace(grid, std::move(this->Kinds.Members), *options.Together);
+    this->Members = this->Portion->TakeMembers();
   }
   else
   {
@@ -226,12 +227,12 @@ DiamondCodes BuildSteps::MeasureDistances(
           : InteriorCodes(this->Origin, this->SignsToGoBy(), this->Members, this->For);
       }
       own = OwnDistanceCodes(this->Origin, isFinite, relevant, this->SignsToGoBy(), this->Options,
-        this->Part ? &this->Part->Diamonds() : nullptr, std::move(own), bounds, this->For);
+        this->Portion ? &this->Portion->Diamonds() : nullptr, std::move(own), bounds, this->For);
     });
   this->Merge(own.Surface);
-  if (this->Part)
+  if (this->Portion)
   {
-    bounds.Merge(*this->Part);
+    bounds.Merge(*this->Portion);
   }
   else if (peers != nullptr)
   {
@@ -242,8 +243,8 @@ DiamondCodes BuildSteps::MeasureDistances(
     {
       const BeforeWayBack known{ this->Options.Hidden, &bounds,
         ActivationThresholds(
-          this->Origin.SampleGrid, this->Members, own.Surface, this->For, this->PartOfPeers()),
-        this->PartOfPeers() };
+          this->Origin.SampleGrid, this->Members, own.Surface, this->For, this->PortionOfPeers()),
+        this->PortionOfPeers() };
       RaiseByWayBack(relevant, this->Options.World, known, own.Surface, Loops(this->For, peers));
     });
   this->Merge(own.Surface);
@@ -253,9 +254,9 @@ DiamondCodes BuildSteps::MeasureDistances(
 /** Errors that peers have found. */
 void BuildSteps::Merge(std::vector<ErrorCode::Type>& codes) const
 {
-  if (this->Part)
+  if (this->Portion)
   {
-    this->Part->Max(codes);
+    this->Portion->Max(codes);
   }
   else if (this->Options.Together != nullptr)
   {
@@ -302,7 +303,7 @@ void BuildSteps::FindThresholds(DiamondCodes& codes) const
   this->Do("Finding thresholds", 0.8, 0.9,
     [&]
     {
-      RaiseToThresholds(this->Origin.SampleGrid, this->Members, this->PartOfPeers(),
+      RaiseToThresholds(this->Origin.SampleGrid, this->Members, this->PortionOfPeers(),
         this->Header.Metric == ErrorMetric::Distance, this->For, codes);
     });
 }
@@ -324,7 +325,7 @@ DiamondSet BuildSteps::KeptOf(Model model) const
   const Grid& grid = this->Origin.SampleGrid;
   if (model == Model::Relevant)
   {
-    return { grid, this->Part->All() };
+    return { grid, this->Portion->All() };
   }
   DiamondMask kept = this->Kinds.Active;
   this->Kinds.Creation.ForEachBrick(
@@ -333,7 +334,7 @@ DiamondSet BuildSteps::KeptOf(Model model) const
   return { grid, kept };
 }
 
-Encoding BuildSteps::CompleteOfParts(Model model, Encoding relevant,
+Encoding BuildSteps::CompleteOfPortions(Model model, Encoding relevant,
   const IsodiamondHierarchy& hierarchy, DiamondCodes thresholds) const
 {
   DiamondSet kept;
@@ -344,10 +345,10 @@ Encoding BuildSteps::CompleteOfParts(Model model, Encoding relevant,
       relevant.Header.TheModel = model;
       kept = this->KeptOf(model);
     });
-  return Assemble(*this->Part, std::move(relevant), hierarchy, kept);
+  return Assemble(*this->Portion, std::move(relevant), hierarchy, kept);
 }
 
-/** Work that is told first, which may stop it. Where peers have parts it asks them by itself. */
+/** Work that is told first, which may stop it. Where peers have portions it asks them by itself. */
 template <typename Work>
 void BuildSteps::Do(const char* phase, double begin, double end, const Work& work) const
 {
@@ -355,12 +356,12 @@ void BuildSteps::Do(const char* phase, double begin, double end, const Work& wor
     [&]
     {
       Tell(this->Options, phase, begin, end);
-      if (!this->Part)
+      if (!this->Portion)
       {
         work();
       }
     });
-  if (this->Part)
+  if (this->Portion)
   {
     work();
   }

@@ -4,7 +4,7 @@
 
 #include "Build/Classification.h"
 #include "Build/OwnErrors.h"
-#include "Field/PeerPart.h"
+#include "Field/PeerPortion.h"
 
 #include <functional>
 #include <optional>
@@ -33,7 +33,7 @@ public:
   const EncodingHeader& RelevantHeader() const { return this->Header; }
   const DiamondSet& Relevant() const { return this->Members; }
   /** That the diamonds are of; null if they are all. */
-  const PeerPart* PartOfPeers() const { return this->Part ? &*this->Part : nullptr; }
+  const PeerPortion* PortionOfPeers() const { return this->Portion ? &*this->Portion : nullptr; }
   const SignLattice* SignsIfKept() const { return this->Signs ? &*this->Signs : nullptr; }
 
   /** An RI without errors. @param begin, end of its part of the whole @param withEdges see Encode()
@@ -70,8 +70,8 @@ public:
 
   Encoding Complete(Model model, Encoding relevant, DiamondCodes thresholds) const;
 
-  /** The same where this process has a part. @param hierarchy of the encoding */
-  Encoding CompleteOfParts(Model model, Encoding relevant, const IsodiamondHierarchy& hierarchy,
+  /** The same where this process has a portion. @param hierarchy of the encoding */
+  Encoding CompleteOfPortions(Model model, Encoding relevant, const IsodiamondHierarchy& hierarchy,
     DiamondCodes thresholds) const;
 
 private:
@@ -90,7 +90,7 @@ private:
   Classification Kinds;
   std::optional<DiamondCodes> FieldCodes; ///< if they are known already
   DiamondMask ForTopology;                ///< empty if topology need not be preserved
-  std::optional<PeerPart> Part;
+  std::optional<PeerPortion> Portion;
   DiamondSet Members;
   EncodingHeader Header;
 };

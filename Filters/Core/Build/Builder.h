@@ -38,9 +38,9 @@ struct BuildOptions
   const HiddenCells* Hidden = nullptr;
   /** Who builds it together with this process, from a volume in slabs; null for nobody. */
   Peers* Together = nullptr;
-  /** Whether each of these has a part of the diamonds until the hierarchy is complete: less memory,
-   *  but no mesh before. */
-  bool InParts = false;
+  /** Whether each of these has a portion of the diamonds until the hierarchy is complete: less
+   * memory, but no mesh before. */
+  bool InPortions = false;
   /** Is told what is being done; may throw to stop. */
   Progress Report = nullptr;
 };

@@ -93,8 +93,8 @@ std::vector<std::uint32_t> FirstsOf(const std::vector<Size>& sizes)
 class Dealer
 {
 public:
-  Dealer(const PeerPart& part, const DiamondSet& told, const DiamondSet& had)
-    : Part(part)
+  Dealer(const PeerPortion& portion, const DiamondSet& told, const DiamondSet& had)
+    : Portion(portion)
     , Told(told)
     , Had(had)
   {
@@ -110,12 +110,12 @@ public:
     }
     std::vector<T> had(this->Had.Size());
     std::vector<T> some;
-    ForEachBlock(this->Part.All(), this->Told, this->Had,
+    ForEachBlock(this->Portion.All(), this->Told, this->Had,
       [&](const Block& block)
       {
         some.assign(block.Size(), T{});
         block.ForEachTold([&](std::size_t i, std::size_t rank) { some[i] = told[rank]; });
-        this->Part.Others().Or(some);
+        this->Portion.Others().Or(some);
         block.ForEachHad([&](std::size_t i, std::size_t rank) { had[rank] = some[i]; });
       });
     return had;
@@ -131,17 +131,17 @@ public:
     std::vector<T> had(hadFirsts.back());
     std::vector<std::uint16_t> sizes;
     std::vector<T> some;
-    ForEachBlock(this->Part.All(), this->Told, this->Had,
+    ForEachBlock(this->Portion.All(), this->Told, this->Had,
       [&](const Block& block)
       {
         sizes.assign(block.Size(), 0);
         block.ForEachTold([&](std::size_t i, std::size_t rank) { sizes[i] = toldSizes[rank]; });
-        this->Part.Others().Max(sizes.data(), static_cast<std::int64_t>(sizes.size()));
+        this->Portion.Others().Max(sizes.data(), static_cast<std::int64_t>(sizes.size()));
         const std::vector<std::uint32_t> firsts = FirstsOf(sizes);
         some.assign(firsts.back(), T{});
         block.ForEachTold([&](std::size_t i, std::size_t rank)
           { std::copy_n(told.begin() + toldFirsts[rank], sizes[i], some.begin() + firsts[i]); });
-        this->Part.Others().Or(some);
+        this->Portion.Others().Or(some);
         block.ForEachHad([&](std::size_t i, std::size_t rank)
           { std::copy_n(some.begin() + firsts[i], sizes[i], had.begin() + hadFirsts[rank]); });
       });
@@ -149,7 +149,7 @@ public:
   }
 
 private:
-  const PeerPart& Part;
+  const PeerPortion& Portion;
   const DiamondSet& Told;
   const DiamondSet& Had;
 };
@@ -192,18 +192,18 @@ DiamondSet TellersOf(const DiamondMask& all, const Grid& grid, const std::vector
 
 }
 
-Dealing::Dealing(const Grid& grid, const PeerPart& part, const DiamondSet& members,
+Dealing::Dealing(const Grid& grid, const PeerPortion& portion, const DiamondSet& members,
   const std::vector<SliceRange>& slabs)
-  : Part(part)
+  : Portion(portion)
   , Members(members)
-  , Told(TellersOf(part.All(), grid, slabs))
+  , Told(TellersOf(portion.All(), grid, slabs))
 {
 }
 
 Encoded Dealing::Deal(Encoded told) const
 {
   // What has been dealt is forgotten.
-  const Dealer dealer(this->Part, this->Told, this->Members);
+  const Dealer dealer(this->Portion, this->Told, this->Members);
   const auto deal = [&](auto& values) { values = dealer.Values(std::exchange(values, {})); };
   const DiamondEdges edges = told.Edges;
   EncodingArrays<OwnedArray>& arrays = told.Encoding.Arrays;
@@ -231,7 +231,7 @@ Encoded Dealing::Deal(Encoded told) const
 
 std::vector<ErrorCode::Type> Dealing::Deal(const std::vector<ErrorCode::Type>& told) const
 {
-  return Dealer(this->Part, this->Told, this->Members).Values(told);
+  return Dealer(this->Portion, this->Told, this->Members).Values(told);
 }
 
 }

@@ -2,7 +2,7 @@
 #ifndef isodiamond_Dealing_h
 #define isodiamond_Dealing_h
 
-#include "Field/PeerPart.h"
+#include "Field/PeerPortion.h"
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 
@@ -12,9 +12,10 @@ namespace isodiamond
 {
 
 /**
- * Slabs of samples and parts of the diamonds need not be cut at the same slices: parts have as much
- * of the surface as one another. What a peer finds in its slabs it deals to who has the diamonds.
- * All of them go through all diamonds, some at once, which takes next to nothing beside measuring.
+ * Slabs of samples and portions of the diamonds need not be cut at the same slices: portions have
+ * as much of the surface as one another. What a peer finds in its slabs it deals to who has the
+ * diamonds. All of them go through all diamonds, some at once, which takes next to nothing beside
+ * measuring.
  */
 class Dealing
 {
@@ -23,22 +24,23 @@ public:
    *  few. */
   static constexpr int FirstCommonScale = 4;
 
-  /** @param members of the part @param slabs that this process has; all but these must outlive it
+  /** @param members of the portion @param slabs that this process has; all but these must outlive
+   * it
    */
-  Dealing(const Grid& grid, const PeerPart& part, const DiamondSet& members,
+  Dealing(const Grid& grid, const PeerPortion& portion, const DiamondSet& members,
     const std::vector<SliceRange>& slabs);
 
   /** The diamonds that the slabs tell of: of fine scales those with their centre in them. */
   const DiamondSet& OfSlabs() const { return this->Told; }
 
-  /** What peers have encoded of these, as the encoding of the part. */
+  /** What peers have encoded of these, as the encoding of the portion. */
   Encoded Deal(Encoded told) const;
 
   /** Codes of these, 0 where others tell. */
   std::vector<ErrorCode::Type> Deal(const std::vector<ErrorCode::Type>& told) const;
 
 private:
-  const PeerPart& Part;
+  const PeerPortion& Portion;
   const DiamondSet& Members;
   DiamondSet Told;
 };

@@ -80,11 +80,12 @@ std::vector<ErrorCode::Type> InteriorCodes(const Source& source, const BuildSign
 
 DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
   const IsodiamondHierarchy& relevant, const BuildSigns& signs, const BuildOptions& options,
-  const DiamondPart* part, DiamondCodes own, MapBounds& bounds, const ParallelFor& parallelFor)
+  const DiamondPortion* portion, DiamondCodes own, MapBounds& bounds,
+  const ParallelFor& parallelFor)
 {
   own.Surface = DistanceErrors(relevant, isFinite, options.World, options.PreserveFeatures,
-    part != nullptr ? Loops(parallelFor) : Loops(parallelFor, options.Together),
-    std::move(own.Surface), &bounds, part);
+    portion != nullptr ? Loops(parallelFor) : Loops(parallelFor, options.Together),
+    std::move(own.Surface), &bounds, portion);
   ForEachMember(relevant.Diamonds(), parallelFor,
     [&](const Place& place, std::uint32_t rank)
     {

@@ -135,10 +135,11 @@ std::vector<ErrorCode::Type> InteriorCodes(const Source& source, const BuildSign
 
 /** The distance metric.
  *  @param own what is always subdivided already; what is inside stays as it is
- *  @param part that the diamonds are of; null for all of them */
+ *  @param portion that the diamonds are of; null for all of them */
 DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
   const IsodiamondHierarchy& relevant, const BuildSigns& signs, const BuildOptions& options,
-  const DiamondPart* part, DiamondCodes own, MapBounds& bounds, const ParallelFor& parallelFor);
+  const DiamondPortion* portion, DiamondCodes own, MapBounds& bounds,
+  const ParallelFor& parallelFor);
 
 /** Whether a diamond of an interval volume has to be subdivided as it holds volume in the grid and
  *  sticks out of that. */

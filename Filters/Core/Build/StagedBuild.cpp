@@ -129,9 +129,9 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
     ? kept.Done->MeasureField()
     : kept.Done->MeasureDistances(*kept.Hierarchy, *kept.IsFinite);
   kept.Done->FindThresholds(codes);
-  if (kept.Done->PartOfPeers() != nullptr)
+  if (kept.Done->PortionOfPeers() != nullptr)
   {
-    return kept.Done->CompleteOfParts(
+    return kept.Done->CompleteOfPortions(
       model, std::move(kept.Relevant), *kept.Hierarchy, std::move(codes));
   }
   Encoding finished;
@@ -171,7 +171,7 @@ struct StreamedBuild::Progress
   FiniteRangeOfSlabs Range;
   std::vector<SliceRange> Own;            ///< of the slabs that are added here
   std::optional<GatheredSamples> Coarse;  ///< where field errors are asked for, until then
-  std::optional<Dealing> ToParts;         ///< where peers have parts, from then on
+  std::optional<Dealing> ToPortions;      ///< where peers have portions, from then on
   std::optional<StreamedEncoder> Encoder; ///< from then on
   std::optional<StreamedFieldCodes> FieldCodes;
 };
@@ -256,11 +256,12 @@ void StreamedBuild::Classify()
       kept.Done.emplace(kept.From, std::move(*current.Signs), current.Region, kept.Options,
         kept.ErrorScale(), kept.For);
       current.Signs.reset();
-      if (const PeerPart* const part = kept.Done->PartOfPeers())
+      if (const PeerPortion* const portion = kept.Done->PortionOfPeers())
       {
-        current.ToParts.emplace(kept.TheGrid, *part, kept.Done->Relevant(), current.Own);
+        current.ToPortions.emplace(kept.TheGrid, *portion, kept.Done->Relevant(), current.Own);
       }
-      const DiamondSet& told = current.ToParts ? current.ToParts->OfSlabs() : kept.Done->Relevant();
+      const DiamondSet& told =
+        current.ToPortions ? current.ToPortions->OfSlabs() : kept.Done->Relevant();
       current.Encoder.emplace(kept.Done->RelevantHeader(), kept.TheGrid, told, ErrorCode::Always,
         *kept.Done->SignsIfKept(), kept.For);
       if (current.Coarse)
@@ -293,10 +294,10 @@ StagedBuild StreamedBuild::Finish()
   Peers* const peers = this->Kept->Options.Together;
   if (peers != nullptr)
   {
-    current.Encoder->Merge(*peers, current.ToParts.has_value());
+    current.Encoder->Merge(*peers, current.ToPortions.has_value());
     if (current.FieldCodes)
     {
-      current.FieldCodes->Merge(*peers, current.ToParts.has_value());
+      current.FieldCodes->Merge(*peers, current.ToPortions.has_value());
     }
   }
   Encoded relevant;
@@ -311,11 +312,11 @@ StagedBuild StreamedBuild::Finish()
         codes = current.FieldCodes->Finish();
       }
     });
-  if (current.ToParts)
+  if (current.ToPortions)
   {
-    relevant = current.ToParts->Deal(std::move(relevant));
-    codes.Surface = current.ToParts->Deal(codes.Surface);
-    codes.Interior = current.ToParts->Deal(codes.Interior);
+    relevant = current.ToPortions->Deal(std::move(relevant));
+    codes.Surface = current.ToPortions->Deal(codes.Surface);
+    codes.Interior = current.ToPortions->Deal(codes.Interior);
   }
   InStep(peers,
     [&]

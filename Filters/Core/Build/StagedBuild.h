@@ -77,8 +77,8 @@ private:
  *
  * Peers (BuildOptions::Together) have some slabs each: they add these, and skip those of others.
  * All of them classify and finish, and have the whole hierarchy in the end; until then, if they ask
- * for that (BuildOptions::InParts), a part of it (PeerPart). Then nothing can be done in between:
- * StagedBuild::Finish() has to follow.
+ * for that (BuildOptions::InPortions), a portion of it (PeerPortion). Then nothing can be done in
+ * between: StagedBuild::Finish() has to follow.
  */
 class StreamedBuild
 {

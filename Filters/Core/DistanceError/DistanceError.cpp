@@ -22,7 +22,7 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world)
 
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   const Finiteness& isFinite, const GridGeometry& world, bool preserveFeatures, const Loops& loops,
-  std::vector<ErrorCode::Type> codes, MapBounds* bounds, const DiamondPart* part)
+  std::vector<ErrorCode::Type> codes, MapBounds* bounds, const DiamondPortion* portion)
 {
   MapBounds none;
   codes.resize(relevant.Diamonds().Size(), 0);
@@ -36,7 +36,8 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
       {
         continue; // there are none
       }
-      const IsovertexClusters clusters(relevant, errors.IsFinite(), surface, ends, loops.Whole, part);
+      const IsovertexClusters clusters(
+        relevant, errors.IsFinite(), surface, ends, loops.Whole, portion);
       std::visit(
         [&](const auto& lengths)
         {

@@ -5,7 +5,7 @@
 #include "DistanceError/MapBounds.h"
 #include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
-#include "Field/PeerPart.h"
+#include "Field/PeerPortion.h"
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 
@@ -53,13 +53,13 @@ double DistanceErrorScale(const Grid& grid, const GridGeometry& world);
  * @param bounds of the way back, to be filled if they are wanted; null for none
  * @param loops of peers each finds a part of the errors and bounds: the greatest are to be put
  *        together
- * @param part whose own isovertices count, of all diamonds that it has; null if all are here
+ * @param portion whose own isovertices count, of all diamonds that it has; null if all are here
  * @return codes by rank, scaled by DistanceErrorScale(); 0 without an isovertex in the domain
  */
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   const Finiteness& isFinite, const GridGeometry& world, bool preserveFeatures, const Loops& loops,
   std::vector<ErrorCode::Type> codes = {}, MapBounds* bounds = nullptr,
-  const DiamondPart* part = nullptr);
+  const DiamondPortion* portion = nullptr);
 
 /** What is known before the way back is measured, which is less work the more it is. */
 struct BeforeWayBack
@@ -71,7 +71,7 @@ struct BeforeWayBack
   std::vector<ErrorCode::Type> Thresholds;
   /** Whose diamonds these are: its own are measured. Null if all are here. Peers have to call it
    *  together, and nothing that one of them does not return from. */
-  const PeerPart* Part = nullptr;
+  const PeerPortion* Portion = nullptr;
 };
 
 /**

@@ -125,10 +125,10 @@ void FineSurface::CellBrick::SumUp()
 }
 
 FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
-  const HiddenCells* hidden, const ParallelFor& parallelFor, const PeerPart* part)
+  const HiddenCells* hidden, const ParallelFor& parallelFor, const PeerPortion* portion)
   : TheGrid(hierarchy.SampleGrid())
   , Hidden(hidden)
-  , Part(part)
+  , Portion(portion)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -143,7 +143,8 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
   {
     const std::int64_t index = level.Box.Index(brick);
     return index >= 0 &&
-      (part != nullptr ? part->All().Find(0, index) != nullptr : level.Find(index) != nullptr);
+      (portion != nullptr ? portion->All().Find(0, index) != nullptr
+                          : level.Find(index) != nullptr);
   };
   std::vector<std::int64_t> indices;
   for (std::int64_t index = 0; index < all; ++index)
@@ -154,7 +155,7 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
     {
       any = hasDiamonds(place + Point{ i & 1, (i >> 1) & 1, i >> 2 });
     }
-    if (any && part != nullptr && !part->Diamonds().Owns(8 * place[2]))
+    if (any && portion != nullptr && !portion->Diamonds().Owns(8 * place[2]))
     {
       this->Lookup[index] = NotHere;
     }
@@ -164,12 +165,12 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
       indices.push_back(index);
     }
   }
-  if (part != nullptr)
+  if (portion != nullptr)
   {
     this->Wanted = std::vector<std::atomic<std::uint8_t>>(all);
-    this->Note({ { 0, 0, part->Diamonds().Begin() - 8 },
+    this->Note({ { 0, 0, portion->Diamonds().Begin() - 8 },
       { this->TheGrid.Last(0), this->TheGrid.Last(1),
-        std::min(part->Diamonds().End(), this->TheGrid.Last(2)) + 8 } });
+        std::min(portion->Diamonds().End(), this->TheGrid.Last(2)) + 8 } });
   }
 
   // Count.
@@ -249,7 +250,7 @@ void FineSurface::Note(const CellBox& box) const
 void FineSurface::Fetch()
 {
   std::vector<std::uint8_t> wanted(this->Wanted.begin(), this->Wanted.end());
-  this->Part->Others().Or(wanted);
+  this->Portion->Others().Or(wanted);
   // Some at once: nobody needs more memory for what others want.
   constexpr std::size_t some = 64;
   std::vector<std::int64_t> indices;
@@ -278,7 +279,7 @@ void FineSurface::Fetch(const std::vector<std::int64_t>& indices)
       sizes[i] = this->Bricks[brick].Before[CellBrick::Rows];
     }
   }
-  this->Part->Others().Max(sizes.data(), static_cast<std::int64_t>(sizes.size()));
+  this->Portion->Others().Max(sizes.data(), static_cast<std::int64_t>(sizes.size()));
 
   // Prefix sum.
   std::vector<std::size_t> begins(indices.size() + 1, 0);
@@ -298,8 +299,8 @@ void FineSurface::Fetch(const std::vector<std::int64_t>& indices)
       std::copy(own.Counts.begin(), own.Counts.end(), inCells.begin() + i * counts);
     }
   }
-  this->Part->Others().Or(triangles);
-  this->Part->Others().Or(inCells);
+  this->Portion->Others().Or(triangles);
+  this->Portion->Others().Or(inCells);
 
   // Keep what was wanted here.
   std::vector<StoredTriangle> kept;

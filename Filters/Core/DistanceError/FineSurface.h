@@ -4,7 +4,7 @@
 
 #include "DistanceError/IsovertexClusters.h"
 #include "Field/HiddenCells.h"
-#include "Field/PeerPart.h"
+#include "Field/PeerPortion.h"
 #include "Lattice/DiamondTetrahedra.h"
 #include "Patches/SurfacePatch.h"
 
@@ -47,8 +47,8 @@ struct CellBox
  * The triangles of a surface of full resolution by cell: 6 bytes a triangle, and 0.8 for each cell
  * of bricks of 8 x 8 x 8 cells that have some.
  *
- * In a part of a hierarchy those of its own bricks are there. Who looks at others learns that they
- * are Elsewhere, and that is noted: in the next Fetch() the peers who own them give them.
+ * In a portion of a hierarchy those of its own bricks are there. Who looks at others learns that
+ * they are Elsewhere, and that is noted: in the next Fetch() the peers who own them give them.
  */
 class FineSurface
 {
@@ -61,9 +61,9 @@ public:
   };
 
   /** @param hidden cells that count as empty; null for none; must outlive it
-   *  @param part that the hierarchy is; null for all; must outlive it */
+   *  @param portion that the hierarchy is; null for all; must outlive it */
   FineSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
-    const ParallelFor& parallelFor, const PeerPart* part = nullptr);
+    const ParallelFor& parallelFor, const PeerPortion* portion = nullptr);
 
   /** Brings what has been noted, or else what is next to its own bricks. By all peers. */
   void Fetch();
@@ -251,10 +251,10 @@ private:
 
   Grid TheGrid;
   const HiddenCells* Hidden;
-  const PeerPart* Part;
+  const PeerPortion* Portion;
   std::array<int, 3> Count{};
   std::vector<std::int32_t> Lookup; ///< of all bricks of cells: index in Bricks, or one of these
-  mutable std::vector<std::atomic<std::uint8_t>> Wanted; ///< of a part: 1 where noted
+  mutable std::vector<std::atomic<std::uint8_t>> Wanted; ///< of a portion: 1 where noted
   std::vector<CellBrick> Bricks;
   std::vector<StoredTriangle> Triangles;             ///< of its own bricks
   std::vector<std::vector<StoredTriangle>> OfOthers; ///< of those that were fetched, some each

@@ -5,7 +5,7 @@
 #include "Field/Parallel.h"
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
-#include "Lattice/DiamondPart.h"
+#include "Lattice/DiamondPortion.h"
 #include "Lattice/DiamondTetrahedra.h"
 #include "Patches/ExactPlane.h"
 
@@ -72,14 +72,14 @@ public:
   };
 
   /** Hierarchy and finiteness must outlive it.
-   *  @param part whose own it has; null for all */
+   *  @param portion whose own it has; null for all */
   IsovertexClusters(const IsodiamondHierarchy& hierarchy, const Finiteness& isFinite, int surface,
-    Ends ends, const ParallelFor& parallelFor, const DiamondPart* part = nullptr)
+    Ends ends, const ParallelFor& parallelFor, const DiamondPortion* portion = nullptr)
     : Hierarchy(hierarchy)
     , IsFinite(isFinite)
     , OnSurface(surface)
     , Wanted(ends)
-    , Part(part)
+    , Portion(portion)
   {
     // Some bricks at once: of most eighths there is nothing to keep.
     constexpr std::size_t some = 4096;
@@ -104,8 +104,8 @@ public:
   /** Whether it has those of a brick of scale 0. */
   bool Has(const Brick& brick) const
   {
-    return this->Part == nullptr ||
-      this->Part->Owns(this->Hierarchy.Diamonds().Level(0).Box.Origin(brick.BoxIndex)[2]);
+    return this->Portion == nullptr ||
+      this->Portion->Owns(this->Hierarchy.Diamonds().Level(0).Box.Origin(brick.BoxIndex)[2]);
   }
 
   const std::vector<IsovertexCluster>& All() const { return this->Clusters; }
@@ -167,7 +167,7 @@ private:
   const Finiteness& IsFinite;
   int OnSurface;
   Ends Wanted;
-  const DiamondPart* Part;
+  const DiamondPortion* Portion;
   std::vector<IsovertexCluster> Clusters;
 };
 

@@ -2,7 +2,7 @@
 #ifndef isodiamond_MapBounds_h
 #define isodiamond_MapBounds_h
 
-#include "Field/PeerPart.h"
+#include "Field/PeerPortion.h"
 #include "Hierarchy/ErrorCode.h"
 #include "Lattice/DiamondSet.h"
 
@@ -68,7 +68,7 @@ public:
   }
 
   ///@{
-  /** Puts the bounds together that peers have found: of the same diamonds, or of parts. */
+  /** Puts the bounds together that peers have found: of the same diamonds, or of portions. */
   void Merge(Peers& peers)
   {
     for (std::vector<OfDiamond>& codes : this->Codes)
@@ -80,13 +80,13 @@ public:
       }
     }
   }
-  void Merge(const PeerPart& part)
+  void Merge(const PeerPortion& portion)
   {
     for (std::vector<OfDiamond>& codes : this->Codes)
     {
       if (!codes.empty())
       {
-        part.Max(codes, 1);
+        portion.Max(codes, 1);
       }
     }
   }

@@ -619,14 +619,14 @@ public:
   {
     for (int surface = 0; surface < this->Relevant.Region().SurfaceCount(); ++surface)
     {
-      if (this->Known.Part == nullptr)
+      if (this->Known.Portion == nullptr)
       {
         const FineSurface fine(this->Relevant, surface, this->Hidden, loops.Whole);
         this->Measure(surface, fine, loops.Share);
       }
       else
       {
-        this->MeasurePart(surface, loops.Whole);
+        this->MeasurePortion(surface, loops.Whole);
       }
     }
   }
@@ -638,13 +638,14 @@ private:
     std::uint32_t Rank = 0;
   };
 
-  /** In a part some need triangles that are elsewhere: once more when these have been fetched. */
-  void MeasurePart(int surface, const ParallelFor& parallelFor)
+  /** In a portion some need triangles that are elsewhere: once more when these have been fetched.
+   */
+  void MeasurePortion(int surface, const ParallelFor& parallelFor)
   {
-    Peers& others = this->Known.Part->Others();
+    Peers& others = this->Known.Portion->Others();
     std::optional<FineSurface> fine;
-    others.Together(
-      [&] { fine.emplace(this->Relevant, surface, this->Hidden, parallelFor, this->Known.Part); });
+    others.Together([&]
+      { fine.emplace(this->Relevant, surface, this->Hidden, parallelFor, this->Known.Portion); });
     fine->Fetch();
     others.Together([&] { this->Measure(surface, *fine, parallelFor); });
     while (others.Any(!this->Left.empty()))
@@ -698,7 +699,7 @@ private:
 
   bool IsOwn(int slice) const
   {
-    return this->Known.Part == nullptr || this->Known.Part->Diamonds().Owns(slice);
+    return this->Known.Portion == nullptr || this->Known.Portion->Diamonds().Owns(slice);
   }
 
   void Measure(int surface, const Member& member, WayBack<Lengths>& wayBack)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef isodiamond_DiamondPart_h
-#define isodiamond_DiamondPart_h
+#ifndef isodiamond_DiamondPortion_h
+#define isodiamond_DiamondPortion_h
 
 #include "Lattice/DiamondSet.h"
 
@@ -15,23 +15,23 @@ namespace isodiamond
 {
 
 /**
- * Which diamonds one of several has who build a hierarchy together, each of them a part.
+ * Which diamonds one of several has who build a hierarchy together, each of them a portion.
  *
- * The slices of the lattice are cut into parts, behind one another. A diamond is *owned* by who has
- * the slice of its centre. Beyond its own a part *has* those that are near, of each scale as many
- * slices of that scale: all whose domain touches its slices, and of each of these all ancestors. So
- * the diamonds of a part are a closed set, as those of a whole hierarchy are; what is missing looks
- * as if it did not lead to the surface.
+ * The slices of the lattice are cut into portions, behind one another. A diamond is *owned* by who
+ * has the slice of its centre. Beyond its own a portion *has* those that are near, of each scale as
+ * many slices of that scale: all whose domain touches its slices, and of each of these all
+ * ancestors. So the diamonds of a portion are a closed set, as those of a whole hierarchy are; what
+ * is missing looks as if it did not lead to the surface.
  */
-class DiamondPart
+class DiamondPortion
 {
 public:
-  /** Bricks of scale 0 have one owner each: parts begin with one. */
+  /** Bricks of scale 0 have one owner each: portions begin with one. */
   static constexpr int Step = 8;
 
-  /** @param begins the slices that parts begin with, ascending, in steps, the first 0
-   *  @param number of the part */
-  DiamondPart(std::vector<int> begins, int number)
+  /** @param begins the slices that portions begin with, ascending, in steps, the first 0
+   *  @param number of the portion */
+  DiamondPortion(std::vector<int> begins, int number)
     : Begins(std::move(begins))
     , Number(number)
   {
@@ -40,7 +40,7 @@ public:
 
   int Begin() const { return this->Begins[this->Number]; }
 
-  /** The last part has all behind it, too. */
+  /** The last portion has all behind it, too. */
   int End() const
   {
     const auto next = static_cast<std::size_t>(this->Number) + 1;
@@ -62,7 +62,7 @@ public:
       });
   }
 
-  /** Those that some parts have in common. */
+  /** Those that some portions have in common. */
   std::uint64_t AreCommon(int scale, int z) const
   {
     return BitsWhere(z,
@@ -77,8 +77,8 @@ public:
   }
 
 private:
-  /** So many slices around its own a part has diamonds of. A domain reaches one step of its scale
-   *  from its centre. Parents are of the next older class and at most a step away: after three
+  /** So many slices around its own a portion has diamonds of. A domain reaches one step of its
+   * scale from its centre. Parents are of the next older class and at most a step away: after three
    *  classes that is no more than the youngest of the next scale has. */
   static std::int64_t Reach(int scale, int diamondClass)
   {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef isodiamond_PeerPart_h
-#define isodiamond_PeerPart_h
+#ifndef isodiamond_PeerPortion_h
+#define isodiamond_PeerPortion_h
 
 #include "Field/Peers.h"
-#include "Lattice/DiamondPart.h"
+#include "Lattice/DiamondPortion.h"
 
 #include <algorithm>
 #include <array>
@@ -16,25 +16,25 @@ namespace isodiamond
 {
 
 /**
- * The part of a hierarchy that this process has while peers build it: a set of its own, with ranks
- * of its own. Which diamonds there are in all parts is known to all of them, a bit each.
+ * The portion of a hierarchy that this process has while peers build it: a set of its own, with
+ * ranks of its own. Which diamonds there are in all portions is known to all of them, a bit each.
  *
  * What is found of a diamond that several have is put together in the order of all diamonds that
  * some have in common: the same for all of them, whichever they have.
  */
-class PeerPart
+class PeerPortion
 {
 public:
-  /** Cuts so that all parts have about as many diamonds.
+  /** Cuts so that all portions have about as many diamonds.
    *  @param all the members of the whole hierarchy, with the corners of the base cube
    *  @param peers must outlive it */
-  PeerPart(const Grid& grid, DiamondMask all, Peers& peers);
+  PeerPortion(const Grid& grid, DiamondMask all, Peers& peers);
 
-  const DiamondPart& Diamonds() const { return this->Part; }
+  const DiamondPortion& Diamonds() const { return this->Portion; }
   const DiamondMask& All() const { return this->Mask; }
   Peers& Others() const { return this->With; }
 
-  /** Those of this part. Whoever has it may keep it instead. */
+  /** Those of this portion. Whoever has it may keep it instead. */
   DiamondSet TakeMembers() { return std::move(this->Members); }
 
   /**
@@ -118,7 +118,7 @@ private:
     }
   }
 
-  DiamondPart Part;
+  DiamondPortion Portion;
   DiamondMask Mask;
   Peers& With;
   DiamondSet Members;

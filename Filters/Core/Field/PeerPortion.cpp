@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Field/PeerPart.h"
+#include "Field/PeerPortion.h"
 
 #include <numeric>
 
@@ -8,8 +8,8 @@ namespace isodiamond
 namespace
 {
 
-/** The slices that parts begin with which have about as many diamonds, those of scale 0. */
-std::vector<int> CutEvenly(const DiamondMask& all, int parts)
+/** The slices that portions begin with which have about as many diamonds, those of scale 0. */
+std::vector<int> CutEvenly(const DiamondMask& all, int portions)
 {
   const BrickBox& box = all.Box(0);
   std::vector<std::int64_t> before(box.Count[2] + 1, 0); // a layer of bricks
@@ -18,19 +18,19 @@ std::vector<int> CutEvenly(const DiamondMask& all, int parts)
     {
       for (int z = 0; z < 8 && scale == 0; ++z)
       {
-        before[box.Origin(index)[2] / DiamondPart::Step + 1] += PopCount(mask[z]);
+        before[box.Origin(index)[2] / DiamondPortion::Step + 1] += PopCount(mask[z]);
       }
     });
   std::partial_sum(before.begin(), before.end(), before.begin());
-  std::vector<int> begins(parts, 0);
-  for (int part = 1; part < parts; ++part)
+  std::vector<int> begins(portions, 0);
+  for (int portion = 1; portion < portions; ++portion)
   {
     // The layer whose begin is nearest to that share.
-    const std::int64_t share = before.back() / parts * part;
+    const std::int64_t share = before.back() / portions * portion;
     const auto above = std::lower_bound(before.begin(), before.end(), share);
     const bool isBelowNearer =
       above != before.begin() && share - *std::prev(above) < *above - share;
-    begins[part] = DiamondPart::Step *
+    begins[portion] = DiamondPortion::Step *
       static_cast<int>((isBelowNearer ? std::prev(above) : above) - before.begin());
   }
   return begins;
@@ -38,20 +38,20 @@ std::vector<int> CutEvenly(const DiamondMask& all, int parts)
 
 }
 
-PeerPart::PeerPart(const Grid& grid, DiamondMask all, Peers& peers)
-  : Part(CutEvenly(all, peers.Count()), peers.Rank())
+PeerPortion::PeerPortion(const Grid& grid, DiamondMask all, Peers& peers)
+  : Portion(CutEvenly(all, peers.Count()), peers.Rank())
   , Mask(std::move(all))
   , With(peers)
   , EndsOfScales(grid.Depth() + 1, 0)
 {
-  // The corners of the base cube are in all parts.
-  const auto orCorners = [&](std::uint64_t (DiamondPart::*bitsOf)(int, int) const)
+  // The corners of the base cube are in all portions.
+  const auto orCorners = [&](std::uint64_t (DiamondPortion::*bitsOf)(int, int) const)
   {
     return [this, &grid, bitsOf](int scale, int z)
-    { return scale == grid.Depth() ? ~std::uint64_t{ 0 } : (this->Part.*bitsOf)(scale, z); };
+    { return scale == grid.Depth() ? ~std::uint64_t{ 0 } : (this->Portion.*bitsOf)(scale, z); };
   };
-  this->Members = DiamondSet(grid, this->Mask, orCorners(&DiamondPart::Has));
-  this->Mask.ForEachBrick(orCorners(&DiamondPart::AreCommon),
+  this->Members = DiamondSet(grid, this->Mask, orCorners(&DiamondPortion::Has));
+  this->Mask.ForEachBrick(orCorners(&DiamondPortion::AreCommon),
     [&](int scale, std::int64_t index, const BrickMask& mask)
     {
       const BrickLevel& level = this->Members.Level(scale);

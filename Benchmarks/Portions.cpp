@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a hierarchy costs that many processes build together, each a portion of it: how many
+// diamonds the largest portion has, and what each process exchanges. They are threads here, so it
+// takes the time of all of them.
+//
+// Usage: IsodiamondPortions [samples on an axis] [period of the gyroid, or 0 for a sphere]
+// [portions ...]
+#include "Build/Classification.h"
+#include "Build/StagedBuild.h"
+#include "Field/PeerPortion.h"
+#include "ThreadPeers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+using namespace isodiamond;
+
+namespace
+{
+
+/** A surface that is dense, or that is not. */
+std::vector<float> MakeVolume(int samples, double period)
+{
+  std::vector<float> values;
+  const auto at = [&](int i) { return 2.0 * i / (samples - 1) - 1.0; };
+  const double angle = period > 0.0 ? 2.0 * std::acos(-1.0) / period : 0.0;
+  for (int z = 0; z < samples; ++z)
+  {
+    for (int y = 0; y < samples; ++y)
+    {
+      for (int x = 0; x < samples; ++x)
+      {
+        values.push_back(static_cast<float>(period > 0.0
+            ? std::sin(angle * x) * std::cos(angle * y) +
+              std::sin(angle * y) * std::cos(angle * z) +
+              std::sin(angle * z) * std::cos(angle * x) + 0.6
+            : std::sqrt(at(x) * at(x) + at(y) * at(y) + at(z) * at(z))));
+      }
+    }
+  }
+  return values;
+}
+
+/** One of some peers who only cut, and never meet. */
+class Lone : public Peers
+{
+public:
+  Lone(int count, int rank)
+    : All(count)
+    , Number(rank)
+  {
+  }
+  int Count() const override { return this->All; }
+  int Rank() const override { return this->Number; }
+  void Or(std::uint8_t* /*bytes*/, std::int64_t /*count*/) override {}
+  void Max(std::uint16_t* /*values*/, std::int64_t /*count*/) override {}
+  void Min(std::uint16_t* /*values*/, std::int64_t /*count*/) override {}
+  void Max(double* /*values*/, std::int64_t /*count*/) override {}
+
+private:
+  int All;
+  int Number;
+};
+
+/** The diamonds of the largest of some portions, of all. */
+double LargestPortion(const AnySamples& samples, const Isoregion& region, int portions)
+{
+  const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
+  const DiamondMask all =
+    Classify(grid, SignLattice(grid, samples, region, SerialFor), SerialFor).Members;
+  std::int64_t largest = 0;
+  for (int rank = 0; rank < portions; ++rank)
+  {
+    Lone lone(portions, rank);
+    largest = std::max(largest, PeerPortion(grid, all, lone).TakeMembers().Size());
+  }
+  return static_cast<double>(largest) / static_cast<double>(all.Size());
+}
+
+void Build(const std::vector<float>& values, int samples, const Isoregion& region,
+  const BuildOptions& options)
+{
+  const std::array<int, 3> dimensions = { samples, samples, samples };
+  const Peers& peers = *options.Together;
+  const std::vector<StreamedBuild::Slices> cut = StreamedBuild::Cut(dimensions, peers.Count());
+  const StreamedBuild::Slices& own = cut[peers.Rank()];
+  const std::int64_t slice = std::int64_t{ samples } * samples;
+  const SampleSlab slab{ SampleView<float>(values.data() + own.First * slice,
+                           { samples, samples, own.Last + 1 - own.First }),
+    own.First };
+  StreamedBuild build(dimensions, region, SerialFor, options);
+  build.AddSigns(slab, own);
+  build.Classify();
+  for (const StreamedBuild::Slices& slices : cut)
+  {
+    if (slices.Begin == own.Begin)
+    {
+      build.AddValues(slab, own);
+    }
+    else
+    {
+      build.SkipValues(slices);
+    }
+  }
+  build.Finish().Finish(Model::Minimal, SampleView<float>(), SerialFor, options);
+}
+
+}
+
+int main(int argc, char** argv)
+{
+  const int samples = argc > 1 ? std::atoi(argv[1]) : 128;
+  const double period = argc > 2 ? std::atof(argv[2]) : 24.0;
+  std::vector<int> counts;
+  std::transform(argv + std::min(argc, 3), argv + argc, std::back_inserter(counts),
+    [](const char* text) { return std::atoi(text); });
+  if (counts.empty())
+  {
+    counts = { 1, 2, 4, 8, 16 };
+  }
+  const std::vector<float> values = MakeVolume(samples, period);
+  const Isoregion region(0.6);
+  const AnySamples all = SampleView<float>(values.data(), { samples, samples, samples });
+  std::printf("portions | diamonds of the largest, of all | MiB that each exchanges | meetings\n");
+  for (const int count : counts)
+  {
+    test::ThreadPeers peers(count);
+    peers.Run(
+      [&](Peers& own)
+      {
+        BuildOptions options;
+        options.Metric = ErrorMetric::Distance;
+        options.Together = &own;
+        options.InPortions = true;
+        Build(values, samples, region, options);
+      });
+    const test::ThreadPeers::Traffic& traffic = peers.TrafficOf(0);
+    std::printf("%5d | %.3f | %.1f | %lld\n", count, LargestPortion(all, region, count),
+      static_cast<double>(traffic.Bytes) / (1 << 20), static_cast<long long>(traffic.Meetings));
+    std::fflush(stdout);
+  }
+  return EXIT_SUCCESS;
+}
