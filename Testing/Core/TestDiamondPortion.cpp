@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Lattice/DiamondPortion.h"
 
+#include "Build/ActivationThresholds.h"
 #include "Build/Classification.h"
 #include "CoreTestTools.h"
 #include "Field/PeerPortion.h"
@@ -240,4 +241,55 @@ TEST(PeerPortion, RaisesToTheGreatestThatOneHas)
       });
     EXPECT_GT(common, 100);
   }
+}
+
+// Own errors without any order lead from a portion to the next and back, more than once.
+TEST(PeerPortion, LeadsToTheThresholdsOfTheWhole)
+{
+  const int cases = test::ForRandomSeeds(
+    [](std::uint32_t seed)
+    {
+      SCOPED_TRACE(seed);
+      test::Random random(seed);
+      const test::Field field = test::NoiseField(
+        { 2 + test::Pick(random, 6), 2 + test::Pick(random, 6), 30 + test::Pick(random, 40) },
+        seed);
+      const Grid grid(field.Dims);
+      const DiamondMask all = MembersOf(field);
+      const DiamondSet members(grid, all);
+      std::vector<ErrorCode::Type> own(members.Size());
+      std::generate(own.begin(), own.end(),
+        [&] { return static_cast<ErrorCode::Type>(1 + test::Pick(random, 1000)); });
+      const std::vector<ErrorCode::Type> expected =
+        ActivationThresholds(grid, members, own, SerialFor);
+      const std::vector<std::uint32_t> followers = FindFollowers(own, expected);
+      const std::vector<ErrorCode::Type> saturated =
+        SaturateUpward(grid, members, own, followers, SerialFor);
+      std::mutex mutex; // of expectations
+      test::ThreadPeers(1 + test::Pick(random, 5))
+        .Run(
+          [&](Peers& peers)
+          {
+            PeerPortion portion(grid, all, peers);
+            const DiamondSet had = portion.TakeMembers();
+            std::vector<ErrorCode::Type> ownHad(had.Size());
+            had.ForEach([&](const Place& place, std::uint32_t rank)
+              { ownHad[rank] = own[members.Rank(place)]; });
+            const std::vector<ErrorCode::Type> found =
+              ActivationThresholds(grid, had, ownHad, SerialFor, &portion);
+            const std::vector<ErrorCode::Type> foundAbove =
+              SaturateUpward(grid, had, ownHad, FindFollowers(ownHad, found), SerialFor, &portion);
+            const std::lock_guard<std::mutex> lock(mutex);
+            bool isSame = true;
+            had.ForEach(
+              [&](const Place& place, std::uint32_t rank)
+              {
+                const std::int64_t inAll = members.Rank(place);
+                isSame =
+                  isSame && found[rank] == expected[inAll] && foundAbove[rank] == saturated[inAll];
+              });
+            EXPECT_TRUE(isSame);
+          });
+    });
+  EXPECT_GT(cases, 0);
 }

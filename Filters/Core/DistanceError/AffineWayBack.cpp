@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DistanceError/DistanceMeasures.h"
-#include "DistanceError/WayBack.h"
+#include "DistanceError/AllWaysBack.h"
 
 namespace isodiamond
 {
@@ -9,7 +9,7 @@ void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengt
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const Loops& loops)
 {
-  AllWaysBack(relevant, lengths, known, code, codes).Run(loops);
+  AllWaysBack(relevant, lengths, known, code, codes, loops).Run();
 }
 
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceError/AllWaysBack.h"
 #include "DistanceError/DistanceMeasures.h"
 #include "DistanceError/DistanceWalk.h"
 #include "DistanceError/ScaleZeroDistances.h"
 #include "DistanceError/ToleranceTest.h"
-#include "DistanceError/WayBack.h"
 
 namespace isodiamond
 {
@@ -24,7 +24,7 @@ void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const Loops& loops)
 {
-  AllWaysBack(relevant, lengths, known, code, codes).Run(loops);
+  AllWaysBack(relevant, lengths, known, code, codes, loops).Run();
 }
 
 void TestTolerances(const TestedSurface& surface, const TestedHierarchy& tested,

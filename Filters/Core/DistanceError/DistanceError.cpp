@@ -4,6 +4,7 @@
 #include "DistanceError/DistanceMeasures.h"
 
 #include <cmath>
+#include <utility>
 #include <variant>
 
 namespace isodiamond
@@ -27,7 +28,7 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
   MapBounds none;
   codes.resize(relevant.Diamonds().Size(), 0);
   ErrorMaxima errors(relevant, isFinite, world, DistanceErrorScale(relevant.SampleGrid(), world),
-    preserveFeatures, codes, bounds != nullptr ? *bounds : none);
+    preserveFeatures, std::exchange(codes, {}), bounds != nullptr ? *bounds : none);
   for (int surface = 0; surface < relevant.Region().SurfaceCount(); ++surface)
   {
     for (const auto ends : { IsovertexClusters::Ends::Finite, IsovertexClusters::Ends::NotFinite })

@@ -2,8 +2,9 @@
 #include "DistanceError/FineSurface.h"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
+#include <iterator>
+#include <limits>
+#include <utility>
 
 namespace isodiamond
 {
@@ -124,11 +125,39 @@ void FineSurface::CellBrick::SumUp()
   }
 }
 
+void FineSurface::SomeBricks::MakeRoom()
+{
+  std::size_t count = 0;
+  for (CellBrick& brick : this->Bricks)
+  {
+    brick.SumUp();
+    count += brick.Size();
+  }
+  this->Triangles.resize(count);
+  const StoredTriangle* first = this->Triangles.data();
+  for (CellBrick& brick : this->Bricks)
+  {
+    brick.First = first;
+    first += brick.Size();
+  }
+}
+
 FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
-  const HiddenCells* hidden, const ParallelFor& parallelFor, const PeerPortion* portion)
-  : TheGrid(hierarchy.SampleGrid())
+  const HiddenCells* hidden, const ParallelFor& parallelFor)
+  : FineSurface(
+      hierarchy, surface, hidden, parallelFor, { 0, std::numeric_limits<int>::max() }, nullptr)
+{
+}
+
+FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
+  const HiddenCells* hidden, const ParallelFor& parallelFor, const SliceRange& slices,
+  const PeerPortion* portion)
+  : Hierarchy(hierarchy)
+  , Surface(surface)
   , Hidden(hidden)
+  , For(parallelFor)
   , Portion(portion)
+  , TheGrid(hierarchy.SampleGrid())
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -155,77 +184,100 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
     {
       any = hasDiamonds(place + Point{ i & 1, (i >> 1) & 1, i >> 2 });
     }
-    if (any && portion != nullptr && !portion->Diamonds().Owns(8 * place[2]))
+    const int slice = 8 * place[2];
+    if (any && slice >= slices.Begin && slice < slices.End)
     {
-      this->Lookup[index] = NotHere;
+      indices.push_back(index);
     }
     else if (any)
     {
-      this->Lookup[index] = static_cast<std::int32_t>(indices.size());
-      indices.push_back(index);
+      this->Lookup[index] = NotHere;
     }
   }
-  if (portion != nullptr)
+  this->Keep(this->Make(std::move(indices)));
+  this->Wanted = std::vector<std::atomic<std::uint8_t>>(all);
+  if (slices.Begin < slices.End)
   {
-    this->Wanted = std::vector<std::atomic<std::uint8_t>>(all);
-    this->Note({ { 0, 0, portion->Diamonds().Begin() - 8 },
+    this->Note({ { 0, 0, slices.Begin - 8 },
       { this->TheGrid.Last(0), this->TheGrid.Last(1),
-        std::min(portion->Diamonds().End(), this->TheGrid.Last(2)) + 8 } });
+        std::min(slices.End, this->TheGrid.Last(2)) + 8 } });
   }
+}
+
+FineSurface::SomeBricks FineSurface::Make(std::vector<std::int64_t> indices) const
+{
+  SomeBricks made;
+  made.Indices = std::move(indices);
+  const auto brickCount = static_cast<std::int64_t>(made.Indices.size());
+  const auto reader = [&](std::int64_t i)
+  { return Reader(this->Hierarchy, this->Surface, this->Hidden, this->PlaceOf(made.Indices[i])); };
 
   // Count.
-  this->Bricks.resize(indices.size());
-  const auto brickCount = static_cast<std::int64_t>(indices.size());
-  ForEachIndex(parallelFor, brickCount, 16,
+  made.Bricks.resize(made.Indices.size());
+  ForEachIndex(this->For, brickCount, 16,
     [&](std::int64_t i)
     {
-      CellBrick& brick = this->Bricks[i];
-      Reader(hierarchy, surface, hidden, this->PlaceOf(indices[i]))
-        .ForEachPatch([&](int cell, const HalfPlace&, const SurfacePatch& patch)
-          { brick.Add(cell, patch.TriangleCount); });
-      brick.SumUp();
+      reader(i).ForEachPatch([&](int cell, const HalfPlace&, const SurfacePatch& patch)
+        { made.Bricks[i].Add(cell, patch.TriangleCount); });
     });
 
   // Prefix sum.
-  std::int64_t next = 0;
-  for (const CellBrick& brick : this->Bricks)
-  {
-    next += brick.Before[CellBrick::Rows];
-  }
-  this->Triangles.resize(next);
-  const StoredTriangle* first = this->Triangles.data();
-  for (CellBrick& brick : this->Bricks)
-  {
-    brick.First = first;
-    first += brick.Before[CellBrick::Rows];
-  }
+  made.MakeRoom();
 
   // Write.
-  ForEachIndex(parallelFor, brickCount, 16,
+  ForEachIndex(this->For, brickCount, 16,
     [&](std::int64_t i)
     {
-      const CellBrick& brick = this->Bricks[i];
-      if (brick.Before[CellBrick::Rows] == 0)
+      const CellBrick& brick = made.Bricks[i];
+      if (brick.Size() == 0)
       {
         return;
       }
       std::array<StoredTriangle*, CellBrick::Cells> write;
-      StoredTriangle* begin = this->Triangles.data() + (brick.First - this->Triangles.data());
+      StoredTriangle* begin = made.Triangles.data() + (brick.First - made.Triangles.data());
       for (int cell = 0; cell < CellBrick::Cells; ++cell)
       {
         write[cell] = begin;
         begin += brick.Count(cell);
       }
-      const Reader reader(hierarchy, surface, hidden, this->PlaceOf(indices[i]));
-      reader.ForEachPatch(
+      const Reader patches = reader(i);
+      patches.ForEachPatch(
         [&](int cell, const HalfPlace& tetrahedron, const SurfacePatch& patch)
         {
           for (int t = 0; t < patch.TriangleCount; ++t)
           {
-            *write[cell]++ = reader.Place(cell, tetrahedron, patch.Triangles[t]);
+            *write[cell]++ = patches.Place(cell, tetrahedron, patch.Triangles[t]);
           }
         });
     });
+  return made;
+}
+
+void FineSurface::Keep(SomeBricks some)
+{
+  for (std::size_t i = 0; i < some.Indices.size(); ++i)
+  {
+    std::int32_t& entry = this->Lookup[some.Indices[i]];
+    entry = None;
+    if (some.Bricks[i].Size() > 0)
+    {
+      entry = static_cast<std::int32_t>(this->Bricks.size());
+      this->Bricks.push_back(some.Bricks[i]);
+    }
+  }
+  this->Here.insert(this->Here.end(), some.Indices.begin(), some.Indices.end());
+  this->Triangles.push_back(std::move(some.Triangles));
+}
+
+void FineSurface::Forget()
+{
+  for (const std::int64_t index : this->Here)
+  {
+    this->Lookup[index] = NotHere;
+  }
+  this->Here.clear();
+  this->Bricks.clear();
+  this->Triangles.clear();
 }
 
 void FineSurface::Note(const CellBox& box) const
@@ -247,92 +299,100 @@ void FineSurface::Note(const CellBox& box) const
   }
 }
 
-void FineSurface::Fetch()
+void FineSurface::Bring()
 {
-  std::vector<std::uint8_t> wanted(this->Wanted.begin(), this->Wanted.end());
-  this->Portion->Others().Or(wanted);
+  std::vector<std::uint8_t> ofOthers(this->Portion != nullptr ? this->Wanted.size() : 0, 0);
+  std::vector<std::int64_t> own;
+  for (std::size_t index = 0; index < this->Wanted.size(); ++index)
+  {
+    const auto brick = static_cast<std::int64_t>(index);
+    if (this->Wanted[index] != 0 && this->Owns(brick))
+    {
+      own.push_back(brick);
+    }
+    else if (this->Wanted[index] != 0)
+    {
+      ofOthers[index] = 1;
+    }
+  }
+  this->Keep(this->Make(std::move(own)));
+  if (this->Portion != nullptr)
+  {
+    this->Portion->Others().Or(ofOthers);
+  }
   // Some at once: nobody needs more memory for what others want.
   constexpr std::size_t some = 64;
   std::vector<std::int64_t> indices;
-  for (std::size_t index = 0; index < wanted.size(); ++index)
+  for (std::size_t index = 0; index < ofOthers.size(); ++index)
   {
-    if (wanted[index] != 0)
+    if (ofOthers[index] != 0)
     {
       indices.push_back(static_cast<std::int64_t>(index));
     }
-    if (indices.size() == some || (index + 1 == wanted.size() && !indices.empty()))
+    if (indices.size() == some || (index + 1 == ofOthers.size() && !indices.empty()))
     {
-      this->Fetch(indices);
+      this->Keep(this->Fetch(indices));
       indices.clear();
     }
   }
+  for (std::atomic<std::uint8_t>& wanted : this->Wanted)
+  {
+    wanted = 0;
+  }
 }
 
-void FineSurface::Fetch(const std::vector<std::int64_t>& indices)
+FineSurface::SomeBricks FineSurface::Fetch(const std::vector<std::int64_t>& indices) const
 {
-  // How many triangles each has.
-  std::vector<std::uint16_t> sizes(indices.size(), 0);
+  Peers& others = this->Portion->Others();
+  std::vector<std::int64_t> own;
+  std::copy_if(indices.begin(), indices.end(), std::back_inserter(own),
+    [&](std::int64_t index) { return this->Owns(index); });
+  const SomeBricks made = this->Make(own);
+  const auto forEachMade = [&](const auto& body)
+  {
+    std::size_t i = 0;
+    for (std::size_t m = 0; m < made.Indices.size(); ++m)
+    {
+      i = std::find(indices.begin() + i, indices.end(), made.Indices[m]) - indices.begin();
+      body(i, made.Bricks[m]);
+    }
+  };
+
+  // How many triangles there are in each cell, and then these.
+  std::vector<std::array<std::uint8_t, CellBrick::Cells / 2>> counts(indices.size());
+  forEachMade([&](std::size_t i, const CellBrick& brick) { counts[i] = brick.Counts; });
+  others.Or(counts);
+  SomeBricks all;
+  all.Indices = indices;
+  all.Bricks.resize(indices.size());
   for (std::size_t i = 0; i < indices.size(); ++i)
   {
-    if (const std::int32_t brick = this->Lookup[indices[i]]; brick >= 0)
-    {
-      sizes[i] = this->Bricks[brick].Before[CellBrick::Rows];
-    }
+    all.Bricks[i].Counts = counts[i];
   }
-  this->Portion->Others().Max(sizes.data(), static_cast<std::int64_t>(sizes.size()));
-
-  // Prefix sum.
-  std::vector<std::size_t> begins(indices.size() + 1, 0);
-  std::inclusive_scan(
-    sizes.begin(), sizes.end(), begins.begin() + 1, std::plus<>(), std::size_t{ 0 });
-
-  // The triangles, and how many there are in each cell.
-  constexpr std::size_t counts = CellBrick::Cells / 2;
-  std::vector<StoredTriangle> triangles(begins.back());
-  std::vector<std::uint8_t> inCells(indices.size() * counts, 0);
-  for (std::size_t i = 0; i < indices.size(); ++i)
-  {
-    if (const std::int32_t brick = this->Lookup[indices[i]]; brick >= 0)
+  all.MakeRoom();
+  forEachMade(
+    [&](std::size_t i, const CellBrick& brick)
     {
-      const CellBrick& own = this->Bricks[brick];
-      std::copy_n(own.First, sizes[i], triangles.begin() + begins[i]);
-      std::copy(own.Counts.begin(), own.Counts.end(), inCells.begin() + i * counts);
-    }
-  }
-  this->Portion->Others().Or(triangles);
-  this->Portion->Others().Or(inCells);
+      const auto to = all.Bricks[i].First - all.Triangles.data();
+      std::copy_n(brick.First, brick.Size(), all.Triangles.begin() + to);
+    });
+  others.Or(all.Triangles);
 
-  // Keep what was wanted here.
-  std::vector<StoredTriangle> kept;
+  // What is wanted here.
+  SomeBricks wanted;
   for (std::size_t i = 0; i < indices.size(); ++i)
   {
     if (this->Wanted[indices[i]] != 0)
     {
-      kept.insert(kept.end(), triangles.begin() + begins[i], triangles.begin() + begins[i + 1]);
+      const CellBrick& brick = all.Bricks[i];
+      wanted.Indices.push_back(indices[i]);
+      wanted.Bricks.push_back(brick);
+      wanted.Triangles.insert(wanted.Triangles.end(), brick.First, brick.First + brick.Size());
     }
   }
-  kept.shrink_to_fit();
-  const StoredTriangle* next = kept.data();
-  this->OfOthers.push_back(std::move(kept));
-  for (std::size_t i = 0; i < indices.size(); ++i)
-  {
-    if (this->Wanted[indices[i]].exchange(0) == 0)
-    {
-      continue;
-    }
-    std::int32_t& entry = this->Lookup[indices[i]];
-    entry = None;
-    if (sizes[i] > 0)
-    {
-      entry = static_cast<std::int32_t>(this->Bricks.size());
-      CellBrick brick;
-      brick.First = next;
-      next += sizes[i];
-      std::copy_n(inCells.begin() + i * counts, counts, brick.Counts.begin());
-      brick.SumUp();
-      this->Bricks.push_back(brick);
-    }
-  }
+  wanted.Triangles.shrink_to_fit();
+  wanted.MakeRoom();
+  return wanted;
 }
 
 bool FineSurface::AnyHidden(const CellBox& box) const

@@ -47,8 +47,10 @@ struct CellBox
  * The triangles of a surface of full resolution by cell: 6 bytes a triangle, and 0.8 for each cell
  * of bricks of 8 x 8 x 8 cells that have some.
  *
- * In a portion of a hierarchy those of its own bricks are there. Who looks at others learns that
- * they are Elsewhere, and that is noted: in the next Fetch() the peers who own them give them.
+ * All of a dense surface takes more memory than its hierarchy, so some slices of it can be made at
+ * a time. Who looks at others learns that they are Elsewhere, and that is noted, for the next
+ * Bring(): they are made, too, or, of a portion of a hierarchy, fetched from the peers who own
+ * them.
  */
 class FineSurface
 {
@@ -60,13 +62,20 @@ public:
   {
   };
 
-  /** @param hidden cells that count as empty; null for none; must outlive it
-   *  @param portion that the hierarchy is; null for all; must outlive it */
+  /** All of it. @param hidden cells that count as empty; null for none; must outlive it */
   FineSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
-    const ParallelFor& parallelFor, const PeerPortion* portion = nullptr);
+    const ParallelFor& parallelFor);
 
-  /** Brings what has been noted, or else what is next to its own bricks. By all peers. */
-  void Fetch();
+  /** Some of it. @param slices those of its bricks' first samples; what is next to them is noted
+   *  @param portion that the hierarchy is; null for all. All must outlive it */
+  FineSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
+    const ParallelFor& parallelFor, const SliceRange& slices, const PeerPortion* portion);
+
+  /** Brings what has been noted. Of a portion by all peers. */
+  void Bring();
+
+  /** Forgets what is here: it is elsewhere again. */
+  void Forget();
 
   /** Calls body(cell, triangles) for the cells of a box that have some, where `triangles` calls
    *  what it is given with each. Stops where body returns false. @return whether it did not
@@ -161,6 +170,7 @@ private:
     std::array<std::uint16_t, Rows + 1> Before{}; ///< those of rows before a row, from there on
     std::array<std::uint8_t, Cells / 2> Counts{}; ///< those of two cells: each has 12 at the most
 
+    int Size() const { return this->Before[Rows]; }
     int Count(int cell) const { return (this->Counts[cell / 2] >> (4 * (cell & 1))) & 15; }
     void Add(int cell, int count)
     {
@@ -241,23 +251,43 @@ private:
   /** Wants what is elsewhere of the bricks of a box. By any thread. */
   void Note(const CellBox& box) const;
 
-  /** Brings some bricks, each from who owns it, to those who want it. */
-  void Fetch(const std::vector<std::int64_t>& indices);
-
   class Reader;
+
+  /** Some bricks, each with its triangles. */
+  struct SomeBricks
+  {
+    std::vector<std::int64_t> Indices;
+    std::vector<CellBrick> Bricks;
+    std::vector<StoredTriangle> Triangles;
+
+    /** Once triangles are counted: where they are. */
+    void MakeRoom();
+  };
+
+  bool Owns(std::int64_t index) const
+  {
+    return this->Portion == nullptr || this->Portion->Diamonds().Owns(8 * this->PlaceOf(index)[2]);
+  }
+  SomeBricks Make(std::vector<std::int64_t> indices) const;
+  /** Has what peers make of some bricks. */
+  SomeBricks Fetch(const std::vector<std::int64_t>& indices) const;
+  void Keep(SomeBricks some);
 
   static constexpr std::int32_t None = -1;    ///< in the lookup: there are no triangles
   static constexpr std::int32_t NotHere = -2; ///< there may be some, elsewhere
 
-  Grid TheGrid;
+  const IsodiamondHierarchy& Hierarchy;
+  int Surface;
   const HiddenCells* Hidden;
+  ParallelFor For;
   const PeerPortion* Portion;
+  Grid TheGrid;
   std::array<int, 3> Count{};
   std::vector<std::int32_t> Lookup; ///< of all bricks of cells: index in Bricks, or one of these
-  mutable std::vector<std::atomic<std::uint8_t>> Wanted; ///< of a portion: 1 where noted
-  std::vector<CellBrick> Bricks;
-  std::vector<StoredTriangle> Triangles;             ///< of its own bricks
-  std::vector<std::vector<StoredTriangle>> OfOthers; ///< of those that were fetched, some each
+  mutable std::vector<std::atomic<std::uint8_t>> Wanted; ///< of these: 1 where noted
+  std::vector<std::int64_t> Here;                        ///< the bricks that are not elsewhere
+  std::vector<CellBrick> Bricks;                         ///< those of these that have triangles
+  std::vector<std::vector<StoredTriangle>> Triangles;    ///< of some bricks each
 };
 
 }

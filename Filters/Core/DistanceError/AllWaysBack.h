@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_AllWaysBack_h
+#define isodiamond_AllWaysBack_h
+
+#include "DistanceError/WayBack.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * Raises the errors of all diamonds to the way back.
+ *
+ * Some slices after the others, each with the triangles in them and next to them: all of these at
+ * once take more memory than all else. The few diamonds, most of them large, that need triangles
+ * from elsewhere are left for the end, and measured when these have been brought.
+ */
+template <typename Lengths>
+class AllWaysBack
+{
+public:
+  /** All must outlive it. */
+  AllWaysBack(const IsodiamondHierarchy& relevant, const Lengths& lengths,
+    const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+    const Loops& loops)
+    : Relevant(relevant)
+    , InWorld(lengths)
+    , Known(known)
+    , Hidden(known.Hidden != nullptr && known.Hidden->Any() ? known.Hidden : nullptr)
+    , Code(code)
+    , Codes(codes)
+    , For(known.Portion != nullptr ? Loops(loops.Whole) : loops)
+    , Others(known.Portion != nullptr ? &known.Portion->Others() : nullptr)
+  {
+  }
+
+  void Run()
+  {
+    for (int surface = 0; surface < this->Relevant.Region().SurfaceCount(); ++surface)
+    {
+      const std::vector<SliceRange> windows = this->Windows();
+      for (std::size_t i = 0; IsAnywhere(this->Others, i < windows.size()); ++i)
+      {
+        this->MeasureWindow(surface, i < windows.size() ? windows[i] : SliceRange());
+      }
+      this->MeasureLeft(surface);
+    }
+  }
+
+private:
+  struct Member
+  {
+    Place Diamond;
+    std::uint32_t Rank = 0;
+  };
+
+  /** Cuts the slices of the centres that are measured here: an eighth each, but not so few that
+   *  most of the triangles are those next to them. */
+  std::vector<SliceRange> Windows() const
+  {
+    constexpr int brick = 8;
+    const int last = this->Relevant.SampleGrid().Last(2);
+    const DiamondPortion* portion =
+      this->Known.Portion != nullptr ? &this->Known.Portion->Diamonds() : nullptr;
+    const int begin = portion != nullptr ? portion->Begin() : 0;
+    const int end = portion != nullptr ? std::min(portion->End(), last + 1) : last + 1;
+    const int step = std::max(4, ((end - begin) / brick + 7) / 8) * brick;
+    std::vector<SliceRange> windows;
+    for (int first = begin; first < end; first += step)
+    {
+      windows.push_back({ first, first + step });
+    }
+    if (!windows.empty())
+    {
+      // Centres beyond the last sample, too.
+      windows.back().End = portion != nullptr ? portion->End() : std::numeric_limits<int>::max();
+    }
+    return windows;
+  }
+
+  FineSurface Triangles(int surface, const SliceRange& slices) const
+  {
+    return { this->Relevant, surface, this->Hidden, this->For.Whole, slices, this->Known.Portion };
+  }
+
+  /** What has its centre in some slices. */
+  void MeasureWindow(int surface, const SliceRange& slices)
+  {
+    std::optional<FineSurface> fine;
+    InStep(this->Others, [&] { fine.emplace(this->Triangles(surface, slices)); });
+    fine->Bring();
+    InStep(this->Others, [&] { this->Measure(surface, slices, *fine); });
+  }
+
+  void Measure(int surface, const SliceRange& slices, const FineSurface& fine)
+  {
+    const DiamondSet& set = this->Relevant.Diamonds();
+    const std::vector<BrickPlace> bricks = AllBricks(set);
+    this->For.Share(static_cast<std::int64_t>(bricks.size()), 4,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        WayBack<Lengths> wayBack(this->Relevant, this->InWorld, surface, fine, this->Code);
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const int scale = bricks[i].Scale;
+          const BrickLevel& level = set.Level(scale);
+          const Brick& brick = level.Bricks[bricks[i].Index];
+          const int first = level.Box.Origin(brick.BoxIndex)[2];
+          for (int z = 0; z < 8; ++z)
+          {
+            const int slice = (first + z) << scale;
+            if (slice >= slices.Begin && slice < slices.End)
+            {
+              set.ForEachInWord(scale, brick, z,
+                [&](const Place& place, std::uint32_t rank) {
+                  this->Measure(surface, { place, rank }, wayBack);
+                });
+            }
+          }
+        }
+      });
+  }
+
+  /** What has been left, some at once: what they need is forgotten then. */
+  void MeasureLeft(int surface)
+  {
+    constexpr std::size_t some = 64;
+    std::vector<Member> left = std::exchange(this->Left, {});
+    std::sort(
+      left.begin(), left.end(), [](const Member& a, const Member& b) { return a.Rank > b.Rank; });
+    std::optional<FineSurface> fine;
+    InStep(this->Others, [&] { fine.emplace(this->Triangles(surface, {})); });
+    while (IsAnywhere(this->Others, !left.empty()))
+    {
+      const auto first = left.end() - static_cast<std::ptrdiff_t>(std::min(some, left.size()));
+      this->Left.assign(first, left.end());
+      left.erase(first, left.end());
+      while (IsAnywhere(this->Others, !this->Left.empty()))
+      {
+        InStep(this->Others, [&] { this->Measure(surface, std::exchange(this->Left, {}), *fine); });
+        fine->Bring();
+      }
+      fine->Forget();
+    }
+  }
+
+  void Measure(int surface, const std::vector<Member>& members, const FineSurface& fine)
+  {
+    this->For.Whole(static_cast<std::int64_t>(members.size()), 4,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        WayBack<Lengths> wayBack(this->Relevant, this->InWorld, surface, fine, this->Code);
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          this->Measure(surface, members[i], wayBack);
+        }
+      });
+  }
+
+  void Measure(int surface, const Member& member, WayBack<Lengths>& wayBack)
+  {
+    const std::uint32_t rank = member.Rank;
+    const std::vector<ErrorCode::Type>& thresholds = this->Known.Thresholds;
+    const ErrorCode::Type before =
+      thresholds.empty() ? this->Codes[rank] : std::max(this->Codes[rank], thresholds[rank]);
+    if (this->Codes[rank] == 0 || before == ErrorCode::Always)
+    {
+      return;
+    }
+    const MapBounds& bounds = this->Known.Bounds != nullptr ? *this->Known.Bounds : this->NoBounds;
+    const bool isWhole = this->Hidden == nullptr || !this->Hidden->Touch(member.Diamond);
+    const double error = this->Code.Decode(before) / DistanceMargin;
+    try
+    {
+      const double greater =
+        wayBack.Measure(member.Diamond, bounds.Of(surface, rank), error, isWhole);
+      if (greater > error)
+      {
+        this->Codes[rank] = this->Code.Encode(greater * DistanceMargin);
+      }
+    }
+    catch (const FineSurface::Elsewhere&)
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->Left.push_back(member);
+    }
+  }
+
+  const IsodiamondHierarchy& Relevant;
+  const Lengths& InWorld;
+  const BeforeWayBack& Known;
+  const HiddenCells* Hidden;
+  const MapBounds NoBounds;
+  const ErrorCode& Code;
+  std::vector<ErrorCode::Type>& Codes;
+  Loops For;
+  Peers* Others;            ///< of a portion; null for none
+  std::vector<Member> Left; ///< to be measured when what they need has been brought
+  std::mutex Mutex;         ///< of what is left
+};
+
+}
+
+#endif
