@@ -2,7 +2,7 @@
 #ifndef vtkIsodiamond_Arrays_h
 #define vtkIsodiamond_Arrays_h
 
-#include "Private/LargePages.h"
+#include "Private/SystemMemory.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"

@@ -3,6 +3,7 @@
 
 #include "Private/HierarchyQuery.h"
 #include "Private/Slabs.h"
+#include "Private/SystemMemory.h"
 #include "Refinement/LocalTolerance.h"
 
 #include "vtkUnsignedCharArray.h"
@@ -133,6 +134,7 @@ void Cache::Build(
   {
     entry.Encoding =
       isodiamond::BuildIsodiamonds(ModelKept, volume.Samples, region, task.For(), options);
+    ReturnFreeMemory();
   }
   else
   {
@@ -168,6 +170,7 @@ void Cache::MeasureErrors(const Volume& volume, Task& task)
         this->OptionsFor(volume, entry.RefineInterior, task));
       entry.Staged.reset();
       entry.RefinedTo.reset();
+      ReturnFreeMemory();
     });
 }
 

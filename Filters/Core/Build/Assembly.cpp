@@ -117,32 +117,34 @@ Encoding Assemble(const PeerPortion& portion, Encoding own, const IsodiamondHier
 {
   const Assembler assembler(portion, hierarchy.Diamonds(), kept);
   const bool isVolume = own.Header.Region.IsVolume();
-  const EncodingArrays<OwnedArray>& from = own.Arrays;
+  // What has been given is forgotten.
+  EncodingArrays<OwnedArray>& from = own.Arrays;
+  const auto give = [&](auto& values) { return assembler.Values(std::exchange(values, {})); };
   Encoding whole;
   whole.Header = own.Header;
   WriteBricks(kept, whole.Arrays);
-  whole.Arrays.Records = assembler.Values(from.Records);
   whole.Arrays.Isovertices = assembler.Lists(
-    from.Isovertices,
+    std::exchange(from.Isovertices, {}),
     [&](std::int64_t rank) {
       return PopCount(hierarchy.Edges(rank)) +
         (isVolume ? PopCount(hierarchy.UpperEdges(rank)) : 0);
     },
     [&](std::int64_t rank) { return hierarchy.FirstIsovertexOf(rank); });
-  if (!from.InteriorCodes.empty())
-  {
-    whole.Arrays.InteriorCodes = assembler.Values(from.InteriorCodes);
-  }
   if (isVolume)
   {
-    std::visit([&](const auto& values)
-      { whole.InsideValues = InsideValuesOf(values, hierarchy, assembler); },
+    std::visit([&](auto& values)
+      { whole.InsideValues = InsideValuesOf(std::exchange(values, {}), hierarchy, assembler); },
       own.InsideValues);
   }
   else
   {
     whole.InsideValues = std::move(own.InsideValues);
   }
+  if (!from.InteriorCodes.empty())
+  {
+    whole.Arrays.InteriorCodes = give(from.InteriorCodes);
+  }
+  whole.Arrays.Records = give(from.Records); // the last: the hierarchy reads its signs there
 
   std::vector<std::uint64_t> followers;
   std::copy_if(from.Followers.begin(), from.Followers.end(), std::back_inserter(followers),

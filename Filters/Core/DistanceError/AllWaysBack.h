@@ -61,8 +61,8 @@ private:
     std::uint32_t Rank = 0;
   };
 
-  /** Cuts the slices of the centres that are measured here: an eighth each, but not so few that
-   *  most of the triangles are those next to them. */
+  /** Cuts the slices of the centres that are measured here: an eighth each, but not fewer than the
+   *  triangles next to them have. */
   std::vector<SliceRange> Windows() const
   {
     constexpr int brick = 8;
@@ -71,7 +71,7 @@ private:
       this->Known.Portion != nullptr ? &this->Known.Portion->Diamonds() : nullptr;
     const int begin = portion != nullptr ? portion->Begin() : 0;
     const int end = portion != nullptr ? std::min(portion->End(), last + 1) : last + 1;
-    const int step = std::max(4, ((end - begin) / brick + 7) / 8) * brick;
+    const int step = std::max(2, ((end - begin) / brick + 7) / 8) * brick;
     std::vector<SliceRange> windows;
     for (int first = begin; first < end; first += step)
     {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/LargePages.h"
+#include "Private/SystemMemory.h"
 
 #include <cstdint>
 #ifdef __linux__
 #include <sys/mman.h>
+#endif
+#ifdef __GLIBC__
+#include <malloc.h>
 #endif
 
 namespace vtkIsodiamond
@@ -19,6 +22,13 @@ void PreferLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_
     // Advice only: where it is not taken nothing is lost.
     madvise(static_cast<char*>(memory) + toFirst, (bytes - toFirst) / page * page, MADV_HUGEPAGE);
   }
+#endif
+}
+
+void ReturnFreeMemory()
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
 #endif
 }
 
