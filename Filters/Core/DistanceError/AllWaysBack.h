@@ -45,12 +45,20 @@ public:
   {
     for (int surface = 0; surface < this->Relevant.Region().SurfaceCount(); ++surface)
     {
+      std::optional<FineSurface> fine;
+      InStep(this->Others,
+        [&] {
+          fine.emplace(this->Relevant, surface, this->Hidden, this->For.Whole, this->Known.Portion);
+        });
       const std::vector<SliceRange> windows = this->Windows();
       for (std::size_t i = 0; IsAnywhere(this->Others, i < windows.size()); ++i)
       {
-        this->MeasureWindow(surface, i < windows.size() ? windows[i] : SliceRange());
+        const SliceRange slices = i < windows.size() ? windows[i] : SliceRange();
+        fine->Make(slices);
+        InStep(this->Others, [&] { this->Measure(surface, slices, *fine); });
+        fine->Forget();
       }
-      this->MeasureLeft(surface);
+      this->MeasureLeft(surface, *fine);
     }
   }
 
@@ -85,20 +93,6 @@ private:
     return windows;
   }
 
-  FineSurface Triangles(int surface, const SliceRange& slices) const
-  {
-    return { this->Relevant, surface, this->Hidden, this->For.Whole, slices, this->Known.Portion };
-  }
-
-  /** What has its centre in some slices. */
-  void MeasureWindow(int surface, const SliceRange& slices)
-  {
-    std::optional<FineSurface> fine;
-    InStep(this->Others, [&] { fine.emplace(this->Triangles(surface, slices)); });
-    fine->Bring();
-    InStep(this->Others, [&] { this->Measure(surface, slices, *fine); });
-  }
-
   void Measure(int surface, const SliceRange& slices, const FineSurface& fine)
   {
     const DiamondSet& set = this->Relevant.Diamonds();
@@ -129,14 +123,12 @@ private:
   }
 
   /** What has been left, some at once: what they need is forgotten then. */
-  void MeasureLeft(int surface)
+  void MeasureLeft(int surface, FineSurface& fine)
   {
     constexpr std::size_t some = 64;
     std::vector<Member> left = std::exchange(this->Left, {});
     std::sort(
       left.begin(), left.end(), [](const Member& a, const Member& b) { return a.Rank > b.Rank; });
-    std::optional<FineSurface> fine;
-    InStep(this->Others, [&] { fine.emplace(this->Triangles(surface, {})); });
     while (IsAnywhere(this->Others, !left.empty()))
     {
       const auto first = left.end() - static_cast<std::ptrdiff_t>(std::min(some, left.size()));
@@ -144,10 +136,10 @@ private:
       left.erase(first, left.end());
       while (IsAnywhere(this->Others, !this->Left.empty()))
       {
-        InStep(this->Others, [&] { this->Measure(surface, std::exchange(this->Left, {}), *fine); });
-        fine->Bring();
+        InStep(this->Others, [&] { this->Measure(surface, std::exchange(this->Left, {}), fine); });
+        fine.Bring();
       }
-      fine->Forget();
+      fine.Forget();
     }
   }
 

@@ -18,8 +18,7 @@ DistanceTests::DistanceTests(
   this->Tested.Hidden = hidden;
   for (int surface = 0; surface < tested.Relevant.Region().SurfaceCount(); ++surface)
   {
-    this->Surfaces.push_back(
-      { surface, FineSurface(tested.Relevant, surface, hidden, parallelFor) });
+    this->Surfaces.emplace_back(tested.Relevant, surface, hidden, parallelFor);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "Patches/WorldLengths.h"
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,14 @@ struct TestedSurface
 {
   int Number = 0;
   FineSurface Fine;
+
+  /** As of FineSurface. */
+  TestedSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
+    const ParallelFor& parallelFor)
+    : Number(surface)
+    , Fine(hierarchy, surface, hidden, parallelFor)
+  {
+  }
 };
 
 /** What the tests of all diamonds go by. */
@@ -60,7 +69,7 @@ public:
 private:
   TestedHierarchy Tested;
   WorldLengths InWorld;
-  std::vector<TestedSurface> Surfaces;
+  std::deque<TestedSurface> Surfaces; ///< which cannot be moved
 };
 
 }

@@ -144,14 +144,13 @@ void FineSurface::SomeBricks::MakeRoom()
 
 FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
   const HiddenCells* hidden, const ParallelFor& parallelFor)
-  : FineSurface(
-      hierarchy, surface, hidden, parallelFor, { 0, std::numeric_limits<int>::max() }, nullptr)
+  : FineSurface(hierarchy, surface, hidden, parallelFor, nullptr)
 {
+  this->Make({ 0, this->TheGrid.Last(2) + 1 });
 }
 
 FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
-  const HiddenCells* hidden, const ParallelFor& parallelFor, const SliceRange& slices,
-  const PeerPortion* portion)
+  const HiddenCells* hidden, const ParallelFor& parallelFor, const PeerPortion* portion)
   : Hierarchy(hierarchy)
   , Surface(surface)
   , Hidden(hidden)
@@ -167,6 +166,7 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
 
   // The bricks of cells next to which there are diamonds.
   this->Lookup.assign(all, None);
+  this->IsNoted = std::vector<std::atomic<std::uint8_t>>(all);
   const BrickLevel& level = hierarchy.Diamonds().Level(0);
   const auto hasDiamonds = [&](const Point& brick)
   {
@@ -175,7 +175,6 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
       (portion != nullptr ? portion->All().Find(0, index) != nullptr
                           : level.Find(index) != nullptr);
   };
-  std::vector<std::int64_t> indices;
   for (std::int64_t index = 0; index < all; ++index)
   {
     const Point place = this->PlaceOf(index);
@@ -184,27 +183,35 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
     {
       any = hasDiamonds(place + Point{ i & 1, (i >> 1) & 1, i >> 2 });
     }
-    const int slice = 8 * place[2];
-    if (any && slice >= slices.Begin && slice < slices.End)
+    this->Lookup[index] = any ? NotHere : None;
+  }
+}
+
+void FineSurface::Make(const SliceRange& slices)
+{
+  const std::int64_t layer = std::int64_t{ 1 } * this->Count[0] * this->Count[1];
+  std::vector<std::int64_t> indices;
+  for (int z = slices.Begin / 8; 8 * z < slices.End && z < this->Count[2]; ++z)
+  {
+    for (std::int64_t index = z * layer; index < (z + 1) * layer; ++index)
     {
-      indices.push_back(index);
-    }
-    else if (any)
-    {
-      this->Lookup[index] = NotHere;
+      if (this->Lookup[index] == NotHere && this->Owns(index))
+      {
+        indices.push_back(index);
+      }
     }
   }
-  this->Keep(this->Make(std::move(indices)));
-  this->Wanted = std::vector<std::atomic<std::uint8_t>>(all);
+  this->Keep(this->MakeSome(std::move(indices)));
   if (slices.Begin < slices.End)
   {
     this->Note({ { 0, 0, slices.Begin - 8 },
       { this->TheGrid.Last(0), this->TheGrid.Last(1),
         std::min(slices.End, this->TheGrid.Last(2)) + 8 } });
   }
+  this->Bring();
 }
 
-FineSurface::SomeBricks FineSurface::Make(std::vector<std::int64_t> indices) const
+FineSurface::SomeBricks FineSurface::MakeSome(std::vector<std::int64_t> indices) const
 {
   SomeBricks made;
   made.Indices = std::move(indices);
@@ -290,9 +297,10 @@ void FineSurface::Note(const CellBox& box) const
       for (int x = box.Low[0] >> 3; x <= (box.High[0] - 1) >> 3; ++x)
       {
         const std::int64_t index = this->Index({ x, y, z });
-        if (this->Lookup[index] == NotHere)
+        if (this->Lookup[index] == NotHere && this->IsNoted[index].exchange(1) == 0)
         {
-          this->Wanted[index].store(1, std::memory_order_relaxed);
+          const std::lock_guard<std::mutex> lock(this->Mutex);
+          this->Noted.push_back(index);
         }
       }
     }
@@ -301,43 +309,37 @@ void FineSurface::Note(const CellBox& box) const
 
 void FineSurface::Bring()
 {
-  std::vector<std::uint8_t> ofOthers(this->Portion != nullptr ? this->Wanted.size() : 0, 0);
+  const std::vector<std::int64_t> noted = std::exchange(this->Noted, {});
   std::vector<std::int64_t> own;
-  for (std::size_t index = 0; index < this->Wanted.size(); ++index)
+  std::vector<std::uint64_t> ofOthers;
+  for (const std::int64_t index : noted)
   {
-    const auto brick = static_cast<std::int64_t>(index);
-    if (this->Wanted[index] != 0 && this->Owns(brick))
+    if (this->Owns(index))
     {
-      own.push_back(brick);
+      own.push_back(index);
     }
-    else if (this->Wanted[index] != 0)
+    else
     {
-      ofOthers[index] = 1;
+      ofOthers.push_back(static_cast<std::uint64_t>(index));
     }
   }
-  this->Keep(this->Make(std::move(own)));
+  this->Keep(this->MakeSome(std::move(own)));
   if (this->Portion != nullptr)
   {
-    this->Portion->Others().Or(ofOthers);
-  }
-  // Some at once: nobody needs more memory for what others want.
-  constexpr std::size_t some = 64;
-  std::vector<std::int64_t> indices;
-  for (std::size_t index = 0; index < ofOthers.size(); ++index)
-  {
-    if (ofOthers[index] != 0)
+    std::vector<std::uint64_t> all = this->Portion->Others().Gather(ofOthers);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    // Some at once: nobody needs more memory for what others want.
+    constexpr std::size_t some = 64;
+    for (std::size_t first = 0; first < all.size(); first += some)
     {
-      indices.push_back(static_cast<std::int64_t>(index));
-    }
-    if (indices.size() == some || (index + 1 == ofOthers.size() && !indices.empty()))
-    {
-      this->Keep(this->Fetch(indices));
-      indices.clear();
+      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+      this->Keep(this->Fetch({ begin, begin + std::min(some, all.size() - first) }));
     }
   }
-  for (std::atomic<std::uint8_t>& wanted : this->Wanted)
+  for (const std::int64_t index : noted)
   {
-    wanted = 0;
+    this->IsNoted[index] = 0;
   }
 }
 
@@ -347,7 +349,7 @@ FineSurface::SomeBricks FineSurface::Fetch(const std::vector<std::int64_t>& indi
   std::vector<std::int64_t> own;
   std::copy_if(indices.begin(), indices.end(), std::back_inserter(own),
     [&](std::int64_t index) { return this->Owns(index); });
-  const SomeBricks made = this->Make(own);
+  const SomeBricks made = this->MakeSome(own);
   const auto forEachMade = [&](const auto& body)
   {
     std::size_t i = 0;
@@ -382,7 +384,7 @@ FineSurface::SomeBricks FineSurface::Fetch(const std::vector<std::int64_t>& indi
   SomeBricks wanted;
   for (std::size_t i = 0; i < indices.size(); ++i)
   {
-    if (this->Wanted[indices[i]] != 0)
+    if (this->IsNoted[indices[i]] != 0)
     {
       const CellBrick& brick = all.Bricks[i];
       wanted.Indices.push_back(indices[i]);

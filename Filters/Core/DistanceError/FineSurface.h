@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cassert>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 namespace isodiamond
@@ -47,10 +48,10 @@ struct CellBox
  * The triangles of a surface of full resolution by cell: 6 bytes a triangle, and 0.8 for each cell
  * of bricks of 8 x 8 x 8 cells that have some.
  *
- * All of a dense surface takes more memory than its hierarchy, so some slices of it can be made at
- * a time. Who looks at others learns that they are Elsewhere, and that is noted, for the next
- * Bring(): they are made, too, or, of a portion of a hierarchy, fetched from the peers who own
- * them.
+ * All of a dense surface takes more memory than its hierarchy, so it can be made for some slices
+ * after the others. Who looks at other triangles learns that they are Elsewhere, and that is noted,
+ * for the next Bring(): they are made, too, or, of a portion of a hierarchy, fetched from the peers
+ * who own them.
  */
 class FineSurface
 {
@@ -62,17 +63,21 @@ public:
   {
   };
 
-  /** All of it. @param hidden cells that count as empty; null for none; must outlive it */
+  /** All of it is here. @param hidden cells that count as empty; null for none; must outlive it */
   FineSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
     const ParallelFor& parallelFor);
 
-  /** Some of it. @param slices those of its bricks' first samples; what is next to them is noted
-   *  @param portion that the hierarchy is; null for all. All must outlive it */
+  /** All of it is elsewhere.
+   *  @param portion that the hierarchy is; null for all. All but the loops must outlive it */
   FineSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
-    const ParallelFor& parallelFor, const SliceRange& slices, const PeerPortion* portion);
+    const ParallelFor& parallelFor, const PeerPortion* portion);
 
-  /** Brings what has been noted. Of a portion by all peers. */
+  ///@{
+  /** Of a portion by all peers together. Makes what it owns in some slices, in steps of bricks, and
+   * brings what is next to these; brings what has been noted. */
+  void Make(const SliceRange& slices);
   void Bring();
+  ///@}
 
   /** Forgets what is here: it is elsewhere again. */
   void Forget();
@@ -268,7 +273,7 @@ private:
   {
     return this->Portion == nullptr || this->Portion->Diamonds().Owns(8 * this->PlaceOf(index)[2]);
   }
-  SomeBricks Make(std::vector<std::int64_t> indices) const;
+  SomeBricks MakeSome(std::vector<std::int64_t> indices) const;
   /** Has what peers make of some bricks. */
   SomeBricks Fetch(const std::vector<std::int64_t>& indices) const;
   void Keep(SomeBricks some);
@@ -284,10 +289,12 @@ private:
   Grid TheGrid;
   std::array<int, 3> Count{};
   std::vector<std::int32_t> Lookup; ///< of all bricks of cells: index in Bricks, or one of these
-  mutable std::vector<std::atomic<std::uint8_t>> Wanted; ///< of these: 1 where noted
-  std::vector<std::int64_t> Here;                        ///< the bricks that are not elsewhere
-  std::vector<CellBrick> Bricks;                         ///< those of these that have triangles
-  std::vector<std::vector<StoredTriangle>> Triangles;    ///< of some bricks each
+  mutable std::vector<std::atomic<std::uint8_t>> IsNoted; ///< of these
+  mutable std::vector<std::int64_t> Noted;
+  mutable std::mutex Mutex;                           ///< of what is noted
+  std::vector<std::int64_t> Here;                     ///< the bricks that are not elsewhere
+  std::vector<CellBrick> Bricks;                      ///< those of these that have triangles
+  std::vector<std::vector<StoredTriangle>> Triangles; ///< of some bricks each
 };
 
 }
