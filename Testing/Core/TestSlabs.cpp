@@ -221,6 +221,27 @@ TEST(Slabs, OfPeersMakeTheSameInPortionsOfATallVolume)
   }
 }
 
+// More diamonds need triangles from elsewhere than are measured at once.
+TEST(Slabs, OfPeersMakeTheSameInPortionsOfAWideVolume)
+{
+  for (const test::Field& field :
+    { test::SphereField({ 65, 65, 65 }), test::WaveField({ 65, 65, 65 }) })
+  {
+    SCOPED_TRACE(field.Name);
+    BuildOptions options = test::Distance();
+    options.InPortions = true;
+    const Whole expected(Model::Minimal, field.View(), field.Isovalue, options);
+    ForEachPeer(
+      2, options,
+      [&](const BuildOptions& together)
+      {
+        return BuildInSlabs(field.View(), field.Isovalue, 2, SerialFor, together)
+          .Finish(Model::Minimal, SampleView<float>(), SerialFor, together);
+      },
+      [&](const Encoding& found) { test::ExpectSame(found, expected.TheEncoding); });
+  }
+}
+
 TEST(Slabs, OfPeersRefineToTheSameMesh)
 {
   const int cases = test::ForRandomSeeds(

@@ -125,7 +125,7 @@ private:
   /** What has been left, some at once: what they need is forgotten then. */
   void MeasureLeft(int surface, FineSurface& fine)
   {
-    constexpr std::size_t some = 64;
+    constexpr std::size_t some = 16;
     std::vector<Member> left = std::exchange(this->Left, {});
     std::sort(
       left.begin(), left.end(), [](const Member& a, const Member& b) { return a.Rank > b.Rank; });
