@@ -175,6 +175,11 @@ public:
     std::vector<ErrorCode::Type> threaded = before;
     RaiseByWayBack(this->Hierarchy, world, known, threaded, test::ThreadedFor(3));
     EXPECT_TRUE(raised == threaded);
+    BeforeWayBack one = known;
+    one.MostAtOnce = 1;
+    std::vector<ErrorCode::Type> inTurn = before;
+    RaiseByWayBack(this->Hierarchy, world, one, inTurn, SerialFor);
+    EXPECT_TRUE(raised == inTurn);
     this->CheckThresholds(before, raised, { hidden, &bounds, {} }, world);
 
     std::vector<test::NearestTriangle> nearest;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -69,26 +68,35 @@ private:
     std::uint32_t Rank = 0;
   };
 
-  /** Cuts the slices of the centres that are measured here: an eighth each, but not fewer than the
-   *  triangles next to them have. */
+  /** Cuts the slices of the centres that are measured here, so that there is about as much in each
+   *  part: an eighth, but not fewer slices than the triangles next to them have. */
   std::vector<SliceRange> Windows() const
   {
-    constexpr int brick = 8;
-    const int last = this->Relevant.SampleGrid().Last(2);
-    const DiamondPortion* portion =
-      this->Known.Portion != nullptr ? &this->Known.Portion->Diamonds() : nullptr;
-    const int begin = portion != nullptr ? portion->Begin() : 0;
-    const int end = portion != nullptr ? std::min(portion->End(), last + 1) : last + 1;
-    const int step = std::max(2, ((end - begin) / brick + 7) / 8) * brick;
-    std::vector<SliceRange> windows;
-    for (int first = begin; first < end; first += step)
+    constexpr int layer = DiamondPortion::Step;
+    const BrickLevel& level = this->Relevant.Diamonds().Level(0);
+    const DiamondPortion all({ 0 }, 0);
+    const DiamondPortion& own =
+      this->Known.Portion != nullptr ? this->Known.Portion->Diamonds() : all;
+    const int first = own.Begin() / layer;
+    const int end = std::min((own.End() - 1) / layer + 1, level.Box.Count[2]);
+    std::vector<std::int64_t> sizes(std::max(end - first, 0), 0);
+    for (const Brick& brick : level.Bricks)
     {
-      windows.push_back({ first, first + step });
+      const int at = level.Box.Origin(brick.BoxIndex)[2] / layer;
+      if (at >= first && at < end)
+      {
+        sizes[at - first] += brick.Size();
+      }
     }
-    if (!windows.empty())
+    std::vector<SliceRange> windows;
+    for (const int cut : EvenCuts(sizes, std::clamp((end - first) / 2, 1, 8)))
     {
-      // Centres beyond the last sample, too.
-      windows.back().End = portion != nullptr ? portion->End() : std::numeric_limits<int>::max();
+      const int begin = windows.empty() ? own.Begin() : layer * (first + cut);
+      if (!windows.empty())
+      {
+        windows.back().End = begin;
+      }
+      windows.push_back({ begin, own.End() }); // centres beyond the last sample, too
     }
     return windows;
   }
@@ -125,7 +133,7 @@ private:
   /** What has been left, some at once: what they need is forgotten then. */
   void MeasureLeft(int surface, FineSurface& fine)
   {
-    constexpr std::size_t some = 16;
+    const auto some = static_cast<std::size_t>(this->Known.MostAtOnce);
     std::vector<Member> left = std::exchange(this->Left, {});
     std::sort(
       left.begin(), left.end(), [](const Member& a, const Member& b) { return a.Rank > b.Rank; });

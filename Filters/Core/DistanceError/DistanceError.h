@@ -72,6 +72,9 @@ struct BeforeWayBack
   /** Whose diamonds these are: its own are measured. Null if all are here. Peers have to call it
    *  together, and nothing that one of them does not return from. */
   const PeerPortion* Portion = nullptr;
+  /** How many of the diamonds that need triangles from farther away are measured at once: the more,
+   *  the more of these triangles are kept. */
+  int MostAtOnce = 256;
 };
 
 /**

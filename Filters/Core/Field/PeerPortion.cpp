@@ -1,38 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Field/PeerPortion.h"
 
-#include <numeric>
-
 namespace isodiamond
 {
 namespace
 {
 
-/** The slices that portions begin with which have about as many diamonds, those of scale 0. */
-std::vector<int> CutEvenly(const DiamondMask& all, int portions)
+/** How many diamonds of scale 0 the layers of bricks have. */
+std::vector<std::int64_t> SizesOfLayers(const DiamondMask& all)
 {
   const BrickBox& box = all.Box(0);
-  std::vector<std::int64_t> before(box.Count[2] + 1, 0); // a layer of bricks
+  std::vector<std::int64_t> sizes(box.Count[2], 0);
   all.ForEachBrick(
     [&](int scale, std::int64_t index, const BrickMask& mask)
     {
       for (int z = 0; z < 8 && scale == 0; ++z)
       {
-        before[box.Origin(index)[2] / DiamondPortion::Step + 1] += PopCount(mask[z]);
+        sizes[box.Origin(index)[2] / DiamondPortion::Step] += PopCount(mask[z]);
       }
     });
-  std::partial_sum(before.begin(), before.end(), before.begin());
-  std::vector<int> begins(portions, 0);
-  for (int portion = 1; portion < portions; ++portion)
-  {
-    // The layer whose begin is nearest to that share.
-    const std::int64_t share = before.back() / portions * portion;
-    const auto above = std::lower_bound(before.begin(), before.end(), share);
-    const bool isBelowNearer =
-      above != before.begin() && share - *std::prev(above) < *above - share;
-    begins[portion] = DiamondPortion::Step *
-      static_cast<int>((isBelowNearer ? std::prev(above) : above) - before.begin());
-  }
+  return sizes;
+}
+
+/** The slices that portions begin with which have about as many diamonds. */
+std::vector<int> CutEvenly(const DiamondMask& all, int portions)
+{
+  std::vector<int> begins = EvenCuts(SizesOfLayers(all), portions);
+  std::transform(begins.begin(), begins.end(), begins.begin(),
+    [](int layer) { return DiamondPortion::Step * layer; });
   return begins;
 }
 

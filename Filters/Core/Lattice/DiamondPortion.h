@@ -7,12 +7,31 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace isodiamond
 {
+
+/** Cuts things in a row into parts of about the same size. @return the first thing of each part */
+inline std::vector<int> EvenCuts(const std::vector<std::int64_t>& sizes, int parts)
+{
+  std::vector<std::int64_t> before(sizes.size() + 1, 0);
+  std::partial_sum(sizes.begin(), sizes.end(), before.begin() + 1);
+  std::vector<int> begins(parts, 0);
+  for (int part = 1; part < parts; ++part)
+  {
+    const std::int64_t share = before.back() * part / parts;
+    const auto above = std::lower_bound(before.begin(), before.end(), share);
+    const bool isBelowNearer =
+      above != before.begin() && share - *std::prev(above) < *above - share;
+    begins[part] = static_cast<int>((isBelowNearer ? std::prev(above) : above) - before.begin());
+  }
+  return begins;
+}
 
 /**
  * Which diamonds one of several has who build a hierarchy together, each of them a portion.
