@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DistanceError/DistanceMeasures.h"
 #include "DistanceError/AllWaysBack.h"
+#include "DistanceError/DistanceMeasures.h"
 
 namespace isodiamond
 {
