@@ -57,7 +57,6 @@ public:
   int Rank() const override { return this->Number; }
   void Or(std::uint8_t* /*bytes*/, std::int64_t /*count*/) override {}
   void Max(std::uint16_t* /*values*/, std::int64_t /*count*/) override {}
-  void Min(std::uint16_t* /*values*/, std::int64_t /*count*/) override {}
   void Max(double* /*values*/, std::int64_t /*count*/) override {}
 
 private:

@@ -70,11 +70,6 @@ void ControllerPeers::Max(std::uint16_t* values, std::int64_t count)
   Reduce(this->Controller, values, count, vtkCommunicator::MAX_OP);
 }
 
-void ControllerPeers::Min(std::uint16_t* values, std::int64_t count)
-{
-  Reduce(this->Controller, values, count, vtkCommunicator::MIN_OP);
-}
-
 void ControllerPeers::Max(double* values, std::int64_t count)
 {
   Reduce(this->Controller, values, count, vtkCommunicator::MAX_OP);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -240,6 +241,81 @@ TEST(Slabs, OfPeersMakeTheSameInPortionsOfAWideVolume)
       },
       [&](const Encoding& found) { test::ExpectSame(found, expected.TheEncoding); });
   }
+}
+
+// A portion without an isovertex of its own has diamonds that hold some of its neighbour's.
+TEST(Slabs, OfPeersMakeTheSameOfASpeckWhereTheyAreCut)
+{
+  test::Field field{ "speck", { 17, 17, 40 }, std::vector<float>(17 * 17 * 40, 0.0F), 0.5 };
+  const auto at = [&](int x, int y, int z) -> float& {
+    return field.Samples[SampleIndex(field.Dims, { x, y, z })];
+  };
+  for (const int length : { 1, 2 })
+  {
+    for (int y = 9; y < 9 + length; ++y)
+    {
+      at(9, y, 16) = 1.0F;
+    }
+    for (const bool preserve : { true, false })
+    {
+      BuildOptions options = test::Distance();
+      options.InPortions = true;
+      options.PreserveFeatures = preserve;
+      const Whole expected(Model::Relevant, field.View(), field.Isovalue, options);
+      ForEachPeer(
+        2, options,
+        [&](const BuildOptions& together)
+        {
+          return BuildInSlabs(field.View(), field.Isovalue, 2, SerialFor, together)
+            .Finish(Model::Relevant, SampleView<float>(), SerialFor, together);
+        },
+        [&](const Encoding& found) { test::ExpectSame(found, expected.TheEncoding); });
+    }
+  }
+}
+
+// Wherever a loop is stopped, as who aborts does.
+TEST(Slabs, OfPeersStopForAllOfThemInAnyLoop)
+{
+  const test::Field field = test::WaveField({ 9, 10, 33 });
+  int stopped = 0;
+  bool isDone = false;
+  for (int last = 1; !isDone; ++last)
+  {
+    std::atomic<int> failed(0);
+    std::atomic<int> finished(0);
+    test::ThreadPeers(3).Run(
+      [&](Peers& own)
+      {
+        BuildOptions together = test::Distance();
+        together.Together = &own;
+        together.InPortions = true;
+        int loops = 0;
+        const ParallelFor stopping = [&](std::int64_t count, std::int64_t grain,
+                                       const std::function<void(std::int64_t, std::int64_t)>& body)
+        {
+          if (own.Rank() == 1 && ++loops == last)
+          {
+            throw std::runtime_error("stopped");
+          }
+          SerialFor(count, grain, body);
+        };
+        try
+        {
+          BuildInSlabs(field.View(), field.Isovalue, 3, SerialFor, together)
+            .Finish(Model::Minimal, SampleView<float>(), stopping, together);
+          ++finished;
+        }
+        catch (const std::runtime_error& problem)
+        {
+          failed += (std::string(problem.what()) == "stopped") == (own.Rank() == 1) ? 1 : 0;
+        }
+      });
+    isDone = finished == 3;
+    stopped += isDone ? 0 : 1;
+    ASSERT_TRUE(isDone || failed == 3) << last;
+  }
+  EXPECT_GT(stopped, 30);
 }
 
 TEST(Slabs, OfPeersRefineToTheSameMesh)

@@ -71,10 +71,6 @@ private:
     {
       this->Combine(values, count, [](auto a, auto b) { return std::max(a, b); });
     }
-    void Min(std::uint16_t* values, std::int64_t count) override
-    {
-      this->Combine(values, count, [](auto a, auto b) { return std::min(a, b); });
-    }
     void Max(double* values, std::int64_t count) override
     {
       this->Combine(values, count, [](auto a, auto b) { return std::max(a, b); });

@@ -371,18 +371,27 @@ std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& 
   const std::vector<ErrorCode::Type>& codes, const std::vector<std::uint32_t>& followers,
   const ParallelFor& parallelFor, const PeerPortion* portion)
 {
-  std::vector<ErrorCode::Type> own(members.Size(), 0);
-  for (const std::uint32_t rank : followers)
+  std::vector<ErrorCode::Type> own;
+  const auto setOwn = [&]
   {
-    own[rank] = ErrorCode::Always; // has the greatest code of its parents, however great
-  }
+    own.assign(members.Size(), 0);
+    for (const std::uint32_t rank : followers)
+    {
+      own[rank] = ErrorCode::Always; // has the greatest code of its parents, however great
+    }
+  };
   if (portion != nullptr)
   {
     std::vector<ErrorCode::Type> risen;
     portion->Others().Together(
-      [&] { risen = RisingCodes(grid, members, own, codes, parallelFor).Saturated(); });
+      [&]
+      {
+        setOwn();
+        risen = RisingCodes(grid, members, own, codes, parallelFor).Saturated();
+      });
     return InRounds(grid, members, own, std::move(risen), parallelFor, *portion);
   }
+  setOwn();
   std::vector<ErrorCode::Type> saturated =
     RisingCodes(grid, members, std::move(own), codes, parallelFor).Saturated();
   assert(AreClosed(grid, members, saturated) && "every refined set has its diamonds' parents");

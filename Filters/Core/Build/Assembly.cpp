@@ -28,9 +28,14 @@ public:
   template <typename T>
   std::vector<T> Values(const std::vector<T>& own) const
   {
-    std::vector<T> all(this->Kept.Size(), T{});
-    this->ForEachOwned(
-      [&](std::uint32_t rank, std::uint32_t ownRank) { all[rank] = own[ownRank]; });
+    std::vector<T> all;
+    this->Portion.Others().Together(
+      [&]
+      {
+        all.assign(this->Kept.Size(), T{});
+        this->ForEachOwned(
+          [&](std::uint32_t rank, std::uint32_t ownRank) { all[rank] = own[ownRank]; });
+      });
     this->Portion.Others().Or(all);
     return all;
   }
@@ -42,23 +47,33 @@ public:
   std::vector<T> Lists(
     const std::vector<T>& own, const CountOf& countOf, const FirstOf& firstOf) const
   {
-    std::vector<std::uint8_t> counts(this->Members.Size());
-    for (std::size_t rank = 0; rank < counts.size(); ++rank)
-    {
-      counts[rank] = static_cast<std::uint8_t>(countOf(rank));
-    }
-    counts = this->Values(counts);
-    std::vector<T> all(std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 }), T{});
-    std::uint32_t done = 0;
-    auto next = all.begin();
-    this->ForEachOwned(
-      [&](std::uint32_t rank, std::uint32_t ownRank)
+    std::vector<std::uint8_t> counts;
+    this->Portion.Others().Together(
+      [&]
       {
-        for (; done < rank; ++done)
+        counts.resize(this->Members.Size());
+        for (std::size_t rank = 0; rank < counts.size(); ++rank)
         {
-          next += counts[done];
+          counts[rank] = static_cast<std::uint8_t>(countOf(rank));
         }
-        std::copy_n(own.begin() + firstOf(ownRank), counts[rank], next);
+      });
+    counts = this->Values(counts);
+    std::vector<T> all;
+    this->Portion.Others().Together(
+      [&]
+      {
+        all.assign(std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 }), T{});
+        std::uint32_t done = 0;
+        auto next = all.begin();
+        this->ForEachOwned(
+          [&](std::uint32_t rank, std::uint32_t ownRank)
+          {
+            for (; done < rank; ++done)
+            {
+              next += counts[done];
+            }
+            std::copy_n(own.begin() + firstOf(ownRank), counts[rank], next);
+          });
       });
     this->Portion.Others().Or(all);
     return all;
@@ -122,7 +137,7 @@ Encoding Assemble(const PeerPortion& portion, Encoding own, const IsodiamondHier
   const auto give = [&](auto& values) { return assembler.Values(std::exchange(values, {})); };
   Encoding whole;
   whole.Header = own.Header;
-  WriteBricks(kept, whole.Arrays);
+  portion.Others().Together([&] { WriteBricks(kept, whole.Arrays); });
   whole.Arrays.Isovertices = assembler.Lists(
     std::exchange(from.Isovertices, {}),
     [&](std::int64_t rank) {

@@ -33,11 +33,12 @@ namespace
 void RaiseToThresholds(const Grid& grid, const DiamondSet& members, const PeerPortion* portion,
   bool haveFollowers, const ParallelFor& parallelFor, DiamondCodes& codes)
 {
-  const std::vector<ErrorCode::Type> own =
-    haveFollowers ? codes.Surface : std::vector<ErrorCode::Type>();
+  Peers* const others = portion != nullptr ? &portion->Others() : nullptr;
+  std::vector<ErrorCode::Type> own;
+  InStep(others, [&] { own = haveFollowers ? codes.Surface : own; });
   codes.Surface =
     ActivationThresholds(grid, members, std::move(codes.Surface), parallelFor, portion);
-  codes.Followers = FindFollowers(own, codes.Surface);
+  InStep(others, [&] { codes.Followers = FindFollowers(own, codes.Surface); });
   std::fill_n(codes.Surface.begin(), 8, ErrorCode::Always);
   if (!codes.Interior.empty())
   {
@@ -241,9 +242,11 @@ DiamondCodes BuildSteps::MeasureDistances(
   this->Do("Measuring errors", 0.5, 0.8,
     [&]
     {
+      std::vector<ErrorCode::Type> forth;
+      InStep(this->Portion ? peers : nullptr, [&] { forth = own.Surface; });
       const BeforeWayBack known{ this->Options.Hidden, &bounds,
-        ActivationThresholds(
-          this->Origin.SampleGrid, this->Members, own.Surface, this->For, this->PortionOfPeers()),
+        ActivationThresholds(this->Origin.SampleGrid, this->Members, std::move(forth), this->For,
+          this->PortionOfPeers()),
         this->PortionOfPeers() };
       RaiseByWayBack(relevant, this->Options.World, known, own.Surface, Loops(this->For, peers));
     });

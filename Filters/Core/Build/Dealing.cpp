@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Build/Dealing.h"
 
+#include "FieldError/MidpointOrder.h"
 #include "Hierarchy/EncodingPasses.h"
+#include "Hierarchy/StreamedEncoder.h"
 
 #include <algorithm>
 #include <functional>
@@ -108,7 +110,8 @@ public:
     {
       return {}; // else there are the corners of the base cube
     }
-    std::vector<T> had(this->Had.Size());
+    std::vector<T> had;
+    this->Portion.Others().Together([&] { had.resize(this->Had.Size()); });
     std::vector<T> some;
     ForEachBlock(this->Portion.All(), this->Told, this->Had,
       [&](const Block& block)
@@ -126,9 +129,16 @@ public:
   std::vector<T> Lists(const std::vector<T>& told, const std::vector<std::uint8_t>& toldSizes,
     const std::vector<std::uint8_t>& hadSizes) const
   {
-    const std::vector<std::uint32_t> toldFirsts = FirstsOf(toldSizes);
-    const std::vector<std::uint32_t> hadFirsts = FirstsOf(hadSizes);
-    std::vector<T> had(hadFirsts.back());
+    std::vector<std::uint32_t> toldFirsts;
+    std::vector<std::uint32_t> hadFirsts;
+    std::vector<T> had;
+    this->Portion.Others().Together(
+      [&]
+      {
+        toldFirsts = FirstsOf(toldSizes);
+        hadFirsts = FirstsOf(hadSizes);
+        had.resize(hadFirsts.back());
+      });
     std::vector<std::uint16_t> sizes;
     std::vector<T> some;
     ForEachBlock(this->Portion.All(), this->Told, this->Had,
@@ -192,6 +202,10 @@ DiamondSet TellersOf(const DiamondMask& all, const Grid& grid, const std::vector
 
 }
 
+static_assert(Dealing::FirstCommonScale <= StreamedEncoder::FirstLongScale &&
+    Dealing::FirstCommonScale <= MidpointOrder::MaximumScale + 1,
+  "long edges and large domains are those of all peers");
+
 Dealing::Dealing(const Grid& grid, const PeerPortion& portion, const DiamondSet& members,
   const std::vector<SliceRange>& slabs)
   : Portion(portion)
@@ -205,25 +219,28 @@ Encoded Dealing::Deal(Encoded told) const
   // What has been dealt is forgotten.
   const Dealer dealer(this->Portion, this->Told, this->Members);
   const auto deal = [&](auto& values) { values = dealer.Values(std::exchange(values, {})); };
-  const DiamondEdges edges = told.Edges;
   EncodingArrays<OwnedArray>& arrays = told.Encoding.Arrays;
-  arrays.BrickCounts.clear();
-  arrays.BrickIndices.clear();
-  arrays.BrickMasks.clear();
-  WriteBricks(this->Members, arrays);
+  std::vector<std::uint8_t> isovertices;
+  std::vector<std::uint8_t> inside;
+  this->Portion.Others().Together(
+    [&]
+    {
+      isovertices = IsovertexCounts(told.Edges);
+      inside = InsideCounts(told.Edges);
+      arrays.BrickCounts.clear();
+      arrays.BrickIndices.clear();
+      arrays.BrickMasks.clear();
+      WriteBricks(this->Members, arrays);
+    });
   deal(arrays.Records);
   deal(told.Edges.LowerAndKinds);
   deal(told.Edges.Upper);
-  arrays.Isovertices = dealer.Lists(
-    std::exchange(arrays.Isovertices, {}), IsovertexCounts(edges), IsovertexCounts(told.Edges));
+  arrays.Isovertices =
+    dealer.Lists(std::exchange(arrays.Isovertices, {}), isovertices, IsovertexCounts(told.Edges));
   if (told.Encoding.Header.Region.IsVolume())
   {
-    std::visit(
-      [&](auto& values)
-      {
-        values =
-          dealer.Lists(std::exchange(values, {}), InsideCounts(edges), InsideCounts(told.Edges));
-      },
+    std::visit([&](auto& values)
+      { values = dealer.Lists(std::exchange(values, {}), inside, InsideCounts(told.Edges)); },
       told.Encoding.InsideValues);
   }
   return told;

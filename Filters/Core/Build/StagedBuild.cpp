@@ -131,8 +131,9 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
   kept.Done->FindThresholds(codes);
   if (kept.Done->PortionOfPeers() != nullptr)
   {
+    const IsodiamondHierarchy hierarchy = *std::exchange(kept.Hierarchy, {});
     return kept.Done->CompleteOfPortions(
-      model, std::move(kept.Relevant), *kept.Hierarchy, std::move(codes));
+      model, std::move(kept.Relevant), hierarchy, std::move(codes));
   }
   Encoding finished;
   InStep(options.Together,

@@ -108,7 +108,7 @@ private:
     this->For.Share(static_cast<std::int64_t>(bricks.size()), 4,
       [&](std::int64_t begin, std::int64_t end)
       {
-        WayBack<Lengths> wayBack(this->Relevant, this->InWorld, surface, fine, this->Code);
+        std::optional<WayBack<Lengths>> wayBack; // once there is something in these slices
         for (std::int64_t i = begin; i < end; ++i)
         {
           const int scale = bricks[i].Scale;
@@ -118,13 +118,18 @@ private:
           for (int z = 0; z < 8; ++z)
           {
             const int slice = (first + z) << scale;
-            if (slice >= slices.Begin && slice < slices.End)
+            if (slice < slices.Begin || slice >= slices.End || brick.Occupancy[z] == 0)
             {
-              set.ForEachInWord(scale, brick, z,
-                [&](const Place& place, std::uint32_t rank) {
-                  this->Measure(surface, { place, rank }, wayBack);
-                });
+              continue;
             }
+            if (!wayBack)
+            {
+              wayBack.emplace(this->Relevant, this->InWorld, surface, fine, this->Code);
+            }
+            set.ForEachInWord(scale, brick, z,
+              [&](const Place& place, std::uint32_t rank) {
+                this->Measure(surface, { place, rank }, *wayBack);
+              });
           }
         }
       });

@@ -189,25 +189,29 @@ FineSurface::FineSurface(const IsodiamondHierarchy& hierarchy, int surface,
 
 void FineSurface::Make(const SliceRange& slices)
 {
-  const std::int64_t layer = std::int64_t{ 1 } * this->Count[0] * this->Count[1];
-  std::vector<std::int64_t> indices;
-  for (int z = slices.Begin / 8; 8 * z < slices.End && z < this->Count[2]; ++z)
-  {
-    for (std::int64_t index = z * layer; index < (z + 1) * layer; ++index)
+  InStep(this->Others(),
+    [&]
     {
-      if (this->Lookup[index] == NotHere && this->Owns(index))
+      const std::int64_t layer = std::int64_t{ 1 } * this->Count[0] * this->Count[1];
+      std::vector<std::int64_t> indices;
+      for (int z = slices.Begin / 8; 8 * z < slices.End && z < this->Count[2]; ++z)
       {
-        indices.push_back(index);
+        for (std::int64_t index = z * layer; index < (z + 1) * layer; ++index)
+        {
+          if (this->Lookup[index] == NotHere && this->Owns(index))
+          {
+            indices.push_back(index);
+          }
+        }
       }
-    }
-  }
-  this->Keep(this->MakeSome(std::move(indices)));
-  if (slices.Begin < slices.End)
-  {
-    this->Note({ { 0, 0, slices.Begin - 8 },
-      { this->TheGrid.Last(0), this->TheGrid.Last(1),
-        std::min(slices.End, this->TheGrid.Last(2)) + 8 } });
-  }
+      this->Keep(this->MakeSome(std::move(indices)));
+      if (slices.Begin < slices.End)
+      {
+        this->Note({ { 0, 0, slices.Begin - 8 },
+          { this->TheGrid.Last(0), this->TheGrid.Last(1),
+            std::min(slices.End, this->TheGrid.Last(2)) + 8 } });
+      }
+    });
   this->Bring();
 }
 
@@ -221,7 +225,7 @@ FineSurface::SomeBricks FineSurface::MakeSome(std::vector<std::int64_t> indices)
 
   // Count.
   made.Bricks.resize(made.Indices.size());
-  ForEachIndex(this->For, brickCount, 16,
+  ForEachIndex(this->For, brickCount, 4,
     [&](std::int64_t i)
     {
       reader(i).ForEachPatch([&](int cell, const HalfPlace&, const SurfacePatch& patch)
@@ -232,7 +236,7 @@ FineSurface::SomeBricks FineSurface::MakeSome(std::vector<std::int64_t> indices)
   made.MakeRoom();
 
   // Write.
-  ForEachIndex(this->For, brickCount, 16,
+  ForEachIndex(this->For, brickCount, 4,
     [&](std::int64_t i)
     {
       const CellBrick& brick = made.Bricks[i];
@@ -285,6 +289,7 @@ void FineSurface::Forget()
   this->Here.clear();
   this->Bricks.clear();
   this->Triangles.clear();
+  this->ForgetNotes();
 }
 
 void FineSurface::Note(const CellBox& box) const
@@ -309,92 +314,122 @@ void FineSurface::Note(const CellBox& box) const
 
 void FineSurface::Bring()
 {
-  const std::vector<std::int64_t> noted = std::exchange(this->Noted, {});
-  std::vector<std::int64_t> own;
   std::vector<std::uint64_t> ofOthers;
-  for (const std::int64_t index : noted)
-  {
-    if (this->Owns(index))
+  InStep(this->Others(),
+    [&]
     {
-      own.push_back(index);
-    }
-    else
-    {
-      ofOthers.push_back(static_cast<std::uint64_t>(index));
-    }
-  }
-  this->Keep(this->MakeSome(std::move(own)));
+      std::vector<std::int64_t> own;
+      for (const std::int64_t index : this->Noted)
+      {
+        if (this->Owns(index))
+        {
+          own.push_back(index);
+        }
+        else
+        {
+          ofOthers.push_back(static_cast<std::uint64_t>(index));
+        }
+      }
+      this->Keep(this->MakeSome(std::move(own)));
+    });
   if (this->Portion != nullptr)
   {
-    std::vector<std::uint64_t> all = this->Portion->Others().Gather(ofOthers);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    // Some at once: nobody needs more memory for what others want.
-    constexpr std::size_t some = 64;
-    for (std::size_t first = 0; first < all.size(); first += some)
-    {
-      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
-      this->Keep(this->Fetch({ begin, begin + std::min(some, all.size() - first) }));
-    }
+    this->FetchAll(this->Others()->Gather(ofOthers));
   }
-  for (const std::int64_t index : noted)
+  this->ForgetNotes();
+}
+
+void FineSurface::FetchAll(std::vector<std::uint64_t> indices)
+{
+  // The layers take turns, so that all owners have something to do.
+  const std::uint64_t layer = std::uint64_t{ 1 } * this->Count[0] * this->Count[1];
+  std::sort(indices.begin(), indices.end(),
+    [&](std::uint64_t a, std::uint64_t b)
+    { return a % layer != b % layer ? a % layer < b % layer : a < b; });
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  // Some at once: nobody needs more memory for what others want.
+  constexpr std::size_t some = 64;
+  for (std::size_t first = 0; first < indices.size(); first += some)
   {
-    this->IsNoted[index] = 0;
+    const auto begin = indices.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = begin + static_cast<std::ptrdiff_t>(std::min(some, indices.size() - first));
+    this->Keep(this->Fetch({ begin, end }));
   }
 }
 
 FineSurface::SomeBricks FineSurface::Fetch(const std::vector<std::int64_t>& indices) const
 {
-  Peers& others = this->Portion->Others();
-  std::vector<std::int64_t> own;
-  std::copy_if(indices.begin(), indices.end(), std::back_inserter(own),
-    [&](std::int64_t index) { return this->Owns(index); });
-  const SomeBricks made = this->MakeSome(own);
-  const auto forEachMade = [&](const auto& body)
-  {
-    std::size_t i = 0;
-    for (std::size_t m = 0; m < made.Indices.size(); ++m)
-    {
-      i = std::find(indices.begin() + i, indices.end(), made.Indices[m]) - indices.begin();
-      body(i, made.Bricks[m]);
-    }
-  };
-
   // How many triangles there are in each cell, and then these.
-  std::vector<std::array<std::uint8_t, CellBrick::Cells / 2>> counts(indices.size());
-  forEachMade([&](std::size_t i, const CellBrick& brick) { counts[i] = brick.Counts; });
-  others.Or(counts);
+  std::vector<std::array<std::uint8_t, CellBrick::Cells / 2>> counts;
+  std::vector<std::size_t> places; // of those that are made here
+  SomeBricks made;
   SomeBricks all;
-  all.Indices = indices;
-  all.Bricks.resize(indices.size());
-  for (std::size_t i = 0; i < indices.size(); ++i)
-  {
-    all.Bricks[i].Counts = counts[i];
-  }
-  all.MakeRoom();
-  forEachMade(
-    [&](std::size_t i, const CellBrick& brick)
+  InStep(this->Others(),
+    [&]
     {
-      const auto to = all.Bricks[i].First - all.Triangles.data();
-      std::copy_n(brick.First, brick.Size(), all.Triangles.begin() + to);
+      std::vector<std::int64_t> own;
+      for (std::size_t i = 0; i < indices.size(); ++i)
+      {
+        if (this->Owns(indices[i]))
+        {
+          places.push_back(i);
+          own.push_back(indices[i]);
+        }
+      }
+      made = this->MakeSome(std::move(own));
+      counts.resize(indices.size());
+      for (std::size_t m = 0; m < places.size(); ++m)
+      {
+        counts[places[m]] = made.Bricks[m].Counts;
+      }
     });
-  others.Or(all.Triangles);
-
-  // What is wanted here.
-  SomeBricks wanted;
-  for (std::size_t i = 0; i < indices.size(); ++i)
-  {
-    if (this->IsNoted[indices[i]] != 0)
+  this->Others()->Or(counts);
+  InStep(this->Others(),
+    [&]
     {
-      const CellBrick& brick = all.Bricks[i];
-      wanted.Indices.push_back(indices[i]);
-      wanted.Bricks.push_back(brick);
-      wanted.Triangles.insert(wanted.Triangles.end(), brick.First, brick.First + brick.Size());
+      all.Indices = indices;
+      all.Bricks.resize(indices.size());
+      for (std::size_t i = 0; i < indices.size(); ++i)
+      {
+        all.Bricks[i].Counts = counts[i];
+      }
+      all.MakeRoom();
+      for (std::size_t m = 0; m < places.size(); ++m)
+      {
+        const CellBrick& brick = made.Bricks[m];
+        const auto to = all.Bricks[places[m]].First - all.Triangles.data();
+        std::copy_n(brick.First, brick.Size(), all.Triangles.begin() + to);
+      }
+    });
+  this->Others()->Or(all.Triangles);
+  return this->WhatIsNoted(all);
+}
+
+FineSurface::SomeBricks FineSurface::WhatIsNoted(const SomeBricks& some) const
+{
+  SomeBricks noted;
+  for (std::size_t i = 0; i < some.Indices.size(); ++i)
+  {
+    if (this->IsNoted[some.Indices[i]] != 0)
+    {
+      const CellBrick& brick = some.Bricks[i];
+      noted.Indices.push_back(some.Indices[i]);
+      noted.Bricks.push_back(brick);
+      noted.Triangles.insert(noted.Triangles.end(), brick.First, brick.First + brick.Size());
     }
   }
-  wanted.Triangles.shrink_to_fit();
-  wanted.MakeRoom();
-  return wanted;
+  noted.Triangles.shrink_to_fit();
+  noted.MakeRoom();
+  return noted;
+}
+
+void FineSurface::ForgetNotes()
+{
+  for (const std::int64_t index : this->Noted)
+  {
+    this->IsNoted[index] = 0;
+  }
+  this->Noted.clear();
 }
 
 bool FineSurface::AnyHidden(const CellBox& box) const

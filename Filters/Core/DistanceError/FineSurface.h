@@ -79,7 +79,7 @@ public:
   void Bring();
   ///@}
 
-  /** Forgets what is here: it is elsewhere again. */
+  /** Forgets what is here: it is elsewhere again. And what has been noted. */
   void Forget();
 
   /** Calls body(cell, triangles) for the cells of a box that have some, where `triangles` calls
@@ -274,9 +274,16 @@ private:
     return this->Portion == nullptr || this->Portion->Diamonds().Owns(8 * this->PlaceOf(index)[2]);
   }
   SomeBricks MakeSome(std::vector<std::int64_t> indices) const;
-  /** Has what peers make of some bricks. */
+  ///@{
+  /** Has what peers make of bricks, of some at once: what is noted here. */
+  void FetchAll(std::vector<std::uint64_t> indices);
   SomeBricks Fetch(const std::vector<std::int64_t>& indices) const;
+  SomeBricks WhatIsNoted(const SomeBricks& some) const;
+  ///@}
   void Keep(SomeBricks some);
+  void ForgetNotes();
+  /** Those with the other portions; null without. */
+  Peers* Others() const { return this->Portion != nullptr ? &this->Portion->Others() : nullptr; }
 
   static constexpr std::int32_t None = -1;    ///< in the lookup: there are no triangles
   static constexpr std::int32_t NotHere = -2; ///< there may be some, elsewhere

@@ -101,6 +101,9 @@ public:
   int Surface() const { return this->OnSurface; }
   bool AlwaysSubdivide() const { return this->Wanted == Ends::NotFinite; }
 
+  /** Whether it has those of all bricks, not of a portion. */
+  bool AreOfAll() const { return this->Portion == nullptr; }
+
   /** Whether it has those of a brick of scale 0. */
   bool Has(const Brick& brick) const
   {

@@ -25,9 +25,9 @@ public:
   static void Run(const IsovertexClusters& clusters, const Lengths& lengths, ErrorMaxima& errors,
     const Loops& loops)
   {
-    if (clusters.All().empty())
+    if (clusters.All().empty() && clusters.AreOfAll())
     {
-      return;
+      return; // else others may have some that lie in a domain here
     }
     const std::vector<Brick>& bricks = errors.Hierarchy().Diamonds().Level(0).Bricks;
     loops.Share(static_cast<std::int64_t>(bricks.size()), 16,

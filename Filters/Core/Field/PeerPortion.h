@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -38,35 +37,31 @@ public:
   DiamondSet TakeMembers() { return std::move(this->Members); }
 
   /**
-   * Raises values to the greatest that one of the peers has of a diamond: numbers, or rows of them.
+   * Raises codes to the greatest that one of the peers has of a diamond: one each, or a row of
+   * them.
    *
-   * @param values by rank @param firstScale the first that counts: of finer ones there are none
+   * @param codes by rank @param firstScale the first that counts: of finer ones there are none
    * @return whether any rose here
    */
   template <typename T>
-  bool Max(std::vector<T>& values, int firstScale = 0) const
+  bool Max(std::vector<T>& codes, int firstScale = 0) const
   {
-    using Element = typename Row<T>::Element;
     bool rose = false;
-    using Limits = std::numeric_limits<Element>;
-    constexpr Element nothing = Limits::has_infinity ? -Limits::infinity() : Limits::lowest();
-    std::vector<Element> some;
+    std::vector<std::uint16_t> some;
     this->ForEachBlock(firstScale,
       [&](const std::uint32_t* ranks, std::size_t count)
       {
-        some.assign(count * Row<T>::Size, nothing);
+        some.assign(count * Row<T>::Size, 0);
         ForEachHere(ranks, count,
-          [&](std::size_t i, std::uint32_t rank)
-          {
-            const Element* const own = Row<T>::Data(values[rank]);
-            std::copy_n(own, Row<T>::Size, some.data() + i * Row<T>::Size);
+          [&](std::size_t i, std::uint32_t rank) {
+            std::copy_n(Row<T>::Data(codes[rank]), Row<T>::Size, some.data() + i * Row<T>::Size);
           });
         this->With.Max(some.data(), static_cast<std::int64_t>(some.size()));
         ForEachHere(ranks, count,
           [&](std::size_t i, std::uint32_t rank)
           {
-            Element* const own = Row<T>::Data(values[rank]);
-            const Element* const all = some.data() + i * Row<T>::Size;
+            std::uint16_t* const own = Row<T>::Data(codes[rank]);
+            const std::uint16_t* const all = some.data() + i * Row<T>::Size;
             rose = rose || !std::equal(own, own + Row<T>::Size, all);
             std::copy_n(all, Row<T>::Size, own);
           });
@@ -78,20 +73,18 @@ private:
   static constexpr std::uint32_t NotHere = ~std::uint32_t{ 0 };
   static constexpr std::size_t Block = 8192;
 
-  /** A value, or values in a row. */
+  /** A code, or codes in a row. */
   template <typename T>
   struct Row
   {
-    using Element = T;
     static constexpr std::size_t Size = 1;
-    static T* Data(T& value) { return &value; }
+    static std::uint16_t* Data(T& code) { return &code; }
   };
-  template <typename T, std::size_t N>
-  struct Row<std::array<T, N>>
+  template <std::size_t N>
+  struct Row<std::array<std::uint16_t, N>>
   {
-    using Element = T;
     static constexpr std::size_t Size = N;
-    static T* Data(std::array<T, N>& values) { return values.data(); }
+    static std::uint16_t* Data(std::array<std::uint16_t, N>& codes) { return codes.data(); }
   };
 
   /** Calls body(ranks, count) for some of the common diamonds at once. */

@@ -33,10 +33,9 @@ public:
   virtual int Rank() const = 0;
 
   ///@{
-  /** Puts values together: bits that are set anywhere, the greatest, the least. */
+  /** Puts values together: bits that are set anywhere, the greatest. */
   virtual void Or(std::uint8_t* bytes, std::int64_t count) = 0;
   virtual void Max(std::uint16_t* values, std::int64_t count) = 0;
-  virtual void Min(std::uint16_t* values, std::int64_t count) = 0;
   virtual void Max(double* values, std::int64_t count) = 0;
   ///@}
 
@@ -62,8 +61,13 @@ public:
       all += static_cast<std::size_t>(sizes[i]);
       before += i < this->Rank() ? static_cast<std::size_t>(sizes[i]) : 0;
     }
-    std::vector<std::uint64_t> values(all, 0);
-    std::copy(own.begin(), own.end(), values.begin() + static_cast<std::ptrdiff_t>(before));
+    std::vector<std::uint64_t> values;
+    this->Together(
+      [&]
+      {
+        values.assign(all, 0);
+        std::copy(own.begin(), own.end(), values.begin() + static_cast<std::ptrdiff_t>(before));
+      });
     this->Or(values);
     return values;
   }

@@ -23,6 +23,9 @@ public:
    *  has them: the length of the longest short edge. */
   static constexpr int Overlap = 8;
 
+  /** Scales from this on have long edges. */
+  static constexpr int FirstLongScale = 4;
+
   /** @param signs of all samples, or of what is left of them. All but the header must outlive it */
   StreamedEncoder(const EncodingHeader& header, const Grid& grid, const DiamondSet& set,
     ErrorCode::Type code, const SignLattice& signs, const ParallelFor& parallelFor);
@@ -43,9 +46,6 @@ public:
   Encoded Finish();
 
 private:
-  /** Scales from this on have long edges. */
-  static constexpr int FirstLongScale = 4;
-
   GatheredSamples WantedSamples() const;
   GatheredEdge LongEdge(const GatheredSamples* values, const Place& place, int vertex) const;
 

@@ -75,7 +75,7 @@ public:
     return BitsWhere(z,
       [&](int diamondClass)
       {
-        const std::int64_t slice = std::int64_t{ z } << scale;
+        const std::int64_t slice = z * (std::int64_t{ 1 } << scale);
         const std::int64_t reach = Reach(scale, diamondClass);
         return slice + reach >= this->Begin() && slice - reach <= this->End();
       });
@@ -87,7 +87,7 @@ public:
     return BitsWhere(z,
       [&](int diamondClass)
       {
-        const std::int64_t slice = std::int64_t{ z } << scale;
+        const std::int64_t slice = z * (std::int64_t{ 1 } << scale);
         const std::int64_t reach = Reach(scale, diamondClass);
         const auto next =
           std::lower_bound(this->Begins.begin() + 1, this->Begins.end(), slice - reach);
