@@ -14,8 +14,8 @@ namespace isodiamond
 /**
  * Slabs of samples and portions of the diamonds need not be cut at the same slices: portions have
  * as much of the surface as one another. What a peer finds in its slabs it deals to who has the
- * diamonds. All of them go through all diamonds, some at once, which takes next to nothing beside
- * measuring.
+ * diamonds. All of them go through all diamonds, some at once: little work beside measuring
+ * distances, but it does not get less with more of them.
  */
 class Dealing
 {
