@@ -44,26 +44,6 @@ std::vector<float> MakeVolume(int samples, double period)
   return values;
 }
 
-/** One of some peers who only cut, and never meet. */
-class Lone : public Peers
-{
-public:
-  Lone(int count, int rank)
-    : All(count)
-    , Number(rank)
-  {
-  }
-  int Count() const override { return this->All; }
-  int Rank() const override { return this->Number; }
-  void Or(std::uint8_t* /*bytes*/, std::int64_t /*count*/) override {}
-  void Max(std::uint16_t* /*values*/, std::int64_t /*count*/) override {}
-  void Max(double* /*values*/, std::int64_t /*count*/) override {}
-
-private:
-  int All;
-  int Number;
-};
-
 /** The diamonds of the largest of some portions, of all. */
 double LargestPortion(const AnySamples& samples, const Isoregion& region, int portions)
 {
@@ -71,11 +51,9 @@ double LargestPortion(const AnySamples& samples, const Isoregion& region, int po
   const DiamondMask all =
     Classify(grid, SignLattice(grid, samples, region, SerialFor), SerialFor).Members;
   std::int64_t largest = 0;
-  for (int rank = 0; rank < portions; ++rank)
-  {
-    Lone lone(portions, rank);
-    largest = std::max(largest, PeerPortion(grid, all, lone).TakeMembers().Size());
-  }
+  test::ForEachPeer(
+    portions, [&](Peers& own) { return PeerPortion(grid, all, own).TakeMembers().Size(); },
+    [&](std::int64_t size) { largest = std::max(largest, size); });
   return static_cast<double>(largest) / static_cast<double>(all.Size());
 }
 

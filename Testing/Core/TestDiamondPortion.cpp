@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <mutex>
+#include <tuple>
 #include <vector>
 
 using namespace isodiamond;
@@ -165,16 +165,10 @@ TEST(PeerPortion, HasAsManyDiamondsAsTheOthers)
     field.Samples[i] = static_cast<float>(field.Isovalue - 1.0);
   }
   const DiamondMask all = MembersOf(field);
-  std::mutex mutex;
   std::vector<std::int64_t> sizes;
-  test::ThreadPeers(4).Run(
-    [&](Peers& own)
-    {
-      PeerPortion portion(Grid(field.Dims), all, own);
-      const std::int64_t size = portion.TakeMembers().Size();
-      const std::lock_guard<std::mutex> lock(mutex);
-      sizes.push_back(size);
-    });
+  test::ForEachPeer(
+    4, [&](Peers& own) { return PeerPortion(Grid(field.Dims), all, own).TakeMembers().Size(); },
+    [&](std::int64_t size) { sizes.push_back(size); });
   // The quarter with the surface has eight layers of bricks.
   EXPECT_LT(*std::max_element(sizes.begin(), sizes.end()), 0.6 * static_cast<double>(all.Size()));
   EXPECT_GT(*std::min_element(sizes.begin(), sizes.end()), 0.2 * static_cast<double>(all.Size()));
@@ -191,26 +185,31 @@ TEST(PeerPortion, RaisesToTheGreatestThatOneHas)
     return static_cast<std::uint16_t>((31 * p[0] + 17 * p[1] + 7 * p[2] + 101 * place.Scale) % 97 +
       1000 * ((p[0] + p[1] + p[2] + rank) % 3));
   };
-  std::mutex mutex;
+  using Rows = std::vector<std::array<std::uint16_t, 2>>;
   constexpr int count = 3;
   std::vector<DiamondSet> sets(count);
-  std::vector<std::vector<std::array<std::uint16_t, 2>>> values(count);
+  std::vector<Rows> values(count);
   for (const int firstScale : { 0, 2, 20 })
   {
-    test::ThreadPeers(count).Run(
+    test::ForEachPeer(
+      count,
       [&](Peers& own)
       {
         PeerPortion portion(grid, all, own);
         const DiamondSet members = portion.TakeMembers();
-        std::vector<std::array<std::uint16_t, 2>> rows(members.Size());
+        Rows rows(members.Size());
         members.ForEach(
           [&](const Place& place, std::uint32_t rank) {
             rows[rank] = { valueOf(place, own.Rank()), valueOf(place, own.Rank() + 1) };
           });
         portion.Max(rows, firstScale);
-        const std::lock_guard<std::mutex> lock(mutex);
-        sets[own.Rank()] = members;
-        values[own.Rank()] = rows;
+        return std::tuple(own.Rank(), members, rows);
+      },
+      [&](const std::tuple<int, DiamondSet, Rows>& made)
+      {
+        const auto& [rank, members, rows] = made;
+        sets[rank] = members;
+        values[rank] = rows;
       });
     int common = 0;
     all.ForEach(
@@ -265,31 +264,30 @@ TEST(PeerPortion, LeadsToTheThresholdsOfTheWhole)
       const std::vector<std::uint32_t> followers = FindFollowers(own, expected);
       const std::vector<ErrorCode::Type> saturated =
         SaturateUpward(grid, members, own, followers, SerialFor);
-      std::mutex mutex; // of expectations
-      test::ThreadPeers(1 + test::Pick(random, 5))
-        .Run(
-          [&](Peers& peers)
-          {
-            PeerPortion portion(grid, all, peers);
-            const DiamondSet had = portion.TakeMembers();
-            std::vector<ErrorCode::Type> ownHad(had.Size());
-            had.ForEach([&](const Place& place, std::uint32_t rank)
-              { ownHad[rank] = own[members.Rank(place)]; });
-            const std::vector<ErrorCode::Type> found =
-              ActivationThresholds(grid, had, ownHad, SerialFor, &portion);
-            const std::vector<ErrorCode::Type> foundAbove =
-              SaturateUpward(grid, had, ownHad, FindFollowers(ownHad, found), SerialFor, &portion);
-            const std::lock_guard<std::mutex> lock(mutex);
-            bool isSame = true;
-            had.ForEach(
-              [&](const Place& place, std::uint32_t rank)
-              {
-                const std::int64_t inAll = members.Rank(place);
-                isSame =
-                  isSame && found[rank] == expected[inAll] && foundAbove[rank] == saturated[inAll];
-              });
-            EXPECT_TRUE(isSame);
-          });
+      test::ForEachPeer(
+        1 + test::Pick(random, 5),
+        [&](Peers& peers)
+        {
+          PeerPortion portion(grid, all, peers);
+          const DiamondSet had = portion.TakeMembers();
+          std::vector<ErrorCode::Type> ownHad(had.Size());
+          had.ForEach([&](const Place& place, std::uint32_t rank)
+            { ownHad[rank] = own[members.Rank(place)]; });
+          const std::vector<ErrorCode::Type> found =
+            ActivationThresholds(grid, had, ownHad, SerialFor, &portion);
+          const std::vector<ErrorCode::Type> foundAbove =
+            SaturateUpward(grid, had, ownHad, FindFollowers(ownHad, found), SerialFor, &portion);
+          bool isSame = true;
+          had.ForEach(
+            [&](const Place& place, std::uint32_t rank)
+            {
+              const std::int64_t inAll = members.Rank(place);
+              isSame =
+                isSame && found[rank] == expected[inAll] && foundAbove[rank] == saturated[inAll];
+            });
+          return isSame;
+        },
+        [](bool isSame) { EXPECT_TRUE(isSame); });
     });
   EXPECT_GT(cases, 0);
 }

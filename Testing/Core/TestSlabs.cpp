@@ -11,7 +11,6 @@
 #include <atomic>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -86,22 +85,6 @@ StagedBuild BuildInSlabs(const AnySamples& samples, const Isoregion& region, int
   return build.Finish();
 }
 
-/** Calls check(make(options)) for each of some peers, whose options these are. */
-template <typename Make, typename Check>
-void ForEachPeer(int peers, const BuildOptions& options, const Make& make, const Check& check)
-{
-  std::mutex mutex; // of expectations
-  test::ThreadPeers(peers).Run(
-    [&](Peers& own)
-    {
-      BuildOptions together = options;
-      together.Together = &own;
-      const auto found = make(together);
-      const std::lock_guard<std::mutex> lock(mutex);
-      check(found);
-    });
-}
-
 /** An encoding and its mesh of full resolution. */
 struct Whole
 {
@@ -130,6 +113,23 @@ void Compare(
   // Whatever is said to be the samples: they are not looked at.
   test::ExpectSame(
     staged.Finish(header.TheModel, SampleView<float>(), threads, options), expected.TheEncoding);
+}
+
+/** The same for each of some peers, who have a slab each at least. */
+void ComparePeers(const AnySamples& samples, int peers, int slabs, const BuildOptions& options,
+  const Encoding& expected)
+{
+  const EncodingHeader& header = expected.Header;
+  test::ForEachPeer(
+    peers,
+    [&](Peers& own)
+    {
+      BuildOptions together = options;
+      together.Together = &own;
+      return BuildInSlabs(samples, header.Region, slabs, SerialFor, together)
+        .Finish(header.TheModel, SampleView<float>(), SerialFor, together);
+    },
+    [&](const Encoding& found) { test::ExpectSame(found, expected); });
 }
 
 /** What a hierarchy is built of, in slabs or at once. */
@@ -176,15 +176,7 @@ TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
       whole.Options.InPortions = test::Pick(random, 4) != 0;
       const int peers = 1 + test::Pick(random, std::min(4, whole.Samples.Dimensions[2]));
       const int slabs = peers + test::Pick(random, 5);
-      const Encoding& expected = whole.Expected.TheEncoding;
-      ForEachPeer(
-        peers, whole.Options,
-        [&](const BuildOptions& together)
-        {
-          return BuildInSlabs(whole.Samples.View(), whole.Region, slabs, SerialFor, together)
-            .Finish(expected.Header.TheModel, SampleView<float>(), SerialFor, together);
-        },
-        [&](const Encoding& found) { test::ExpectSame(found, expected); });
+      ComparePeers(whole.Samples.View(), peers, slabs, whole.Options, whole.Expected.TheEncoding);
     });
   EXPECT_GT(cases, 0);
 }
@@ -206,23 +198,17 @@ TEST(Slabs, OfPeersMakeTheSameInPortionsOfATallVolume)
       options.InPortions = true;
       options.RefineInterior = region.IsVolume();
       options.PreserveFeatures = !region.IsVolume();
+      const Encoding expected =
+        BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, options);
       for (const int peers : { 2, 5 })
       {
-        const Whole expected(Model::Minimal, field.View(), region, options);
-        ForEachPeer(
-          peers, options,
-          [&](const BuildOptions& together)
-          {
-            return BuildInSlabs(field.View(), region, peers + 1, SerialFor, together)
-              .Finish(Model::Minimal, SampleView<float>(), SerialFor, together);
-          },
-          [&](const Encoding& found) { test::ExpectSame(found, expected.TheEncoding); });
+        ComparePeers(field.View(), peers, peers + 1, options, expected);
       }
     }
   }
 }
 
-// More diamonds need triangles from elsewhere than are measured at once.
+// Many large diamonds need triangles of both.
 TEST(Slabs, OfPeersMakeTheSameInPortionsOfAWideVolume)
 {
   for (const test::Field& field :
@@ -231,15 +217,8 @@ TEST(Slabs, OfPeersMakeTheSameInPortionsOfAWideVolume)
     SCOPED_TRACE(field.Name);
     BuildOptions options = test::Distance();
     options.InPortions = true;
-    const Whole expected(Model::Minimal, field.View(), field.Isovalue, options);
-    ForEachPeer(
-      2, options,
-      [&](const BuildOptions& together)
-      {
-        return BuildInSlabs(field.View(), field.Isovalue, 2, SerialFor, together)
-          .Finish(Model::Minimal, SampleView<float>(), SerialFor, together);
-      },
-      [&](const Encoding& found) { test::ExpectSame(found, expected.TheEncoding); });
+    ComparePeers(field.View(), 2, 2, options,
+      BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor, options));
   }
 }
 
@@ -261,20 +240,13 @@ TEST(Slabs, OfPeersMakeTheSameOfASpeckWhereTheyAreCut)
       BuildOptions options = test::Distance();
       options.InPortions = true;
       options.PreserveFeatures = preserve;
-      const Whole expected(Model::Relevant, field.View(), field.Isovalue, options);
-      ForEachPeer(
-        2, options,
-        [&](const BuildOptions& together)
-        {
-          return BuildInSlabs(field.View(), field.Isovalue, 2, SerialFor, together)
-            .Finish(Model::Relevant, SampleView<float>(), SerialFor, together);
-        },
-        [&](const Encoding& found) { test::ExpectSame(found, expected.TheEncoding); });
+      ComparePeers(field.View(), 2, 2, options,
+        BuildIsodiamonds(Model::Relevant, field.View(), field.Isovalue, SerialFor, options));
     }
   }
 }
 
-// Wherever a loop is stopped, as who aborts does.
+// Wherever a loop is stopped once the slabs are read, as who aborts does.
 TEST(Slabs, OfPeersStopForAllOfThemInAnyLoop)
 {
   const test::Field field = test::WaveField({ 9, 10, 33 });
@@ -338,10 +310,12 @@ TEST(Slabs, OfPeersRefineToTheSameMesh)
       const test::AnyMesh expected =
         meshOf({ whole.Samples.View(), whole.Region, SerialFor, whole.Options }, whole.Options);
       const int peers = 1 + test::Pick(random, std::min(4, whole.Samples.Dimensions[2]));
-      ForEachPeer(
-        peers, whole.Options,
-        [&](const BuildOptions& together)
+      test::ForEachPeer(
+        peers,
+        [&](Peers& own)
         {
+          BuildOptions together = whole.Options;
+          together.Together = &own;
           return meshOf(
             BuildInSlabs(whole.Samples.View(), whole.Region, peers + 2, SerialFor, together),
             together);
@@ -442,14 +416,7 @@ TEST(Slabs, MeasureErrorsOfDomainsThatLeadThroughMany)
       {
         Compare(field.View(), slabs, options, expected);
       }
-      ForEachPeer(
-        3, options,
-        [&](const BuildOptions& together)
-        {
-          return BuildInSlabs(field.View(), region, 4, SerialFor, together)
-            .Finish(Model::Relevant, SampleView<float>(), SerialFor, together);
-        },
-        [&](const Encoding& found) { test::ExpectSame(found, expected.TheEncoding); });
+      ComparePeers(field.View(), 3, 4, options, expected.TheEncoding);
     }
   }
 }

@@ -123,6 +123,21 @@ private:
   int Meetings = 0;
 };
 
+/** Calls check(make(peers)) in each of some peers; check in one after the other, as expectations
+ *  have to be. */
+template <typename Make, typename Check>
+void ForEachPeer(int count, const Make& make, const Check& check)
+{
+  std::mutex mutex;
+  ThreadPeers(count).Run(
+    [&](isodiamond::Peers& own)
+    {
+      const auto made = make(own);
+      const std::lock_guard<std::mutex> lock(mutex);
+      check(made);
+    });
+}
+
 }
 
 #endif

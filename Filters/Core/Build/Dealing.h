@@ -2,7 +2,7 @@
 #ifndef isodiamond_Dealing_h
 #define isodiamond_Dealing_h
 
-#include "Field/PeerPortion.h"
+#include "Build/DiamondExchange.h"
 #include "Field/Samples.h"
 #include "Hierarchy/IsodiamondHierarchy.h"
 
@@ -40,6 +40,8 @@ public:
   std::vector<ErrorCode::Type> Deal(const std::vector<ErrorCode::Type>& told) const;
 
 private:
+  DiamondExchange Exchange() const;
+
   const PeerPortion& Portion;
   const DiamondSet& Members;
   DiamondSet Told;

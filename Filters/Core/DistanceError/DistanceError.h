@@ -69,8 +69,8 @@ struct BeforeWayBack
   /** Codes by rank that need not be exceeded: activation thresholds of the errors so far. What is
    *  less than a threshold changes none. Empty for none. */
   std::vector<ErrorCode::Type> Thresholds;
-  /** Whose diamonds these are: its own are measured. Null if all are here. Peers have to call it
-   *  together, and nothing that one of them does not return from. */
+  /** That the diamonds are of: its own are measured, by all peers together, in steps of its own.
+   * Null if all are here. */
   const PeerPortion* Portion = nullptr;
   /** How many of the diamonds that need triangles from farther away are measured at once: the more,
    *  the more of these triangles are kept. */

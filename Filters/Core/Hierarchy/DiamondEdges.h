@@ -51,6 +51,17 @@ struct DiamondEdges
   int SignOf(std::int64_t rank) const { return SignIn(this->LowerAndKinds[rank]); }
   /** The same, in an element of LowerAndKinds. */
   static int SignIn(std::uint16_t element) { return element >> 14; }
+
+  /** How many isovertices a diamond has. */
+  int IsovertexCount(std::int64_t rank) const
+  {
+    return PopCount(this->LowerOf(rank)) + PopCount(this->UpperOf(rank));
+  }
+  /** Whether its centre lies inside of an interval volume. */
+  bool IsInside(std::int64_t rank) const
+  {
+    return !this->Upper.empty() && this->SignOf(rank) == InsideSign;
+  }
 };
 
 }

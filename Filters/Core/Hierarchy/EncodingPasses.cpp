@@ -22,7 +22,7 @@ EncodingPasses::EncodingPasses(
 
 void WriteBricks(const DiamondSet& set, EncodingArrays<OwnedArray>& arrays)
 {
-  const std::size_t count = AllBricks(set).size();
+  const std::int64_t count = set.CountBricks();
   arrays.BrickIndices.reserve(count);
   arrays.BrickMasks.reserve(8 * count);
   for (int scale = set.ScaleCount() - 1; scale >= 0; --scale)
@@ -43,8 +43,9 @@ void EncodingPasses::Skip(int endScale, const SliceRange& slices)
   this->ForEach(0, this->Set.ScaleCount(), slices,
     [&](std::int64_t brick, const Place& place, std::uint32_t rank)
     {
-      this->Next[brick].Isovertices += place.Scale < endScale ? this->CountIsovertices(rank) : 0;
-      this->Next[brick].InsideValues += this->IsInside(rank) ? 1 : 0;
+      this->Next[brick].Isovertices +=
+        place.Scale < endScale ? this->Edges.IsovertexCount(rank) : 0;
+      this->Next[brick].InsideValues += this->Edges.IsInside(rank) ? 1 : 0;
     });
 }
 

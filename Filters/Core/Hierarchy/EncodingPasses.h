@@ -39,8 +39,8 @@ public:
       {
         const int sign = reader.Sign(place);
         this->Edges.Set(rank, sign, reader.SignsOf(place, sign));
-        this->Next[brick + 1].Isovertices += this->CountIsovertices(rank);
-        this->Next[brick + 1].InsideValues += this->IsInside(rank) ? 1 : 0;
+        this->Next[brick + 1].Isovertices += this->Edges.IsovertexCount(rank);
+        this->Next[brick + 1].InsideValues += this->Edges.IsInside(rank) ? 1 : 0;
       });
     this->MakeRoom();
   }
@@ -90,7 +90,7 @@ public:
     this->ForEach(0, this->Set.ScaleCount(), slices,
       [&](std::int64_t brick, const Place& place, std::uint32_t rank)
       {
-        if (this->IsInside(rank))
+        if (this->Edges.IsInside(rank))
         {
           values[this->Next[brick].InsideValues++] = reader.ValueAt(place);
         }
@@ -126,15 +126,6 @@ private:
   };
 
   void MakeRoom();
-
-  int CountIsovertices(std::int64_t rank) const
-  {
-    return PopCount(this->Edges.LowerOf(rank)) + PopCount(this->Edges.UpperOf(rank));
-  }
-  bool IsInside(std::int64_t rank) const
-  {
-    return this->Result.Header.Region.IsVolume() && this->Edges.SignOf(rank) == InsideSign;
-  }
 
   /** Calls body(number of the brick, place, rank) for the diamonds of some scales with their centre
    *  in some slices; those of a brick in order. */

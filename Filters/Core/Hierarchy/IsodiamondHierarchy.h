@@ -248,6 +248,8 @@ public:
     }
     return this->Sign(rank) == InsideSign ? AllEdges : this->Edges(rank) | this->UpperEdges(rank);
   }
+  /** All of these, by rank. */
+  const DiamondEdges& EdgesByRank() const { return this->DerivedEdges; }
   Kind KindOf(std::int64_t rank) const { return this->DerivedEdges.KindOf(rank); }
 
   /** The coefficients of a diamond's isovertices, in the order of its edges: those on surface 0,

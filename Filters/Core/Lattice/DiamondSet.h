@@ -397,6 +397,7 @@ public:
   void Append(int scale, std::int64_t brickIndex, const BrickMask& mask);
 
   std::int64_t Size() const { return this->Count; }
+  std::int64_t CountBricks() const { return this->BrickCount; }
   int ScaleCount() const { return static_cast<int>(this->Levels.size()); }
   const BrickLevel& Level(int scale) const { return this->Levels[scale]; }
 
