@@ -175,11 +175,6 @@ public:
     std::vector<ErrorCode::Type> threaded = before;
     RaiseByWayBack(this->Hierarchy, world, known, threaded, test::ThreadedFor(3));
     EXPECT_TRUE(raised == threaded);
-    BeforeWayBack one = known;
-    one.MostAtOnce = 1;
-    std::vector<ErrorCode::Type> inTurn = before;
-    RaiseByWayBack(this->Hierarchy, world, one, inTurn, SerialFor);
-    EXPECT_TRUE(raised == inTurn);
     this->CheckThresholds(before, raised, { hidden, &bounds, {} }, world);
 
     std::vector<test::NearestTriangle> nearest;
@@ -309,6 +304,31 @@ TEST(WayBack, IsThatOfBruteForceForEveryDiamond)
   EXPECT_GT(seen.Compared, 10000);
   EXPECT_GT(seen.Raised, 3000);
   EXPECT_EQ(seen.Always, 0);
+}
+
+// Of tall volumes some slices are measured at once, and last what needs triangles of others.
+TEST(WayBack, IsTheSameHoweverManyAreLeftForTheEndAtOnce)
+{
+  for (const test::Field& field :
+    { test::SphereField({ 33, 34, 130 }), test::WaveField({ 33, 20, 97 }) })
+  {
+    SCOPED_TRACE(field.Name);
+    const test::Built relevant = test::Build(Model::Relevant, field);
+    const GridGeometry world = AffineMap();
+    const std::vector<ErrorCode::Type> before = DistanceErrors(
+      *relevant.Hierarchy, Finiteness(field.View()), world, true, SerialFor, {}, nullptr);
+    const auto raised = [&](int atOnce)
+    {
+      BeforeWayBack known;
+      known.MostAtOnce = atOnce;
+      std::vector<ErrorCode::Type> codes = before;
+      RaiseByWayBack(*relevant.Hierarchy, world, known, codes, SerialFor);
+      return codes;
+    };
+    const std::vector<ErrorCode::Type> expected = raised(std::numeric_limits<int>::max());
+    EXPECT_TRUE(raised(1) == expected);
+    EXPECT_TRUE(raised(3) == expected);
+  }
 }
 
 TEST(WayBack, IsThatOfBruteForceOnBothSurfaces)
