@@ -7,7 +7,7 @@
 #include "Private/PointData.h"
 #include "Private/Slabs.h"
 #include "Private/State.h"
-#include "Private/SystemMemory.h"
+#include "Field/SystemMemory.h"
 #include "Private/Task.h"
 #include "Private/Threads.h"
 
@@ -317,7 +317,7 @@ void vtkIsodiamondBuilder::BuildFromImage(
     {
       encoding = isodiamond::BuildIsodiamonds(
         static_cast<isodiamond::Model>(this->Model), volume.Samples, region, task.For(), options);
-      vtkIsodiamond::ReturnFreeMemory();
+      isodiamond::ReturnFreeMemory();
       if (!this->PointArrays.empty() || this->ComputeNormals)
       {
         const isodiamond::IsodiamondHierarchy hierarchy(encoding, task.For());
@@ -348,7 +348,7 @@ void vtkIsodiamondBuilder::BuildFromSlabs(
       encoding =
         vtkIsodiamond::BuildInSlabs(slabs, choice.Region(), options, task)
           .Finish(static_cast<isodiamond::Model>(this->Model), volume.Samples, task.For(), options);
-      vtkIsodiamond::ReturnFreeMemory();
+      isodiamond::ReturnFreeMemory();
       if (!this->PointArrays.empty() || this->ComputeNormals)
       {
         std::optional<isodiamond::IsodiamondHierarchy> hierarchy;

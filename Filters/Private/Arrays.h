@@ -2,7 +2,7 @@
 #ifndef vtkIsodiamond_Arrays_h
 #define vtkIsodiamond_Arrays_h
 
-#include "Private/SystemMemory.h"
+#include "Field/SystemMemory.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -40,7 +40,7 @@ inline void AllocateTuples(vtkDataArray* array, vtkIdType count)
   {
     throw std::bad_alloc();
   }
-  PreferLargePages(memory, bytes);
+  isodiamond::PreferLargePages(memory, bytes);
   array->SetVoidArray(memory, values, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
 }
 

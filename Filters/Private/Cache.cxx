@@ -3,7 +3,7 @@
 
 #include "Private/HierarchyQuery.h"
 #include "Private/Slabs.h"
-#include "Private/SystemMemory.h"
+#include "Field/SystemMemory.h"
 #include "Refinement/LocalTolerance.h"
 
 #include "vtkUnsignedCharArray.h"
@@ -134,7 +134,7 @@ void Cache::Build(
   {
     entry.Encoding =
       isodiamond::BuildIsodiamonds(ModelKept, volume.Samples, region, task.For(), options);
-    ReturnFreeMemory();
+    isodiamond::ReturnFreeMemory();
   }
   else
   {
@@ -170,7 +170,7 @@ void Cache::MeasureErrors(const Volume& volume, Task& task)
         this->OptionsFor(volume, entry.RefineInterior, task));
       entry.Staged.reset();
       entry.RefinedTo.reset();
-      ReturnFreeMemory();
+      isodiamond::ReturnFreeMemory();
     });
 }
 

@@ -13,6 +13,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <limits>
 
 /**
@@ -57,13 +58,13 @@ vtkSmartPointer<vtkCellArray> WriteCells(
     : WriteCellsAs<vtkTypeInt64Array>(count, size, parallelFor, write);
 }
 
-/** Hands cells of one type to a grid. @throws std::bad_alloc */
+/** Hands cells of one type, no polyhedra, to a grid. @throws std::bad_alloc */
 inline void GiveCells(vtkUnstructuredGrid* output, int type, vtkCellArray* cells)
 {
   vtkNew<vtkUnsignedCharArray> types;
   AllocateTuples(types, cells->GetNumberOfCells());
-  types->Fill(type);
-  output->SetCells(types, cells);
+  std::fill_n(types->GetPointer(0), cells->GetNumberOfCells(), static_cast<unsigned char>(type));
+  output->SetCells(types, cells, nullptr, nullptr); // else all types are looked at for polyhedra
 }
 
 }

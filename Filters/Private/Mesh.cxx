@@ -258,7 +258,8 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& op
   if (options.WithValues)
   {
     const auto values = NewArray<vtkFloatArray>(options.ArrayName.c_str(), extraction.PointCount());
-    values->Fill(refined.Hierarchy().Region().Isovalue());
+    std::fill_n(values->GetPointer(0), extraction.PointCount(),
+      static_cast<float>(refined.Hierarchy().Region().Isovalue()));
     mesh.PointData->AddArray(values);
     if (options.ValuesAreScalars)
     {

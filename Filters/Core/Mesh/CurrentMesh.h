@@ -122,8 +122,24 @@ struct LeafParent
   }
 };
 
+/** The parent of leaves at a place, where no child is refined.
+ *  @param wanted edge mask: leaves with none of these edges do not count */
+inline LeafParent MakeLeafParent(
+  const RefinedBrick& brick, const Place& place, std::uint32_t rank, std::uint32_t wanted)
+{
+  const int type = TypeOf(place.Position);
+  const VertexMasks& masks = tables::MasksAsListed[type];
+  HalfTetrahedronMask leaves = HalvesWithAny(masks(wanted));
+  if (!brick.IsInner(place))
+  {
+    const std::uint32_t sampled = SampledVertices(brick.Hierarchy().SampleGrid(), place);
+    leaves &= ~HalvesWithAny(masks(AllEdges & ~sampled));
+  }
+  return { place, rank, type, leaves };
+}
+
 /**
- * The parent of leaves at a place.
+ * The same where some are.
  *
  * @param children that are not refined
  * @param wanted edge mask: leaves with none of these edges do not count
@@ -131,15 +147,9 @@ struct LeafParent
 inline LeafParent MakeLeafParent(const RefinedBrick& brick, const Place& place, std::uint32_t rank,
   std::uint32_t children, std::uint32_t wanted)
 {
-  const int type = TypeOf(place.Position);
-  const VertexMasks& masks = tables::MasksAsListed[type];
-  HalfTetrahedronMask leaves = HalvesOfChildren(children) & HalvesWithAny(masks(wanted));
-  if (!brick.IsInner(place))
-  {
-    const std::uint32_t sampled = SampledVertices(brick.Hierarchy().SampleGrid(), place);
-    leaves &= ~HalvesWithAny(masks(AllEdges & ~sampled));
-  }
-  return { place, rank, type, leaves };
+  LeafParent parent = MakeLeafParent(brick, place, rank, wanted);
+  parent.Leaves &= HalvesOfChildren(children);
+  return parent;
 }
 
 /** A leaf of the current mesh. */

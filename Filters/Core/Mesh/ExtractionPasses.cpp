@@ -12,17 +12,28 @@ ExtractionPasses::ExtractionPasses(const RefinedSet& refined, const ParallelFor&
   , Parallel(parallelFor)
   , Bricks(AllBricks(refined.Diamonds()))
   , First(this->Bricks.size() + 1)
-  , Slots(refined.Diamonds().Size())
+  , IsFinest(refined.IsFull() && !refined.Hierarchy().Region().IsVolume())
 {
+  if (!this->IsFinest)
+  {
+    this->Slots = LargeArray<Slot>(refined.Diamonds().Size());
+  }
+  else if (const std::vector<Brick>& finest = refined.Diamonds().Level(0).Bricks; !finest.empty())
+  {
+    this->FirstFinest = this->Hierarchy().FirstIsovertexOf(finest.front().First);
+  }
 }
 
-std::int64_t ExtractionPasses::FillSlots(const RefinedBrick& brick)
+std::int64_t ExtractionPasses::CountPoints(const RefinedBrick& brick)
 {
   const IsodiamondHierarchy& hierarchy = this->Hierarchy();
   const bool isVolume = hierarchy.Region().IsVolume();
-  if (this->Set.IsFull() && !isVolume)
+  if (this->IsFinest)
   {
-    return this->FillFinestSlots(brick);
+    const Brick& stored = brick.StoredBrick();
+    const std::int64_t last = stored.First + stored.Size() - 1;
+    return hierarchy.FirstIsovertexOf(last) + PopCount(hierarchy.Edges(last)) -
+      hierarchy.FirstIsovertexOf(stored.First);
   }
   const LeafFinder finder(this->Set, brick);
   std::int64_t points = 0;
@@ -41,27 +52,6 @@ std::int64_t ExtractionPasses::FillSlots(const RefinedBrick& brick)
       slot.LeafChildren =
         static_cast<std::uint8_t>(finder.LeafChildren(place, isInside ? AllEdges : lower | upper));
       points += PopCount(slot.Points);
-    });
-  return points;
-}
-
-/** The same at full resolution, where all that carries a surface has scale 0. */
-std::int64_t ExtractionPasses::FillFinestSlots(const RefinedBrick& brick)
-{
-  std::int64_t points = 0;
-  brick.ForEachDiamond(
-    [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
-    {
-      const std::uint32_t crossed = this->Hierarchy().Edges(rank);
-      const int type = TypeOf(place.Position);
-      Slot& slot = this->Slots[refinedRank];
-      slot.Points = crossed << DiamondPoints::Isovertex(0, 0);
-      slot.First = static_cast<std::uint16_t>(points);
-      slot.LeafChildren = tables::Types[type].DiamondClass == 2
-        ? static_cast<std::uint8_t>(
-            ChildrenOfHalves(HalvesWithAny(tables::MasksAsListed[type](crossed))))
-        : 0;
-      points += PopCount(crossed);
     });
   return points;
 }

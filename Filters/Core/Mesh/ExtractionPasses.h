@@ -2,6 +2,7 @@
 #ifndef isodiamond_ExtractionPasses_h
 #define isodiamond_ExtractionPasses_h
 
+#include "Field/SystemMemory.h"
 #include "Mesh/CurrentMesh.h"
 #include "Mesh/KeptPoints.h"
 
@@ -61,7 +62,8 @@ struct CellRange
  * Only bricks with refined diamonds are visited. They are independent: every brick has a range of
  * point ids and of cells of its own, and within it everything is in the order of the diamonds, so
  * order and values of the output do not depend on threads. Counting notes a diamond's points and
- * those of its children that are leaves; writing asks no more what is refined.
+ * those of its children that are leaves; writing asks no more what is refined. Of a surface of full
+ * resolution the hierarchy tells both.
  *
  * Of some cells only, those are written, and then the points that they use: KeepPointsOf() has ids
  * and points of the share alone.
@@ -92,7 +94,7 @@ public:
         if (!this->IsIdle(brick))
         {
           Counts& counts = this->First[brick + 1];
-          counts.Points = this->FillSlots(this->BrickAt(brick));
+          counts.Points = this->CountPoints(this->BrickAt(brick));
           this->ForEachLeafParent(
             brick, [&](const LeafParent& parent) { counts.Cells += cellsOf(parent); });
         }
@@ -137,6 +139,12 @@ public:
   /** The points of a diamond. @param rank among the refined diamonds @param brick that it is in */
   DiamondPoints PointsOf(std::int64_t brick, std::uint32_t rank) const
   {
+    if (this->IsFinest)
+    {
+      return { static_cast<std::uint32_t>(
+                 this->Hierarchy().FirstIsovertexOf(rank) - this->FirstFinest),
+        this->Hierarchy().Edges(rank) << DiamondPoints::Isovertex(0, 0) };
+    }
     const Slot& slot = this->Slots[rank];
     return { static_cast<std::uint32_t>(this->First[brick].Points) + slot.First, slot.Points };
   }
@@ -164,9 +172,9 @@ public:
     this->BrickAt(brick).ForEachDiamond(
       [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
       {
-        if (this->Slots[refinedRank].Points != 0)
+        if (const DiamondPoints points = this->PointsOf(brick, refinedRank); points.Bits != 0)
         {
-          body(place, rank, this->PointsOf(brick, refinedRank));
+          body(place, rank, points);
         }
       });
   }
@@ -191,6 +199,18 @@ public:
   void ForEachLeafParent(std::int64_t number, Body&& body) const
   {
     const RefinedBrick brick = this->BrickAt(number);
+    if (this->IsFinest)
+    {
+      brick.ForEachDiamondOfClass(2, // whose children would be finer
+        [&](const Place& place, std::uint32_t rank)
+        {
+          if (const std::uint32_t crossed = this->Hierarchy().Edges(rank))
+          {
+            body(MakeLeafParent(brick, place, rank, crossed));
+          }
+        });
+      return;
+    }
     brick.ForEachDiamond(
       [&](const Place& place, std::uint32_t rank, std::uint32_t refinedRank)
       {
@@ -205,9 +225,9 @@ private:
   /** What is kept of a refined diamond. */
   struct Slot
   {
-    std::uint32_t Points = 0; ///< bits of DiamondPoints
-    std::uint16_t First = 0;  ///< of them among the points of the brick
-    std::uint8_t LeafChildren = 0;
+    std::uint32_t Points; ///< bits of DiamondPoints
+    std::uint16_t First;  ///< of them among the points of the brick
+    std::uint8_t LeafChildren;
   };
 
   ExtractionPasses(const RefinedSet& refined, const ParallelFor& parallelFor);
@@ -219,17 +239,11 @@ private:
     ForEachIndex(this->Parallel, this->Bricks.size(), 16, [&](std::int64_t brick) { body(brick); });
   }
 
-  /** Whether a brick has nothing to do with the mesh; an interval volume has its inside at all
-   *  scales. */
-  bool IsIdle(std::int64_t brick) const
-  {
-    return this->Set.IsFull() && !this->Hierarchy().Region().IsVolume() &&
-      this->Bricks[brick].Scale > 0;
-  }
+  /** Whether a brick has nothing to do with the mesh. */
+  bool IsIdle(std::int64_t brick) const { return this->IsFinest && this->Bricks[brick].Scale > 0; }
 
-  /** Fills the slots of a brick. @return the number of its points */
-  std::int64_t FillSlots(const RefinedBrick& brick);
-  std::int64_t FillFinestSlots(const RefinedBrick& brick);
+  /** The number of a brick's points; fills its slots, if there are any. */
+  std::int64_t CountPoints(const RefinedBrick& brick);
 
   void SumUp();
 
@@ -237,7 +251,10 @@ private:
   ParallelFor Parallel;
   std::vector<BrickPlace> Bricks;
   std::vector<Counts> First; ///< by brick, and the total
-  std::vector<Slot> Slots;   ///< by rank among the refined diamonds
+  /** Whether all that carries something is of scale 0: an interval volume has its inside at all. */
+  bool IsFinest;
+  std::int64_t FirstFinest = 0; ///< if it is, the number of isovertices of other scales
+  LargeArray<Slot> Slots;       ///< if it is not, by rank among the refined diamonds
   std::optional<KeptPoints> Kept;
 };
 

@@ -31,6 +31,24 @@ EdgePointPlaces PlacesOnEdges(const TypeTable& shape, const HalfTetrahedron& hal
   return places;
 }
 
+TrianglePointPlaces PlacesOfTriangles(const TypeTable& shape, const HalfTetrahedron& half)
+{
+  const EdgePointPlaces onEdges = PlacesOnEdges(shape, half);
+  TrianglePointPlaces places;
+  for (std::size_t differing = 0; differing < places.size(); ++differing)
+  {
+    const SurfacePatch& patch = tables::IsosurfacePatches[differing];
+    for (int i = 0; i < patch.TriangleCount; ++i)
+    {
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        places[differing][i][corner] = onEdges[patch.Triangles[i][corner]];
+      }
+    }
+  }
+  return places;
+}
+
 AgePointPlaces PlacesByAge(const TypeTable& shape, const HalfTetrahedron& half)
 {
   const EdgePointPlaces onEdges = PlacesOnEdges(shape, half);
@@ -65,9 +83,9 @@ PatchPointTable<Places> MakeTable(Places (*placesOf)(const TypeTable&, const Hal
 
 }
 
-const PatchPointTable<EdgePointPlaces>& PointsOnEdges()
+const PatchPointTable<TrianglePointPlaces>& PointsOfTriangles()
 {
-  static const PatchPointTable<EdgePointPlaces> table = MakeTable(PlacesOnEdges);
+  static const PatchPointTable<TrianglePointPlaces> table = MakeTable(PlacesOfTriangles);
   return table;
 }
 

@@ -25,6 +25,10 @@ struct PatchPointPlace
 /** On the edges of a half-tetrahedron, numbered as SurfacePatch.h does. */
 using EdgePointPlaces = std::array<PatchPointPlace, 6>;
 
+/** At the corners of the triangles of an isosurface's patch, by the mask of the vertices that lie
+ * on the other side than the centre. */
+using TrianglePointPlaces = std::array<std::array<std::array<PatchPointPlace, 3>, 2>, 8>;
+
 /** By age, the centre is 0 (see IntervalPatches.h): at the vertices, then on the edges (0, 1),
  *  (0, 2), (0, 3), (1, 2), (1, 3), (2, 3). */
 using AgePointPlaces = std::array<PatchPointPlace, 10>;
@@ -39,7 +43,7 @@ inline constexpr int EdgeByAge(int younger, int older)
 template <typename Places>
 using PatchPointTable = std::array<std::array<Places, MaximumHalfTetrahedra>, 64>;
 
-const PatchPointTable<EdgePointPlaces>& PointsOnEdges();
+const PatchPointTable<TrianglePointPlaces>& PointsOfTriangles();
 const PatchPointTable<AgePointPlaces>& PointsByAge();
 
 }

@@ -54,7 +54,7 @@ public:
     Id* connectivity, std::int8_t* levels)
     : Hierarchy(hierarchy)
     , Window(window)
-    , Places(PointsOnEdges())
+    , Places(PointsOfTriangles())
     , Mirrored(mirrored)
     , Next(connectivity)
     , NextLevel(levels)
@@ -65,24 +65,19 @@ public:
   {
     const HalfTetrahedronMask crossed = CrossedVertices(this->Hierarchy, parent);
     // For a centre above the isovalue triangles wind with normals away from it.
-    const bool flip = (this->Hierarchy.Sign(parent.Rank) == 0) != this->Mirrored;
+    const int flip = (this->Hierarchy.Sign(parent.Rank) == 0) != this->Mirrored ? 1 : 0;
     const int level = this->Hierarchy.SampleGrid().Depth() - 1 - parent.LeafScale();
     const DiamondPoints* own = this->Window.At(parent.At.Position);
     const auto& places = this->Places[parent.Type];
     ForEachBit(TrianglesOf(parent, crossed),
       [&](int bit)
       {
-        const int half = bit / 4;
-        const SurfacePatch& patch = tables::IsosurfacePatches[(crossed >> (4 * half)) & 7U];
-        const std::array<std::uint8_t, 3>& corners = patch.Triangles[bit & 1];
-        const auto idOf = [&](int edge)
-        {
-          const PatchPointPlace& place = places[half][edge];
-          return static_cast<Id>(own[place.Distance].Id(place.Bit));
-        };
+        const auto& corners = places[bit / 4][(crossed >> (bit & ~3)) & 7U][bit & 1];
+        const auto idOf = [&](const PatchPointPlace& corner)
+        { return static_cast<Id>(own[corner.Distance].Id(corner.Bit)); };
         this->Next[0] = idOf(corners[0]);
-        this->Next[1] = idOf(corners[flip ? 2 : 1]);
-        this->Next[2] = idOf(corners[flip ? 1 : 2]);
+        this->Next[1 + flip] = idOf(corners[1]);
+        this->Next[2 - flip] = idOf(corners[2]);
         this->Next += 3;
         *this->NextLevel++ = static_cast<std::int8_t>(level);
       });
@@ -91,7 +86,7 @@ public:
 private:
   const IsodiamondHierarchy& Hierarchy;
   const VertexWindow& Window;
-  const PatchPointTable<EdgePointPlaces>& Places;
+  const PatchPointTable<TrianglePointPlaces>& Places;
   bool Mirrored;
   Id* Next;
   std::int8_t* NextLevel;

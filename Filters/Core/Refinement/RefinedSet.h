@@ -108,6 +108,20 @@ public:
     }
   }
 
+  /** Calls body(place, rank among the stored ones) for the diamonds of a class, in order. */
+  template <typename Body>
+  void ForEachDiamondOfClass(int diamondClass, Body&& body) const
+  {
+    for (int z = 0; z < 8; ++z)
+    {
+      ForEachBit(this->Refined.Occupancy[z] & tables::ClassBits[diamondClass][z & 1],
+        [&](int bit) {
+          body(
+            Place{ this->BrickScale, PositionOf(this->First, z, bit) }, this->Stored.Rank(z, bit));
+        });
+    }
+  }
+
   /** Whether all vertices of a diamond of this brick have samples, whatever its class. */
   bool IsInner(const Place& place) const
   {

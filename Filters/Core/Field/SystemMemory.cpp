@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/SystemMemory.h"
+#include "Field/SystemMemory.h"
 
 #include <cstdint>
 #ifdef __linux__
@@ -9,7 +9,7 @@
 #include <malloc.h>
 #endif
 
-namespace vtkIsodiamond
+namespace isodiamond
 {
 
 void PreferLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes)
