@@ -12,6 +12,7 @@
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkVersion.h"
 
 #include <algorithm>
 #include <limits>
@@ -64,7 +65,12 @@ inline void GiveCells(vtkUnstructuredGrid* output, int type, vtkCellArray* cells
   vtkNew<vtkUnsignedCharArray> types;
   AllocateTuples(types, cells->GetNumberOfCells());
   std::fill_n(types->GetPointer(0), cells->GetNumberOfCells(), static_cast<unsigned char>(type));
-  output->SetCells(types, cells, nullptr, nullptr); // else all types are looked at for polyhedra
+  // What is given without faces is looked at for polyhedra, cell by cell.
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
+  output->SetPolyhedralCells(types, cells, nullptr, nullptr);
+#else
+  output->SetCells(types, cells, nullptr, nullptr);
+#endif
 }
 
 }
