@@ -27,25 +27,26 @@ constexpr const char* NormalsName = "Normals";
 /** @param normals,gradients may be null */
 PointWriter WriteGradients(const Volume& volume, vtkFloatArray* normals, vtkFloatArray* gradients)
 {
-  const auto write = [](vtkFloatArray* array, std::int64_t id, const isodiamond::Vector& vector)
+  const auto write = [](float* tuple, const isodiamond::Vector& vector)
   {
-    float* tuple = array->GetPointer(3 * id);
     for (int axis = 0; axis < 3; ++axis)
     {
       tuple[axis] = static_cast<float>(vector[axis]);
     }
   };
-  return [&volume, write, normals, gradients](const isodiamond::MeshPoint& point)
+  const auto valuesOf = [](vtkFloatArray* array) { return array ? array->GetPointer(0) : nullptr; };
+  return [write, gradientAt = isodiamond::Gradients(volume.Samples, volume.Placement.World),
+           ofNormals = valuesOf(normals),
+           ofGradients = valuesOf(gradients)](const isodiamond::MeshPoint& point)
   {
-    const isodiamond::Vector gradient =
-      isodiamond::Gradients(volume.Samples, volume.Placement.World)(point.Index);
-    if (normals)
+    const isodiamond::Vector gradient = gradientAt(point.Index);
+    if (ofNormals)
     {
-      write(normals, point.Id, isodiamond::NormalOf(gradient));
+      write(ofNormals + 3 * point.Id, isodiamond::NormalOf(gradient));
     }
-    if (gradients)
+    if (ofGradients)
     {
-      write(gradients, point.Id, gradient);
+      write(ofGradients + 3 * point.Id, gradient);
     }
   };
 }

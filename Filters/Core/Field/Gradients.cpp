@@ -3,8 +3,8 @@
 
 #include "Field/Trilinear.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace isodiamond
 {
@@ -15,40 +15,55 @@ namespace
 template <typename T>
 Vector IndexGradientAt(const SampleView<T>& samples, const Point& point)
 {
+  const std::array<int, 3>& size = samples.Dimensions();
+  const std::array<std::int64_t, 3> strides = { 1, size[0], std::int64_t{ 1 } * size[0] * size[1] };
+  const T* const at = samples.Pointer() + samples.Index(point);
   Vector gradient{};
   for (int axis = 0; axis < 3; ++axis)
   {
-    Point before = point;
-    Point after = point;
-    before[axis] = std::max(point[axis] - 1, 0);
-    after[axis] = std::min(point[axis] + 1, samples.Dimensions()[axis] - 1);
-    gradient[axis] = (samples(after) - samples(before)) / (after[axis] - before[axis]);
+    const bool isFirst = point[axis] == 0;
+    const bool isLast = point[axis] == size[axis] - 1;
+    const auto before = static_cast<double>(at[isFirst ? 0 : -strides[axis]]);
+    const auto after = static_cast<double>(at[isLast ? 0 : strides[axis]]);
+    gradient[axis] = (isFirst || isLast ? 1.0 : 0.5) * (after - before);
   }
   return gradient;
 }
 
-/** The vector whose products with the derivatives of the position are those of the field. */
-Vector ToWorld(const std::array<Vector, 3>& derivatives, const Vector& gradient)
+/** Gradients in the world for steps in index space, by the derivatives of the position: the vectors
+ *  whose products with these are 1 on their own axis, and 0 on the others. */
+std::array<Vector, 3> GradientsOfSteps(const std::array<Vector, 3>& derivatives)
 {
-  Vector world{};
-  const std::array<Vector, 3> normals = { Cross(derivatives[1], derivatives[2]),
+  std::array<Vector, 3> gradients = { Cross(derivatives[1], derivatives[2]),
     Cross(derivatives[2], derivatives[0]), Cross(derivatives[0], derivatives[1]) };
-  const double volume = Dot(derivatives[0], normals[0]);
-  for (int axis = 0; axis < 3; ++axis)
+  const double volume = Dot(derivatives[0], gradients[0]);
+  for (Vector& gradient : gradients)
   {
-    for (int i = 0; i < 3; ++i)
-    {
-      world[i] += gradient[axis] * normals[axis][i] / volume;
-    }
+    gradient = { gradient[0] / volume, gradient[1] / volume, gradient[2] / volume };
   }
-  return world;
+  return gradients;
 }
 
+/** A gradient in index space as one in the world. */
+Vector ToWorld(const std::array<Vector, 3>& ofSteps, const Vector& gradient)
+{
+  return gradient[0] * ofSteps[0] + gradient[1] * ofSteps[1] + gradient[2] * ofSteps[2];
+}
+
+}
+
+Gradients::Gradients(const AnySamples& samples, const GridGeometry& geometry)
+  : Samples(samples)
+  , Geometry(geometry)
+{
+  if (geometry.Affine() != nullptr)
+  {
+    this->OfSteps = GradientsOfSteps(geometry.DerivativesAt({ 0, 0, 0 }));
+  }
 }
 
 Vector Gradients::operator()(const Vector& index) const
 {
-  const bool isAffine = this->Geometry.Affine() != nullptr;
   Vector sum{};
   std::visit(
     [&](const auto& view)
@@ -58,24 +73,25 @@ Vector Gradients::operator()(const Vector& index) const
         .ForEachCorner(
           [&](const Point& sample, double weight)
           {
-            Vector gradient = IndexGradientAt(view, sample);
-            if (!isAffine)
-            {
-              gradient = ToWorld(this->Geometry.DerivativesAt(sample), gradient);
-            }
-            for (int axis = 0; axis < 3; ++axis)
-            {
-              sum[axis] += weight * gradient[axis];
-            }
+            const Vector gradient = IndexGradientAt(view, sample);
+            sum = sum +
+              weight *
+                (this->OfSteps
+                    ? gradient
+                    : ToWorld(GradientsOfSteps(this->Geometry.DerivativesAt(sample)), gradient));
           });
     },
     this->Samples);
-  return isAffine ? ToWorld(this->Geometry.DerivativesAt({ 0, 0, 0 }), sum) : sum;
+  return this->OfSteps ? ToWorld(*this->OfSteps, sum) : sum;
 }
 
 Vector NormalOf(const Vector& gradient)
 {
-  const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
+  const double squared = Dot(gradient, gradient);
+  // Of most vectors the square is a number.
+  const double length = squared > 1e-200 && squared < 1e200
+    ? std::sqrt(squared)
+    : std::hypot(gradient[0], gradient[1], gradient[2]);
   if (!(length > 0.0) || !std::isfinite(length))
   {
     return { 0.0, 0.0, 1.0 };

@@ -5,6 +5,9 @@
 #include "Field/GridGeometry.h"
 #include "Field/Samples.h"
 
+#include <array>
+#include <optional>
+
 namespace isodiamond
 {
 
@@ -17,11 +20,7 @@ class Gradients
 {
 public:
   /** Both must outlive it. */
-  Gradients(const AnySamples& samples, const GridGeometry& geometry)
-    : Samples(samples)
-    , Geometry(geometry)
-  {
-  }
+  Gradients(const AnySamples& samples, const GridGeometry& geometry);
 
   /** At a position in index space; the nearest in the grid for one beyond it. */
   Vector operator()(const Vector& index) const;
@@ -29,6 +28,8 @@ public:
 private:
   const AnySamples& Samples;
   const GridGeometry& Geometry;
+  /** In the world, for steps in index space, where these are the same everywhere. */
+  std::optional<std::array<Vector, 3>> OfSteps;
 };
 
 /** The unit normal toward lower values, as triangles have them; (0, 0, 1) where the gradient

@@ -46,19 +46,21 @@ struct CellPosition
   template <typename Body>
   void ForEachCorner(Body&& body) const
   {
-    for (int corner = 0; corner < 8; ++corner)
+    // Most positions that come here lie on an edge of the lattice, so most corners have none.
+    const auto weightOf = [&](int axis, int far)
+    { return far != 0 ? this->Fraction[axis] : 1.0 - this->Fraction[axis]; };
+    for (int z = 0; z < 2; ++z)
     {
-      double weight = 1.0;
-      Point sample = this->Cell;
-      for (int axis = 0; axis < 3; ++axis)
+      for (int y = 0; y < 2 && weightOf(2, z) != 0.0; ++y)
       {
-        const bool far = ((corner >> axis) & 1) != 0;
-        weight *= far ? this->Fraction[axis] : 1.0 - this->Fraction[axis];
-        sample[axis] += far ? 1 : 0;
-      }
-      if (weight != 0.0)
-      {
-        body(sample, weight);
+        for (int x = 0; x < 2 && weightOf(1, y) != 0.0; ++x)
+        {
+          const double weight = weightOf(0, x) * weightOf(1, y) * weightOf(2, z);
+          if (weight != 0.0)
+          {
+            body(this->Cell + Point{ x, y, z }, weight);
+          }
+        }
       }
     }
   }
