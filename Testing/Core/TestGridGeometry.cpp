@@ -165,6 +165,10 @@ TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
   }
   const Vector normal = NormalOf({ 0.0, 3.0, -4.0 });
   ExpectNear(normal, { 0.0, -0.6, 0.8 });
+  for (const double scale : { 1e-310, 1e-160, 1e-90, 1e90, 1e160, 1e307 })
+  {
+    ExpectNear(NormalOf({ 3.0 * scale, 0.0, -4.0 * scale }), { -0.6, 0.0, 0.8 });
+  }
   ExpectNear(NormalOf({ 0.0, 0.0, 0.0 }), { 0.0, 0.0, 1.0 });
   ExpectNear(NormalOf({ 0.0, std::nan(""), 0.0 }), { 0.0, 0.0, 1.0 });
   ExpectNear(NormalOf({ 0.0, HUGE_VAL, 0.0 }), { 0.0, 0.0, 1.0 });

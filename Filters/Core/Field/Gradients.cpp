@@ -88,15 +88,17 @@ Vector Gradients::operator()(const Vector& index) const
 Vector NormalOf(const Vector& gradient)
 {
   const double squared = Dot(gradient, gradient);
-  // Of most vectors the square is a number.
-  const double length = squared > 1e-200 && squared < 1e200
-    ? std::sqrt(squared)
-    : std::hypot(gradient[0], gradient[1], gradient[2]);
+  if (squared > 1e-200 && squared < 1e200)
+  {
+    return (-1.0 / std::sqrt(squared)) * gradient;
+  }
+  // Too short or too long to be squared, or no number.
+  const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
   if (!(length > 0.0) || !std::isfinite(length))
   {
     return { 0.0, 0.0, 1.0 };
   }
-  return (-1.0 / length) * gradient;
+  return { -gradient[0] / length, -gradient[1] / length, -gradient[2] / length };
 }
 
 }
