@@ -2,12 +2,12 @@
 #include "vtkIsodiamondBuilder.h"
 
 #include "Build/Builder.h"
+#include "Field/SystemMemory.h"
 #include "Private/Input.h"
 #include "Private/Piece.h"
 #include "Private/PointData.h"
 #include "Private/Slabs.h"
 #include "Private/State.h"
-#include "Field/SystemMemory.h"
 #include "Private/Task.h"
 #include "Private/Threads.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Cache.h"
 
+#include "Field/SystemMemory.h"
 #include "Private/HierarchyQuery.h"
 #include "Private/Slabs.h"
-#include "Field/SystemMemory.h"
 #include "Refinement/LocalTolerance.h"
 
 #include "vtkUnsignedCharArray.h"
