@@ -26,31 +26,36 @@ public:
   KeptPoints(
     std::int64_t pointCount, const Id* ids, std::int64_t size, const ParallelFor& parallelFor)
     : Words(pointCount / 64 + 1)
-    , Before(this->Words.size() + 1)
   {
+    // A byte each is written sooner than a bit: most points are used more than once.
+    std::vector<std::atomic<std::uint8_t>> isUsed(64 * this->Words.size());
     parallelFor(size, Grain,
       [&](std::int64_t begin, std::int64_t end)
       {
-        std::for_each(ids + begin, ids + end,
-          [this](Id id)
-          {
-            std::atomic<std::uint64_t>& word = this->Words[id / 64];
-            const std::uint64_t bit = std::uint64_t{ 1 } << (id % 64);
-            // Most points are used more than once.
-            if ((word.load(std::memory_order_relaxed) & bit) == 0)
-            {
-              word.fetch_or(bit, std::memory_order_relaxed);
-            }
-          });
+        std::for_each(
+          ids + begin, ids + end, [&](Id id) { isUsed[id].store(1, std::memory_order_relaxed); });
       });
-    for (std::size_t i = 0; i < this->Words.size(); ++i)
+    ForEachIndex(parallelFor, this->Words.size(), Grain / 64,
+      [&](std::int64_t word)
+      {
+        std::uint64_t bits = 0;
+        for (int bit = 0; bit < 64; ++bit)
+        {
+          bits |= std::uint64_t{ isUsed[64 * word + bit].load(std::memory_order_relaxed) } << bit;
+        }
+        this->Words[word].Bits = bits;
+      });
+    for (std::size_t i = 1; i < this->Words.size(); ++i)
     {
-      this->Before[i + 1] = this->Before[i] + PopCount(this->Words[i]);
+      this->Words[i].Before = this->Words[i - 1].Before + PopCount(this->Words[i - 1].Bits);
     }
   }
 
   /** Their number. */
-  std::int64_t Count() const { return this->Before.back(); }
+  std::int64_t Count() const
+  {
+    return this->Words.back().Before + PopCount(this->Words.back().Bits);
+  }
 
   /** Their ids in the whole mesh. */
   template <typename Id>
@@ -61,12 +66,15 @@ public:
     for (std::size_t i = 0; i < this->Words.size(); ++i)
     {
       ForEachBit(
-        this->Words[i].load(), [&](int bit) { ids.push_back(static_cast<Id>(64 * i + bit)); });
+        this->Words[i].Bits, [&](int bit) { ids.push_back(static_cast<Id>(64 * i + bit)); });
     }
     return ids;
   }
 
-  bool Contains(std::int64_t id) const { return (this->Words[id / 64] >> (id % 64) & 1U) != 0; }
+  bool Contains(std::int64_t id) const
+  {
+    return (this->Words[id / 64].Bits >> (id % 64) & 1U) != 0;
+  }
 
   bool AnyBetween(std::int64_t first, std::int64_t last) const
   {
@@ -76,8 +84,9 @@ public:
   /** The number of kept points before one of the whole mesh: its own new id, if it is kept. */
   std::int64_t NewId(std::int64_t id) const
   {
+    const Word& word = this->Words[id / 64];
     const std::uint64_t before = (std::uint64_t{ 1 } << (id % 64)) - 1;
-    return this->Before[id / 64] + PopCount(this->Words[id / 64] & before);
+    return word.Before + PopCount(word.Bits & before);
   }
 
   /** Gives kept points their new ids. */
@@ -95,8 +104,14 @@ public:
 private:
   static constexpr std::int64_t Grain = 65536;
 
-  std::vector<std::atomic<std::uint64_t>> Words;
-  std::vector<std::int64_t> Before;
+  /** 64 points: which are kept, and how many before them. */
+  struct Word
+  {
+    std::uint64_t Bits = 0;
+    std::int64_t Before = 0;
+  };
+
+  std::vector<Word> Words;
 };
 
 }
