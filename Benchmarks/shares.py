@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a process of several takes for its share of a mesh, beside the whole mesh by one.
 
-    PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/shares.py [SIZE]
+    PYTHONPATH=build/lib/python3/dist-packages python3 Benchmarks/shares.py [SIZE]
 
 One process makes the shares of 1, 2, 4 and 8 one after the other, with one thread, and prints the time
 of the slowest, as the median of interleaved runs; and for each number a process of its own makes the
-first share, and tells how much memory that took beyond the hierarchy (Linux only). The field is the
+first share, and tells how much memory that took beyond the hierarchy (Linux only). Python itself, as `pvpython` cannot start another one. The field is the
 gyroid of extraction.py, by the field metric, at full resolution and at a tolerance that leaves a
 quarter of the triangles.
 """
