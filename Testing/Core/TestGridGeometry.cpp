@@ -163,6 +163,10 @@ TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
     ExpectNear(Gradients(samples, listed)(at), { 2.0, -1.0, 0.5 }, 1e-5);
     ExpectNear(Gradients(samples, affine)(at), { 2.0, -1.0, 0.5 }, 1e-5);
   }
+}
+
+TEST(GridGeometry, NormalsHaveLengthOneHoweverLongTheGradientIs)
+{
   const Vector normal = NormalOf({ 0.0, 3.0, -4.0 });
   ExpectNear(normal, { 0.0, -0.6, 0.8 });
   for (const double scale : { 1e-310, 1e-160, 1e-90, 1e90, 1e160, 1e307 })

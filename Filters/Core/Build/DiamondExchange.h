@@ -64,7 +64,7 @@ public:
     this->ForEachBlock(
       [&](const std::vector<Entry>& block)
       {
-        some.assign(block.size(), T{});
+        some.resize(block.size());
         for (std::size_t i = 0; i < block.size(); ++i)
         {
           some[i] = block[i].IsTold ? told[block[i].Told] : T{};
@@ -97,7 +97,7 @@ public:
     this->ForEachBlock(
       [&](const std::vector<Entry>& block)
       {
-        counts.assign(block.size(), 0);
+        counts.resize(block.size());
         for (std::size_t i = 0; i < block.size(); ++i)
         {
           counts[i] = block[i].IsTold ? sizes[block[i].Told] : 0;

@@ -227,8 +227,7 @@ void IsodiamondHierarchy::CountByKind()
   for (std::int64_t rank = 0; rank < this->Set.Size(); ++rank)
   {
     this->FirstIsovertex[rank] = static_cast<std::uint32_t>(isovertices);
-    isovertices += PopCount(this->Edges(rank));
-    isovertices += this->Region().IsVolume() ? PopCount(this->UpperEdges(rank)) : 0;
+    isovertices += this->DerivedEdges.IsovertexCount(rank);
     this->Counts[static_cast<int>(this->KindOf(rank))] += rank < 8 ? 0 : 1;
   }
   Require(isovertices == this->View.Arrays.Isovertices.Size,

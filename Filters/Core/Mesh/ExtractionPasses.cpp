@@ -27,14 +27,14 @@ ExtractionPasses::ExtractionPasses(const RefinedSet& refined, const ParallelFor&
 std::int64_t ExtractionPasses::CountPoints(const RefinedBrick& brick)
 {
   const IsodiamondHierarchy& hierarchy = this->Hierarchy();
-  const bool isVolume = hierarchy.Region().IsVolume();
   if (this->IsFinest)
   {
     const Brick& stored = brick.StoredBrick();
     const std::int64_t last = stored.First + stored.Size() - 1;
-    return hierarchy.FirstIsovertexOf(last) + PopCount(hierarchy.Edges(last)) -
+    return hierarchy.FirstIsovertexOf(last) + hierarchy.EdgesByRank().IsovertexCount(last) -
       hierarchy.FirstIsovertexOf(stored.First);
   }
+  const bool isVolume = hierarchy.Region().IsVolume();
   const LeafFinder finder(this->Set, brick);
   std::int64_t points = 0;
   brick.ForEachDiamond(

@@ -16,7 +16,7 @@ namespace isodiamond
 /**
  * The points of a mesh that some of its cells use: one bit a point of the whole mesh, and their
  * number before every 64 of them, so that each has an id among those that are kept, in the same
- * order.
+ * order. While these are found it takes a byte a point.
  */
 class KeptPoints
 {

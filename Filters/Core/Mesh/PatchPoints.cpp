@@ -18,6 +18,9 @@ PatchPointPlace PlaceOf(const Point& offset, int bit)
   return place;
 }
 
+/** On the edges of a half-tetrahedron, numbered as SurfacePatch.h does. */
+using EdgePointPlaces = std::array<PatchPointPlace, 6>;
+
 EdgePointPlaces PlacesOnEdges(const TypeTable& shape, const HalfTetrahedron& half)
 {
   EdgePointPlaces places;

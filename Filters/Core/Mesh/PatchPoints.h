@@ -22,9 +22,6 @@ struct PatchPointPlace
   std::int8_t Bit = 0;      ///< in DiamondPoints; on an edge, of the isovertex on surface 0
 };
 
-/** On the edges of a half-tetrahedron, numbered as SurfacePatch.h does. */
-using EdgePointPlaces = std::array<PatchPointPlace, 6>;
-
 /** At the corners of the triangles of an isosurface's patch, by the mask of the vertices that lie
  * on the other side than the centre. */
 using TrianglePointPlaces = std::array<std::array<std::array<PatchPointPlace, 3>, 2>, 8>;
