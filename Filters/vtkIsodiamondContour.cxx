@@ -6,13 +6,18 @@
 #include "Private/WorldQuery.h"
 
 #include "vtkAppendPolyData.h"
+#include "vtkCellData.h"
 #include "vtkInformation.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <new>
+#include <vector>
 
 vtkStandardNewMacro(vtkIsodiamondContour);
 
@@ -25,14 +30,58 @@ namespace
  *
  * @throws std::bad_alloc if so much is not to be had now
  */
-void ExpectMemoryToAppend(std::size_t kibibytes)
+void ExpectMemoryToAppend(const std::vector<vtkSmartPointer<vtkPolyData>>& meshes)
 {
+  std::size_t kibibytes = 0;
+  for (const vtkSmartPointer<vtkPolyData>& mesh : meshes)
+  {
+    kibibytes += mesh->GetActualMemorySize();
+  }
   void* volatile memory = std::malloc(2 * 1024 * kibibytes); // volatile, or it would be left out
   if (!memory && kibibytes > 0)
   {
     throw std::bad_alloc();
   }
   std::free(memory);
+}
+
+/** Gives appended data the order and the roles of the arrays that they were appended from, which
+ *  vtkAppendPolyData does not keep. */
+void OrderAs(vtkDataSetAttributes* model, vtkDataSetAttributes* data)
+{
+  vtkNew<vtkDataSetAttributes> appended;
+  appended->ShallowCopy(data);
+  data->ShallowCopy(model);
+  for (int i = 0; i < appended->GetNumberOfArrays(); ++i)
+  {
+    data->AddArray(appended->GetAbstractArray(i));
+  }
+}
+
+/** Meshes one after the other as one. @throws std::bad_alloc */
+vtkSmartPointer<vtkPolyData> Appended(
+  const std::vector<vtkSmartPointer<vtkPolyData>>& meshes, int precision)
+{
+  if (meshes.size() == 1)
+  {
+    return meshes.front();
+  }
+  ExpectMemoryToAppend(meshes);
+  vtkNew<vtkAppendPolyData> append;
+  append->SetOutputPointsPrecision(precision);
+  for (const vtkSmartPointer<vtkPolyData>& mesh : meshes)
+  {
+    append->AddInputData(mesh);
+  }
+  vtkIsodiamond::RunSerial([&] { append->Update(); });
+  vtkSmartPointer<vtkPolyData> all = append->GetOutput();
+  if (all->GetNumberOfPoints() == 0)
+  {
+    return meshes.front(); // of nothing it has no arrays
+  }
+  OrderAs(meshes.front()->GetPointData(), all->GetPointData());
+  OrderAs(meshes.front()->GetCellData(), all->GetCellData());
+  return all;
 }
 
 }
@@ -115,32 +164,22 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   options.Wanted = this->GetShare();
   const std::vector<isodiamond::Isoregion> regions = this->GetRegions();
   const auto count = static_cast<double>(regions.size());
-  vtkNew<vtkAppendPolyData> append;
-  append->SetOutputPointsPrecision(this->OutputPointsPrecision);
-  std::size_t kibibytes = 0;
+  std::vector<vtkSmartPointer<vtkPolyData>> meshes;
   for (std::size_t i = 0; i < regions.size(); ++i)
   {
     vtkIsodiamond::Task part = task.Part(i / count, (i + 1) / count);
-    vtkNew<vtkPolyData> contour;
     const vtkIsodiamond::Mesh mesh = this->ExtractMesh(volume, regions[i], query, options, part);
-    mesh.Give(contour);
+    meshes.push_back(vtkSmartPointer<vtkPolyData>::New());
+    mesh.Give(meshes.back());
     if (options.Wanted.FirstIds)
     {
       auto& [firstPoint, firstCell] = *options.Wanted.FirstIds;
-      firstPoint += mesh.WholeSize[0];
-      firstCell += mesh.WholeSize[1];
+      firstPoint += mesh.CountedSize[0];
+      firstCell += mesh.CountedSize[1];
     }
-    append->AddInputData(contour);
-    kibibytes += contour->GetActualMemorySize();
   }
-  if (regions.size() == 1)
+  if (!meshes.empty())
   {
-    output->ShallowCopy(append->GetInput(0));
-  }
-  else if (regions.size() > 1)
-  {
-    ExpectMemoryToAppend(kibibytes);
-    vtkIsodiamond::RunSerial([&] { append->Update(); });
-    output->ShallowCopy(append->GetOutput());
+    output->ShallowCopy(Appended(meshes, this->OutputPointsPrecision));
   }
 }

@@ -29,15 +29,19 @@ void ForEachCell(const MeshCells& mesh, const isodiamond::CellRange& cells, Body
 
 }
 
-Ghosts FindGhosts(const MeshCells& mesh, const isodiamond::CellRange& own, int levels)
+Ghosts FindGhosts(
+  const MeshCells& mesh, const std::vector<isodiamond::DealtCells>& dealt, int levels)
 {
   Ghosts ghosts;
   ghosts.ArePointsOwn.assign(mesh.PointCount, false);
   const auto mark = [&](std::vector<bool>& points, const vtkIdType* corners, std::int64_t count)
   { std::for_each(corners, corners + count, [&](vtkIdType point) { points[point] = true; }); };
-  ForEachCell(mesh, own,
-    [&](std::int64_t, const vtkIdType* corners, std::int8_t)
-    { mark(ghosts.ArePointsOwn, corners, mesh.Size); });
+  for (const isodiamond::DealtCells& cells : dealt)
+  {
+    ForEachCell(mesh, cells.Own,
+      [&](std::int64_t, const vtkIdType* corners, std::int8_t)
+      { mark(ghosts.ArePointsOwn, corners, mesh.Size); });
+  }
   std::vector<bool> near = ghosts.ArePointsOwn;
   std::vector<bool> isGhost(mesh.Count, false);
   for (int level = 0; level < levels; ++level)
@@ -45,11 +49,6 @@ Ghosts FindGhosts(const MeshCells& mesh, const isodiamond::CellRange& own, int l
     const std::size_t before = ghosts.Corners.size();
     const auto look = [&](std::int64_t cell, const vtkIdType* corners, std::int8_t levelOfCell)
     {
-      if (level == 0 && cell < own.First)
-      {
-        std::for_each(corners, corners + mesh.Size,
-          [&](vtkIdType point) { ghosts.ArePointsOwn[point] = false; });
-      }
       if (!isGhost[cell] &&
         std::any_of(corners, corners + mesh.Size, [&](vtkIdType point) { return near[point]; }))
       {
@@ -59,8 +58,18 @@ Ghosts FindGhosts(const MeshCells& mesh, const isodiamond::CellRange& own, int l
         ghosts.Levels.push_back(levelOfCell);
       }
     };
-    ForEachCell(mesh, { 0, own.First }, look);
-    ForEachCell(mesh, { own.Last, mesh.Count }, look);
+    const auto lookBefore = [&](
+                              std::int64_t cell, const vtkIdType* corners, std::int8_t levelOfCell)
+    {
+      std::for_each(
+        corners, corners + mesh.Size, [&](vtkIdType point) { ghosts.ArePointsOwn[point] = false; });
+      look(cell, corners, levelOfCell);
+    };
+    for (const isodiamond::DealtCells& cells : dealt)
+    {
+      ForEachCell(mesh, { cells.All.First, cells.Own.First }, lookBefore);
+      ForEachCell(mesh, { cells.Own.Last, cells.All.Last }, look);
+    }
     mark(near, ghosts.Corners.data() + before,
       static_cast<std::int64_t>(ghosts.Corners.size() - before));
   }

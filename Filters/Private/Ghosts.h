@@ -20,7 +20,7 @@ struct Ghosts
   std::vector<vtkIdType> Cells;    ///< their ids in the whole mesh
   std::vector<vtkIdType> Corners;  ///< of each, as ids of points of the whole mesh
   std::vector<std::int8_t> Levels; ///< as they were read, one a cell
-  std::vector<bool> ArePointsOwn;  ///< of the whole mesh: the share has it, and none before
+  std::vector<bool> ArePointsOwn;  ///< of the whole mesh: the share has it, and no share before
 };
 
 /** Cells of a mesh, as they are told apart here. */
@@ -35,7 +35,8 @@ struct MeshCells
 
 /** Finds the ghosts around a share. Cells are read block by block, all of them once a level;
  * nothing is kept of those that are not wanted. @param levels 1 or more */
-Ghosts FindGhosts(const MeshCells& mesh, const isodiamond::CellRange& own, int levels);
+Ghosts FindGhosts(
+  const MeshCells& mesh, const std::vector<isodiamond::DealtCells>& dealt, int levels);
 
 }
 

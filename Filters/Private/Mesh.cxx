@@ -66,35 +66,48 @@ bool AreCellsChanged(const MeshOptions& options)
   return options.ForSimulation || (options.Hidden != nullptr && options.Hidden->Any());
 }
 
+/** What of a mesh is extracted. */
+Share ExtractedShare(const MeshOptions& options)
+{
+  return AreCellsChanged(options) ? Share{} : options.Wanted;
+}
+
 /** Adds an extraction's cells that are wanted, to which its points are limited.
- *  @param write (range, ids, levels) */
+ *  @param counted cells @param write (range, ids, levels) */
 template <typename Extraction, typename Write>
-void AddCells(Extraction& extraction, std::int64_t wholeCount, int size, const MeshOptions& options,
+void AddCells(Extraction& extraction, std::int64_t counted, int size, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh, const Write& write)
 {
-  const Share share = AreCellsChanged(options) ? Share{} : options.Wanted;
-  const isodiamond::CellRange cells = ShareOf(wholeCount, share.Piece.data());
-  mesh.WholeSize = { extraction.PointCount(), wholeCount };
+  const Share share = ExtractedShare(options);
+  const std::vector<isodiamond::DealtCells> dealt = extraction.Dealt();
+  mesh.CountedSize = { extraction.PointCount(), counted };
   const Ghosts ghosts = share.HasGhosts()
-    ? FindGhosts({ wholeCount, extraction.PointCount(), size, write }, cells, share.GhostLevels)
+    ? FindGhosts({ counted, extraction.PointCount(), size, write }, dealt, share.GhostLevels)
     : Ghosts{};
-  const std::int64_t count = cells.Count() + static_cast<std::int64_t>(ghosts.Cells.size());
+  const std::vector<isodiamond::CellRange> own = isodiamond::OwnCells(dealt);
+  const std::int64_t ownCount = isodiamond::TotalOf(own);
+  const std::int64_t count = ownCount + static_cast<std::int64_t>(ghosts.Cells.size());
   const auto levels = NewArray<vtkSignedCharArray>("Level", count);
   mesh.Cells = WriteCells(count, size, parallelFor,
     [&](auto* connectivity)
     {
-      write(cells, connectivity, levels->GetPointer(0));
-      std::copy(ghosts.Corners.begin(), ghosts.Corners.end(), connectivity + size * cells.Count());
+      std::int64_t written = 0;
+      for (const isodiamond::CellRange& cells : own)
+      {
+        write(cells, connectivity + size * written, levels->GetPointer(0) + written);
+        written += cells.Count();
+      }
+      std::copy(ghosts.Corners.begin(), ghosts.Corners.end(), connectivity + size * ownCount);
       if (share.Piece[1] > 1)
       {
         extraction.KeepPointsOf(connectivity, size * count);
       }
     });
-  std::copy(ghosts.Levels.begin(), ghosts.Levels.end(), levels->GetPointer(0) + cells.Count());
+  std::copy(ghosts.Levels.begin(), ghosts.Levels.end(), levels->GetPointer(0) + ownCount);
   mesh.CellData->AddArray(levels);
   if (share.HasGhosts() || share.FirstIds)
   {
-    AddOrigins(share, extraction.template PointIds<vtkIdType>(), cells, ghosts, mesh);
+    AddOrigins(share, extraction.template PointIds<vtkIdType>(), own, ghosts, mesh);
   }
 }
 
@@ -219,7 +232,7 @@ void Complete(const Extraction& extraction, const MeshOptions& options, Mesh& me
 void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
-  isodiamond::IntervalExtraction extraction(refined, parallelFor);
+  isodiamond::IntervalExtraction extraction(refined, parallelFor, ExtractedShare(options).OfMesh());
   AddCells(extraction, extraction.TetrahedronCount(), 4, options, parallelFor, mesh,
     [&](const isodiamond::CellRange& cells, auto* connectivity, std::int8_t* levels)
     { extraction.WriteTetrahedra(cells, options.World.Mirrors(), connectivity, levels); });
@@ -244,7 +257,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
 void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
-  isodiamond::SurfaceExtraction extraction(refined, parallelFor);
+  isodiamond::SurfaceExtraction extraction(refined, parallelFor, ExtractedShare(options).OfMesh());
   AddCells(extraction, extraction.TriangleCount(), 3, options, parallelFor, mesh,
     [&](const isodiamond::CellRange& cells, auto* connectivity, std::int8_t* levels)
     { extraction.WriteTriangles(cells, options.World.Mirrors(), connectivity, levels); });

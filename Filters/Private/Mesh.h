@@ -34,8 +34,8 @@ struct Mesh
   vtkSmartPointer<vtkPointData> PointData = vtkSmartPointer<vtkPointData>::New();
   /** "Level". */
   vtkSmartPointer<vtkCellData> CellData = vtkSmartPointer<vtkCellData>::New();
-  /** Points and cells of the whole mesh, of which this may be a share. */
-  std::array<vtkIdType, 2> WholeSize{};
+  /** Points and cells that were counted: of the whole mesh, if a share has ids of that. */
+  std::array<vtkIdType, 2> CountedSize{};
   /** The smallest and the largest, in degrees, of tetrahedra for simulations. */
   std::optional<std::array<double, 2>> DihedralAngles;
   /** Of such tetrahedra: diamonds that have to be refined, for surfaces are too far away. The mesh

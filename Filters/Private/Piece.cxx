@@ -85,6 +85,21 @@ std::vector<vtkIdType> KeepCells(const isodiamond::CellRange& range, const Ghost
   return points;
 }
 
+/** Deals cells out to shares that differ by at most one; where there are more of them than cells,
+ *  some have none. */
+isodiamond::DealtCells Deal(const isodiamond::MeshShare& share, std::int64_t cells)
+{
+  return { { 0, cells },
+    { cells * share.Number / share.Count,
+      std::min(cells * (share.Number + 1) / share.Count, cells) } };
+}
+
+}
+
+isodiamond::MeshShare Share::OfMesh() const
+{
+  const auto [number, count] = this->Piece;
+  return { std::clamp(number, 0, count), count, this->HasGhosts() || this->FirstIds.has_value() };
 }
 
 void RequestWhole(vtkInformation* inputInformation)
@@ -137,23 +152,18 @@ void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const i
   }
 }
 
-isodiamond::CellRange ShareOf(std::int64_t cells, const int piece[2])
-{
-  const int number = std::clamp(piece[0], 0, piece[1]);
-  return { cells * number / piece[1], cells * std::min(number + 1, piece[1]) / piece[1] };
-}
-
 void KeepShare(const Share& share, Mesh& mesh)
 {
-  mesh.WholeSize = { mesh.Points->GetNumberOfPoints(), mesh.Cells->GetNumberOfCells() };
+  mesh.CountedSize = { mesh.Points->GetNumberOfPoints(), mesh.Cells->GetNumberOfCells() };
   if (share.Piece[1] == 1 && !share.FirstIds)
   {
     return;
   }
-  const isodiamond::CellRange range = ShareOf(mesh.Cells->GetNumberOfCells(), share.Piece.data());
+  const isodiamond::DealtCells dealt = Deal(share.OfMesh(), mesh.Cells->GetNumberOfCells());
+  const isodiamond::CellRange& range = dealt.Own;
   const vtkIdType pointCount = mesh.Points->GetNumberOfPoints();
   const Ghosts ghosts =
-    share.HasGhosts() ? FindGhosts(CellsOf(mesh), range, share.GhostLevels) : Ghosts{};
+    share.HasGhosts() ? FindGhosts(CellsOf(mesh), { dealt }, share.GhostLevels) : Ghosts{};
   std::vector<vtkIdType> points(pointCount);
   std::iota(points.begin(), points.end(), vtkIdType{ 0 });
   if (share.Piece[1] > 1)
@@ -168,14 +178,15 @@ void KeepShare(const Share& share, Mesh& mesh)
     cells.insert(cells.end(), ghosts.Cells.begin(), ghosts.Cells.end());
     KeepTuples(mesh.CellData, cells);
   }
-  AddOrigins(share, points, range, ghosts, mesh);
+  AddOrigins(share, points, { range }, ghosts, mesh);
 }
 
 void AddOrigins(const Share& share, const std::vector<vtkIdType>& points,
-  const isodiamond::CellRange& own, const Ghosts& ghosts, Mesh& mesh)
+  const std::vector<isodiamond::CellRange>& own, const Ghosts& ghosts, Mesh& mesh)
 {
   const auto pointCount = static_cast<vtkIdType>(points.size());
-  const vtkIdType cellCount = own.Count() + static_cast<vtkIdType>(ghosts.Cells.size());
+  const auto ownCount = static_cast<vtkIdType>(isodiamond::TotalOf(own));
+  const vtkIdType cellCount = ownCount + static_cast<vtkIdType>(ghosts.Cells.size());
   if (share.FirstIds)
   {
     const auto [firstPoint, firstCell] = *share.FirstIds;
@@ -184,9 +195,13 @@ void AddOrigins(const Share& share, const std::vector<vtkIdType>& points,
       [first = firstPoint](vtkIdType id) { return first + id; });
     mesh.PointData->SetGlobalIds(pointIds);
     const auto cellIds = NewArray<vtkIdTypeArray>("GlobalCellIds", cellCount);
-    vtkIdType* const ids = cellIds->GetPointer(0);
-    std::iota(ids, ids + own.Count(), firstCell + own.First);
-    std::transform(ghosts.Cells.begin(), ghosts.Cells.end(), ids + own.Count(),
+    vtkIdType* ids = cellIds->GetPointer(0);
+    for (const isodiamond::CellRange& cells : own)
+    {
+      std::iota(ids, ids + cells.Count(), firstCell + cells.First);
+      ids += cells.Count();
+    }
+    std::transform(ghosts.Cells.begin(), ghosts.Cells.end(), ids,
       [first = firstCell](vtkIdType id) { return first + id; });
     mesh.CellData->SetGlobalIds(cellIds);
   }
@@ -200,8 +215,8 @@ void AddOrigins(const Share& share, const std::vector<vtkIdType>& points,
     mesh.PointData->AddArray(pointMarks);
     const auto cellMarks = NewArray<vtkUnsignedCharArray>(name, cellCount);
     unsigned char* const marks = cellMarks->GetPointer(0);
-    std::fill_n(marks, own.Count(), 0);
-    std::fill(marks + own.Count(), marks + cellCount,
+    std::fill_n(marks, ownCount, 0);
+    std::fill(marks + ownCount, marks + cellCount,
       static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL));
     mesh.CellData->AddArray(cellMarks);
   }

@@ -36,6 +36,9 @@ struct Share
   std::optional<std::array<vtkIdType, 2>> FirstIds;
 
   bool HasGhosts() const { return this->GhostLevels > 0 && this->Piece[1] > 1; }
+
+  /** For an extraction. What has ghosts or ids of all needs all cells to be counted. */
+  isodiamond::MeshShare OfMesh() const;
 };
 
 /** Asks for the whole input: a hierarchy of a part of a volume is another hierarchy, and of a part
@@ -60,15 +63,10 @@ void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piec
  */
 void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int piece[2]);
 
-/** The cells of a share: those from cells * piece / pieces until the same of the next piece. Shares
- *  differ by at most one cell; where there are more of them than cells, some have none.
- *  @param cells their number in the whole mesh @param piece its number, and number of pieces */
-isodiamond::CellRange ShareOf(std::int64_t cells, const int piece[2]);
-
 /**
- * Leaves a share of a mesh: its cells, and the points that these use, both in the mesh's order,
- * with all their data; then ghosts. All shares together have each cell once; points between two are
- * in both, the same to the bit.
+ * Leaves a share of a mesh: of its n cells those from n p / N until n (p + 1) / N for piece p of N,
+ * and the points that these use, both in the mesh's order, with all their data; then ghosts. All
+ * shares together have each cell once; points between two are in both, the same to the bit.
  *
  * @throws std::bad_alloc if there is no memory for a copy
  */
@@ -82,7 +80,7 @@ void KeepShare(const Share& share, Mesh& mesh);
  * @param own cells; ghosts follow
  */
 void AddOrigins(const Share& share, const std::vector<vtkIdType>& points,
-  const isodiamond::CellRange& own, const Ghosts& ghosts, Mesh& mesh);
+  const std::vector<isodiamond::CellRange>& own, const Ghosts& ghosts, Mesh& mesh);
 
 }
 

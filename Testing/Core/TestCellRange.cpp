@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranges of a mesh's cells: those cells of the whole mesh, and the points that they use, whatever
-// the range.
+// Ranges of a mesh's cells, and shares of it: those cells of the whole mesh, and the points that
+// they use, whatever the range.
 #include "Mesh/IntervalExtraction.h"
 #include "Mesh/SurfaceExtraction.h"
 #include "RandomTestTools.h"
@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <type_traits>
 
 using namespace isodiamond;
 
@@ -24,13 +26,21 @@ struct Range
 };
 
 /** Some cells, picked from the whole mesh by hand. */
-Range Picked(const Range& whole, const CellRange& cells)
+Range Picked(const Range& whole, const std::vector<CellRange>& ranges)
 {
   Range range;
-  std::map<std::int32_t, std::int32_t> newIds; // in the order of the whole
-  for (std::int64_t i = cells.First; i < cells.Last; ++i)
+  for (const CellRange& cells : ranges)
   {
-    for (const std::int32_t id : whole.Cells[i])
+    for (std::int64_t i = cells.First; i < cells.Last; ++i)
+    {
+      range.Cells.push_back(whole.Cells[i]);
+      range.Levels.push_back(whole.Levels[i]);
+    }
+  }
+  std::map<std::int32_t, std::int32_t> newIds; // in the order of the whole
+  for (const std::vector<std::int32_t>& cell : range.Cells)
+  {
+    for (const std::int32_t id : cell)
     {
       newIds[id] = 0;
     }
@@ -40,14 +50,12 @@ Range Picked(const Range& whole, const CellRange& cells)
     newId = static_cast<std::int32_t>(range.Points.size());
     range.Points.push_back(whole.Points[id]);
   }
-  for (std::int64_t i = cells.First; i < cells.Last; ++i)
+  for (std::vector<std::int32_t>& cell : range.Cells)
   {
-    range.Cells.push_back(whole.Cells[i]);
-    for (std::int32_t& id : range.Cells.back())
+    for (std::int32_t& id : cell)
     {
       id = newIds.at(id);
     }
-    range.Levels.push_back(whole.Levels[i]);
   }
   return range;
 }
@@ -76,42 +84,104 @@ void ReadPoints(const Extraction& extraction, Range& range)
     });
 }
 
-/** @param cells null for all of them, as they are without a range
- *  @param write (cells, ids, levels) */
-template <int Size, typename Extraction, typename Write>
-Range Written(
-  Extraction& extraction, const CellRange& all, const CellRange* cells, const Write& write)
+/** What is written of a mesh. */
+struct Wanted
 {
-  const CellRange& written = cells != nullptr ? *cells : all;
+  MeshShare Share;
+  std::optional<CellRange> Cells; ///< of all that are counted; else those of the share
+  bool AreAllPointsKept = false;
+};
+
+/** @param write (cells, ids, levels) */
+template <int Size, typename Extraction, typename Write>
+Range Written(Extraction& extraction, const Wanted& wanted, const Write& write)
+{
+  const std::vector<CellRange> cells =
+    wanted.Cells ? std::vector<CellRange>{ *wanted.Cells } : OwnCells(extraction.Dealt());
   Range range;
-  std::vector<std::int32_t> ids(Size * written.Count());
-  range.Levels.resize(written.Count());
-  write(written, ids.data(), range.Levels.data());
-  if (cells != nullptr)
+  const std::int64_t count = TotalOf(cells);
+  std::vector<std::int32_t> ids(Size * count);
+  range.Levels.resize(count);
+  std::int64_t written = 0;
+  for (const CellRange& some : cells)
   {
-    extraction.KeepPointsOf(ids.data(), Size * written.Count());
+    write(some, ids.data() + Size * written, range.Levels.data() + written);
+    written += some.Count();
+  }
+  if (!wanted.AreAllPointsKept)
+  {
+    extraction.KeepPointsOf(ids.data(), Size * count);
   }
   range.Cells = CellsOf(ids, Size);
   ReadPoints(extraction, range);
   return range;
 }
 
-Range WrittenSurface(
-  const RefinedSet& refined, const CellRange* cells, const ParallelFor& parallelFor)
+/** @param use (extraction, corners of a cell, write) */
+template <typename Use>
+auto WithExtraction(
+  const RefinedSet& refined, const MeshShare& share, const ParallelFor& parallelFor, const Use& use)
 {
-  SurfaceExtraction extraction(refined, parallelFor);
-  return Written<3>(extraction, { 0, extraction.TriangleCount() }, cells,
+  if (refined.Hierarchy().Region().IsVolume())
+  {
+    IntervalExtraction extraction(refined, parallelFor, share);
+    return use(extraction, std::integral_constant<int, 4>{},
+      [&](const CellRange& range, std::int32_t* ids, std::int8_t* levels)
+      { extraction.WriteTetrahedra(range, false, ids, levels); });
+  }
+  SurfaceExtraction extraction(refined, parallelFor, share);
+  return use(extraction, std::integral_constant<int, 3>{},
     [&](const CellRange& range, std::int32_t* ids, std::int8_t* levels)
     { extraction.WriteTriangles(range, false, ids, levels); });
 }
 
-Range WrittenVolume(
-  const RefinedSet& refined, const CellRange* cells, const ParallelFor& parallelFor)
+Range Written(const RefinedSet& refined, const Wanted& wanted, const ParallelFor& parallelFor)
 {
-  IntervalExtraction extraction(refined, parallelFor);
-  return Written<4>(extraction, { 0, extraction.TetrahedronCount() }, cells,
-    [&](const CellRange& range, std::int32_t* ids, std::int8_t* levels)
-    { extraction.WriteTetrahedra(range, false, ids, levels); });
+  return WithExtraction(refined, wanted.Share, parallelFor,
+    [&](auto& extraction, auto size, const auto& write)
+    { return Written<size>(extraction, wanted, write); });
+}
+
+/** The cells of a share, as all are counted. */
+std::vector<CellRange> OwnCellsOfAll(
+  const RefinedSet& refined, MeshShare share, const ParallelFor& parallelFor)
+{
+  share.WithIdsOfAll = true;
+  return WithExtraction(refined, share, parallelFor,
+    [](auto& extraction, auto, const auto&) { return OwnCells(extraction.Dealt()); });
+}
+
+void ExpectPicked(const Range& range, const Range& whole, const std::vector<CellRange>& cells)
+{
+  const Range expected = Picked(whole, cells);
+  ASSERT_EQ(range.Cells, expected.Cells);
+  ASSERT_EQ(range.Points, expected.Points);
+  ASSERT_EQ(range.Levels, expected.Levels);
+}
+
+/** Each cell is in one share, and shares are the same whether all cells are counted or not. */
+void ExpectShares(
+  const RefinedSet& refined, const Range& whole, int count, const ParallelFor& parallelFor)
+{
+  std::vector<int> owners(whole.Cells.size());
+  for (int number = 0; number <= count; ++number)
+  {
+    const MeshShare share{ number, count, false };
+    const std::vector<CellRange> own = OwnCellsOfAll(refined, share, parallelFor);
+    for (const CellRange& cells : own)
+    {
+      ASSERT_LE(cells.Last, static_cast<std::int64_t>(owners.size()));
+      std::for_each(
+        owners.begin() + cells.First, owners.begin() + cells.Last, [](int& owner) { ++owner; });
+    }
+    for (const bool withIdsOfAll : { false, true })
+    {
+      SCOPED_TRACE(testing::Message() << number << " of " << count << ' ' << withIdsOfAll);
+      const Wanted wanted{ { number, count, withIdsOfAll }, {}, false };
+      ASSERT_NO_FATAL_FAILURE(ExpectPicked(Written(refined, wanted, parallelFor), whole, own));
+    }
+  }
+  ASSERT_EQ(owners, std::vector<int>(owners.size(), 1));
 }
 
 void Check(std::uint32_t seed)
@@ -127,23 +197,16 @@ void Check(std::uint32_t seed)
   for (const Query& query : { Query{}, test::RandomQuery(random, *built.Hierarchy, options.World) })
   {
     const RefinedSet refined(*built.Hierarchy, query, SerialFor);
-    const auto written = [&](const CellRange* cells, const ParallelFor& parallelFor)
-    {
-      return region.IsVolume() ? WrittenVolume(refined, cells, parallelFor)
-                               : WrittenSurface(refined, cells, parallelFor);
-    };
-    const Range whole = written(nullptr, SerialFor);
+    const Range whole = Written(refined, { {}, {}, true }, SerialFor);
     const int count = static_cast<int>(whole.Cells.size());
     for (int i = 0; i < 4; ++i)
     {
       CellRange cells = { test::Pick(random, count + 1), test::Pick(random, count + 1) };
       cells = { std::min(cells.First, cells.Last), std::max(cells.First, cells.Last) };
-      const Range range = written(&cells, threads);
-      const Range expected = Picked(whole, cells);
-      ASSERT_EQ(range.Cells, expected.Cells) << cells.First << " to " << cells.Last;
-      ASSERT_EQ(range.Points, expected.Points) << cells.First << " to " << cells.Last;
-      ASSERT_EQ(range.Levels, expected.Levels) << cells.First << " to " << cells.Last;
+      ASSERT_NO_FATAL_FAILURE(
+        ExpectPicked(Written(refined, { {}, cells, false }, threads), whole, { cells }));
     }
+    ASSERT_NO_FATAL_FAILURE(ExpectShares(refined, whole, 1 + test::Pick(random, 9), threads));
   }
 }
 

@@ -112,7 +112,7 @@ class LeafReader
 public:
   LeafReader(const ExtractionPasses& passes, std::int64_t brick)
     : Hierarchy(passes.Hierarchy())
-    , Window(passes, brick, Grid::MaximumDepth)
+    , Window(passes, brick)
     , Places(PointsByAge())
   {
   }

@@ -1,27 +1,128 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/ExtractionPasses.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
 namespace isodiamond
 {
 
-ExtractionPasses::ExtractionPasses(const RefinedSet& refined, const ParallelFor& parallelFor)
+std::vector<CellRange> OwnCells(const std::vector<DealtCells>& dealt)
+{
+  std::vector<CellRange> ranges;
+  for (const DealtCells& cells : dealt)
+  {
+    if (!ranges.empty() && ranges.back().Last == cells.Own.First)
+    {
+      ranges.back().Last = cells.Own.Last;
+    }
+    else if (cells.Own.Count() > 0)
+    {
+      ranges.push_back(cells.Own);
+    }
+  }
+  return ranges;
+}
+
+/** Bricks of a level, from one layer in z to another, as numbers among all. */
+ExtractionPasses::BrickRange ExtractionPasses::BricksBetween(
+  const BrickLevel& level, int first, int last)
+{
+  const std::int64_t layer = std::int64_t{ 1 } * level.Box.Count[0] * level.Box.Count[1];
+  const auto numberOf = [&](std::int64_t z)
+  {
+    return level.FirstNumber +
+      (std::partition_point(level.Bricks.begin(), level.Bricks.end(),
+         [&](const Brick& brick) { return brick.BoxIndex < layer * z; }) -
+        level.Bricks.begin());
+  };
+  return { numberOf(first), numberOf(last + 1) };
+}
+
+ExtractionPasses::ExtractionPasses(const RefinedSet& refined, const MeshShare& share,
+  int maximumStep, const ParallelFor& parallelFor)
   : Set(refined)
   , Parallel(parallelFor)
-  , Bricks(AllBricks(refined.Diamonds()))
-  , First(this->Bricks.size() + 1)
   , IsFinest(refined.IsFull() && !refined.Hierarchy().Region().IsVolume())
+  , Step(IsFinest ? 0 : maximumStep)
+  , Bricks(AllBricks(refined.Diamonds()))
+  , All(BricksOf({}))
+  , Own(BricksOf(share))
+  , Around(BricksAround(share.WithIdsOfAll ? All : Own))
+  , First(this->Bricks.size() + 1)
 {
   if (!this->IsFinest)
   {
     this->Slots = LargeArray<Slot>(refined.Diamonds().Size());
   }
-  else if (const std::vector<Brick>& finest = refined.Diamonds().Level(0).Bricks; !finest.empty())
+  else if (const BrickRange& finest = this->Around[0]; finest.First < finest.Last)
   {
-    this->FirstFinest = this->Hierarchy().FirstIsovertexOf(finest.front().First);
+    this->FirstFinest =
+      this->Hierarchy().FirstIsovertexOf(this->BrickAt(finest.First).StoredBrick().First);
   }
+}
+
+std::vector<ExtractionPasses::BrickRange> ExtractionPasses::BricksOf(const MeshShare& share) const
+{
+  const DiamondSet& diamonds = this->Set.Diamonds();
+  std::vector<BrickRange> bricks(diamonds.ScaleCount());
+  for (int scale = 0; scale < (this->IsFinest ? 1 : diamonds.ScaleCount()); ++scale)
+  {
+    const BrickLevel& level = diamonds.Level(scale);
+    if (level.Bricks.empty())
+    {
+      continue;
+    }
+    const std::int64_t begin = level.Bricks.front().First;
+    const std::int64_t size = level.Bricks.back().First + level.Bricks.back().Size() - begin;
+    const auto firstBrick = [&](int number)
+    {
+      const std::int64_t rank = begin + size * number / share.Count;
+      return level.FirstNumber +
+        (std::partition_point(level.Bricks.begin(), level.Bricks.end(),
+           [&](const Brick& brick) { return brick.First < rank; }) -
+          level.Bricks.begin());
+    };
+    bricks[scale] = { firstBrick(share.Number), firstBrick(share.Number + 1) };
+  }
+  return bricks;
+}
+
+std::vector<ExtractionPasses::BrickRange> ExtractionPasses::BricksAround(
+  const std::vector<BrickRange>& bricks) const
+{
+  const DiamondSet& diamonds = this->Set.Diamonds();
+  std::vector<BrickRange> around(bricks.size());
+  for (int scale = 0; scale < diamonds.ScaleCount(); ++scale)
+  {
+    if (bricks[scale].First == bricks[scale].Last)
+    {
+      continue;
+    }
+    // As far as the windows of vertices reach from those that have any.
+    const int from = this->BrickAt(bricks[scale].First).Origin()[2] - 1;
+    const int to = this->BrickAt(bricks[scale].Last - 1).Origin()[2] + 8;
+    for (int step = 0; step <= std::min(this->Step, diamonds.ScaleCount() - 1 - scale); ++step)
+    {
+      around[scale + step].Include(
+        BricksBetween(diamonds.Level(scale + step), (from >> step) >> 3, (to >> step) >> 3));
+    }
+  }
+  return around;
+}
+
+std::vector<DealtCells> ExtractionPasses::Dealt() const
+{
+  const auto cellsOf = [&](const BrickRange& bricks) {
+    return CellRange{ this->First[bricks.First].Cells, this->First[bricks.Last].Cells };
+  };
+  std::vector<DealtCells> dealt;
+  for (std::size_t scale = this->All.size(); scale-- > 0;)
+  {
+    dealt.push_back({ cellsOf(this->All[scale]), cellsOf(this->Own[scale]) });
+  }
+  return dealt;
 }
 
 std::int64_t ExtractionPasses::CountPoints(const RefinedBrick& brick)

@@ -6,7 +6,9 @@
 #include "Mesh/CurrentMesh.h"
 #include "Mesh/KeptPoints.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -56,6 +58,37 @@ struct CellRange
   std::int64_t Count() const { return this->Last - this->First; }
 };
 
+/** Cells of a mesh that are dealt out to shares one after the other. */
+struct DealtCells
+{
+  CellRange All;
+  CellRange Own; ///< of a share: shares before have those before, shares after those after
+};
+
+/** The number of cells in ranges. */
+inline std::int64_t TotalOf(const std::vector<CellRange>& ranges)
+{
+  return std::accumulate(ranges.begin(), ranges.end(), std::int64_t{ 0 },
+    [](std::int64_t sum, const CellRange& cells) { return sum + cells.Count(); });
+}
+
+/** A share's cells, those that follow each other as one range. */
+std::vector<CellRange> OwnCells(const std::vector<DealtCells>& dealt);
+
+/**
+ * A share of a mesh: of each scale the cells of some bricks that follow each other. Shares 0 to
+ * Count - 1 together have each cell once. As bricks of a scale follow each other in z, a share is
+ * about a slab. All have as many refined diamonds of a scale, but for a brick's, which is known
+ * without counting; so, where there are many bricks for each, about as many cells.
+ */
+struct MeshShare
+{
+  int Number = 0; ///< Count is none
+  int Count = 1;
+  /** Whether cells and points of the others are counted, too: ids are those of the whole mesh. */
+  bool WithIdsOfAll = false;
+};
+
 /**
  * What all extractions do: count points and cells in every brick, sum up, write in every brick.
  *
@@ -65,8 +98,9 @@ struct CellRange
  * those of its children that are leaves; writing asks no more what is refined. Of a surface of full
  * resolution the hierarchy tells both.
  *
- * Of some cells only, those are written, and then the points that they use: KeepPointsOf() has ids
- * and points of the share alone.
+ * Of a share, its bricks' cells are counted, and the points of the layers of bricks in which
+ * vertices of theirs can be. Of some cells only, those are written, and then the points that they
+ * use: KeepPointsOf() has ids and points of these alone.
  */
 class ExtractionPasses
 {
@@ -81,20 +115,28 @@ public:
   /**
    * Counts. The refined set must outlive the passes.
    *
+   * @param maximumStep how much coarser than a leaf's parent the diamonds can be whose points its
+   *        cells have
    * @param cellsOf (leafParent) -> the number of cells in a diamond's leaves
    * @throws std::length_error beyond 2^32 - 1 points
    */
   template <typename CellsOf>
-  ExtractionPasses(const RefinedSet& refined, const ParallelFor& parallelFor, CellsOf&& cellsOf)
-    : ExtractionPasses(refined, parallelFor)
+  ExtractionPasses(const RefinedSet& refined, const MeshShare& share, int maximumStep,
+    const ParallelFor& parallelFor, CellsOf&& cellsOf)
+    : ExtractionPasses(refined, share, maximumStep, parallelFor)
   {
+    const std::vector<BrickRange>& counted = share.WithIdsOfAll ? this->All : this->Own;
     this->ForEachBrick(
       [&](std::int64_t brick)
       {
-        if (!this->IsIdle(brick))
+        const int scale = this->Bricks[brick].Scale;
+        Counts& counts = this->First[brick + 1];
+        if (this->Around[scale].Contains(brick))
         {
-          Counts& counts = this->First[brick + 1];
           counts.Points = this->CountPoints(this->BrickAt(brick));
+        }
+        if (counted[scale].Contains(brick))
+        {
           this->ForEachLeafParent(
             brick, [&](const LeafParent& parent) { counts.Cells += cellsOf(parent); });
         }
@@ -105,10 +147,16 @@ public:
   const RefinedSet& Refined() const { return this->Set; }
   const IsodiamondHierarchy& Hierarchy() const { return this->Set.Hierarchy(); }
 
-  /** Points and cells of all bricks. */
+  /** How much coarser diamonds can be whose points a brick's cells have. */
+  int MaximumStep() const { return this->Step; }
+
+  /** Points and cells of all bricks that were counted. */
   const Counts& Total() const { return this->First.back(); }
 
   CellRange AllCells() const { return { 0, this->Total().Cells }; }
+
+  /** How they are dealt out, scale by scale, from coarse to fine. */
+  std::vector<DealtCells> Dealt() const;
 
   /** Leaves the points that some cells use, whose ids become those among these. */
   template <typename Id>
@@ -230,7 +278,34 @@ private:
     std::uint8_t LeafChildren;
   };
 
-  ExtractionPasses(const RefinedSet& refined, const ParallelFor& parallelFor);
+  /** Bricks, or bricks of a level, that follow each other. */
+  struct BrickRange
+  {
+    std::int64_t First = 0;
+    std::int64_t Last = 0; ///< not among them
+
+    bool Contains(std::int64_t brick) const { return this->First <= brick && brick < this->Last; }
+
+    /** Adds others, and what is between. */
+    void Include(const BrickRange& others)
+    {
+      const bool isEmpty = this->First == this->Last;
+      this->First = isEmpty ? others.First : std::min(this->First, others.First);
+      this->Last = isEmpty ? others.Last : std::max(this->Last, others.Last);
+    }
+  };
+
+  ExtractionPasses(const RefinedSet& refined, const MeshShare& share, int maximumStep,
+    const ParallelFor& parallelFor);
+
+  /** A share's bricks of each scale that has anything to do with the mesh. */
+  std::vector<BrickRange> BricksOf(const MeshShare& share) const;
+
+  /** Bricks of a level, from one layer in z to another. */
+  static BrickRange BricksBetween(const BrickLevel& level, int first, int last);
+
+  /** By scale: whole layers of bricks that have all points of some bricks' cells. */
+  std::vector<BrickRange> BricksAround(const std::vector<BrickRange>& bricks) const;
 
   /** Calls body(brick) for every brick, in parallel. */
   template <typename Body>
@@ -239,9 +314,6 @@ private:
     ForEachIndex(this->Parallel, this->Bricks.size(), 16, [&](std::int64_t brick) { body(brick); });
   }
 
-  /** Whether a brick has nothing to do with the mesh. */
-  bool IsIdle(std::int64_t brick) const { return this->IsFinest && this->Bricks[brick].Scale > 0; }
-
   /** The number of a brick's points; fills its slots, if there are any. */
   std::int64_t CountPoints(const RefinedBrick& brick);
 
@@ -249,12 +321,16 @@ private:
 
   const RefinedSet& Set;
   ParallelFor Parallel;
-  std::vector<BrickPlace> Bricks;
-  std::vector<Counts> First; ///< by brick, and the total
   /** Whether all that carries something is of scale 0: an interval volume has its inside at all. */
   bool IsFinest;
-  std::int64_t FirstFinest = 0; ///< if it is, the number of isovertices of other scales
-  LargeArray<Slot> Slots;       ///< if it is not, by rank among the refined diamonds
+  int Step;
+  std::vector<BrickPlace> Bricks;
+  std::vector<BrickRange> All;    ///< by scale
+  std::vector<BrickRange> Own;    ///< of the share, by scale
+  std::vector<BrickRange> Around; ///< whose points are counted, by scale
+  std::vector<Counts> First;      ///< by brick, and the total
+  std::int64_t FirstFinest = 0;   ///< if all is of scale 0: isovertices before those counted
+  LargeArray<Slot> Slots;         ///< if it is not: by rank among the refined diamonds
   std::optional<KeptPoints> Kept;
 };
 

@@ -150,8 +150,9 @@ int CountTetrahedra(const IsodiamondHierarchy& hierarchy, const LeafParent& pare
   return tetrahedra;
 }
 
-IntervalExtraction::IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
-  : MeshExtraction({ refined, parallelFor,
+IntervalExtraction::IntervalExtraction(
+  const RefinedSet& refined, const ParallelFor& parallelFor, const MeshShare& share)
+  : MeshExtraction({ refined, share, Grid::MaximumDepth, parallelFor,
       [&](const LeafParent& parent) { return CountTetrahedra(refined.Hierarchy(), parent); } })
 {
 }
@@ -188,7 +189,7 @@ void IntervalExtraction::WriteTetrahedra(
   WriteCellsOf<4>(this->Passes, range, connectivity, levels,
     [&](std::int64_t brick, Id* ids, std::int8_t* levelsOfIds)
     {
-      const VertexWindow window(this->Passes, brick, Grid::MaximumDepth);
+      const VertexWindow window(this->Passes, brick);
       TetrahedronWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored, ids, levelsOfIds);
       this->Passes.ForEachLeafParent(
         brick, [&](const LeafParent& parent) { writer.Write(parent); });

@@ -25,7 +25,8 @@ class IntervalExtraction : public MeshExtraction
 public:
   /** The refined set must outlive the extraction. @throws std::length_error beyond 2^32 - 1
    *  points. */
-  IntervalExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
+  IntervalExtraction(
+    const RefinedSet& refined, const ParallelFor& parallelFor, const MeshShare& share = {});
 
   std::int64_t TetrahedronCount() const { return this->Passes.Total().Cells; }
 

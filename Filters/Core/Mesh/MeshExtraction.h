@@ -19,6 +19,10 @@ class MeshExtraction
 public:
   std::int64_t PointCount() const { return this->Passes.PointCount(); }
 
+  /** How the cells that were counted are dealt out to shares: ranges of cells are among these, and
+   *  all are the share's own if only those were counted. */
+  std::vector<DealtCells> Dealt() const { return this->Passes.Dealt(); }
+
   /** Writes 3 coordinates a point; float or double. */
   template <typename Coordinate>
   void WritePoints(const AffineMap& world, Coordinate* points) const
@@ -45,7 +49,7 @@ public:
     this->Passes.KeepPointsOf(ids, size);
   }
 
-  /** The ids in the whole mesh of the points that there are. */
+  /** The ids of the points that there are among all that were counted. */
   template <typename Id>
   std::vector<Id> PointIds() const
   {

@@ -99,8 +99,9 @@ int CountTriangles(const IsodiamondHierarchy& hierarchy, const LeafParent& paren
   return PopCount(TrianglesOf(parent, CrossedVertices(hierarchy, parent)));
 }
 
-SurfaceExtraction::SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor)
-  : MeshExtraction({ refined, parallelFor,
+SurfaceExtraction::SurfaceExtraction(
+  const RefinedSet& refined, const ParallelFor& parallelFor, const MeshShare& share)
+  : MeshExtraction({ refined, share, MaximumOwnerStep, parallelFor,
       [&](const LeafParent& parent) { return CountTriangles(refined.Hierarchy(), parent); } })
 {
 }
@@ -112,7 +113,7 @@ void SurfaceExtraction::WriteTriangles(
   WriteCellsOf<3>(this->Passes, range, connectivity, levels,
     [&](std::int64_t brick, Id* ids, std::int8_t* levelsOfIds)
     {
-      const VertexWindow window(this->Passes, brick, MaximumOwnerStep);
+      const VertexWindow window(this->Passes, brick);
       TriangleWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored, ids, levelsOfIds);
       this->Passes.ForEachLeafParent(
         brick, [&](const LeafParent& parent) { writer.Write(parent); });

@@ -23,7 +23,8 @@ class SurfaceExtraction : public MeshExtraction
 public:
   /** The refined set must outlive the extraction. @throws std::length_error beyond 2^32 - 1
    *  points. */
-  SurfaceExtraction(const RefinedSet& refined, const ParallelFor& parallelFor);
+  SurfaceExtraction(
+    const RefinedSet& refined, const ParallelFor& parallelFor, const MeshShare& share = {});
 
   std::int64_t TriangleCount() const { return this->Passes.Total().Cells; }
 

@@ -5,12 +5,12 @@
 
 namespace isodiamond
 {
-VertexWindow::VertexWindow(const ExtractionPasses& passes, std::int64_t number, int maximumStep)
+VertexWindow::VertexWindow(const ExtractionPasses& passes, std::int64_t number)
 {
   const RefinedBrick brick = passes.BrickAt(number);
   this->First = brick.Origin() + Point{ -1, -1, -1 };
   const int coarsest = passes.Refined().Diamonds().ScaleCount() - 1;
-  for (int step = 0; step <= std::min(maximumStep, coarsest - brick.Scale()); ++step)
+  for (int step = 0; step <= std::min(passes.MaximumStep(), coarsest - brick.Scale()); ++step)
   {
     this->Fill(passes, brick.Scale() + step, step);
   }

@@ -23,8 +23,7 @@ namespace isodiamond
 class VertexWindow
 {
 public:
-  /** @param maximumStep how much coarser diamonds can be that are looked for */
-  VertexWindow(const ExtractionPasses& passes, std::int64_t brick, int maximumStep);
+  VertexWindow(const ExtractionPasses& passes, std::int64_t brick);
 
   /** The points of the diamond at a position of the brick; those of other vertices are at a
    *  Distance() from there. */
