@@ -3,14 +3,15 @@
 // diamonds the largest portion has, and what each process exchanges. They are threads here, so it
 // takes the time of all of them.
 //
-// Usage: IsodiamondPortions [samples on an axis] [period of the gyroid, or 0 for a sphere]
-// [portions ...]
+// Usage: IsodiamondPortions [samples on an axis, or XxYxZ] [period of the gyroid, or 0 for an
+// ellipsoid] [portions ...]
 #include "Build/Classification.h"
 #include "Build/StagedBuild.h"
 #include "Field/PeerPortion.h"
 #include "ThreadPeers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,23 +22,35 @@ using namespace isodiamond;
 namespace
 {
 
-/** A surface that is dense, or that is not. */
-std::vector<float> MakeVolume(int samples, double period)
+/** @param text samples on all axes, or those on each, with an x between */
+std::array<int, 3> DimensionsOf(const char* text)
 {
-  std::vector<float> values;
-  const auto at = [&](int i) { return 2.0 * i / (samples - 1) - 1.0; };
+  std::array<int, 3> dimensions{};
+  const int count = std::sscanf(text, "%dx%dx%d", &dimensions[0], &dimensions[1], &dimensions[2]);
+  return count == 3 ? dimensions : std::array{ dimensions[0], dimensions[0], dimensions[0] };
+}
+
+/** A surface that is dense, or that is not. */
+std::vector<float> MakeVolume(const std::array<int, 3>& dimensions, double period)
+{
   const double angle = period > 0.0 ? 2.0 * std::acos(-1.0) / period : 0.0;
-  for (int z = 0; z < samples; ++z)
+  const auto gyroid = [&](int x, int y, int z)
   {
-    for (int y = 0; y < samples; ++y)
+    return std::sin(angle * x) * std::cos(angle * y) + std::sin(angle * y) * std::cos(angle * z) +
+      std::sin(angle * z) * std::cos(angle * x) + 0.6;
+  };
+  const auto squared = [&](int i, int axis)
+  { return std::pow(2.0 * i / (dimensions[axis] - 1) - 1.0, 2); };
+  std::vector<float> values;
+  for (int z = 0; z < dimensions[2]; ++z)
+  {
+    for (int y = 0; y < dimensions[1]; ++y)
     {
-      for (int x = 0; x < samples; ++x)
+      for (int x = 0; x < dimensions[0]; ++x)
       {
         values.push_back(static_cast<float>(period > 0.0
-            ? std::sin(angle * x) * std::cos(angle * y) +
-              std::sin(angle * y) * std::cos(angle * z) +
-              std::sin(angle * z) * std::cos(angle * x) + 0.6
-            : std::sqrt(at(x) * at(x) + at(y) * at(y) + at(z) * at(z))));
+            ? gyroid(x, y, z)
+            : std::sqrt(squared(x, 0) + squared(y, 1) + squared(z, 2))));
       }
     }
   }
@@ -57,16 +70,15 @@ double LargestPortion(const AnySamples& samples, const Isoregion& region, int po
   return static_cast<double>(largest) / static_cast<double>(all.Size());
 }
 
-void Build(const std::vector<float>& values, int samples, const Isoregion& region,
-  const BuildOptions& options)
+void Build(const std::vector<float>& values, const std::array<int, 3>& dimensions,
+  const Isoregion& region, const BuildOptions& options)
 {
-  const std::array<int, 3> dimensions = { samples, samples, samples };
   const Peers& peers = *options.Together;
   const std::vector<StreamedBuild::Slices> cut = StreamedBuild::Cut(dimensions, peers.Count());
   const StreamedBuild::Slices& own = cut[peers.Rank()];
-  const std::int64_t slice = std::int64_t{ samples } * samples;
+  const std::int64_t slice = std::int64_t{ dimensions[0] } * dimensions[1];
   const SampleSlab slab{ SampleView<float>(values.data() + own.First * slice,
-                           { samples, samples, own.Last + 1 - own.First }),
+                           { dimensions[0], dimensions[1], own.Last + 1 - own.First }),
     own.First };
   StreamedBuild build(dimensions, region, SerialFor, options);
   build.AddSigns(slab, own);
@@ -89,7 +101,7 @@ void Build(const std::vector<float>& values, int samples, const Isoregion& regio
 
 int main(int argc, char** argv)
 {
-  const int samples = argc > 1 ? std::atoi(argv[1]) : 128;
+  const std::array<int, 3> dimensions = DimensionsOf(argc > 1 ? argv[1] : "128");
   const double period = argc > 2 ? std::atof(argv[2]) : 24.0;
   std::vector<int> counts;
   std::transform(argv + std::min(argc, 3), argv + argc, std::back_inserter(counts),
@@ -98,9 +110,9 @@ int main(int argc, char** argv)
   {
     counts = { 1, 2, 4, 8, 16 };
   }
-  const std::vector<float> values = MakeVolume(samples, period);
+  const std::vector<float> values = MakeVolume(dimensions, period);
   const Isoregion region(0.6);
-  const AnySamples all = SampleView<float>(values.data(), { samples, samples, samples });
+  const AnySamples all = SampleView<float>(values.data(), dimensions);
   std::printf("portions | diamonds of the largest, of all | MiB that each exchanges | meetings\n");
   for (const int count : counts)
   {
@@ -112,7 +124,7 @@ int main(int argc, char** argv)
         options.Metric = ErrorMetric::Distance;
         options.Together = &own;
         options.InPortions = true;
-        Build(values, samples, region, options);
+        Build(values, dimensions, region, options);
       });
     const test::ThreadPeers::Traffic& traffic = peers.TrafficOf(0);
     std::printf("%5d | %.3f | %.1f | %lld\n", count, LargestPortion(all, region, count),

@@ -9,12 +9,11 @@ import sys
 
 import numpy
 from paraview.simple import *
-from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 import isodiamonds
-from ParallelTestTools import cells, controller, gathered, lexsorted, rank, ranks, run
+from ParallelTestTools import cells, controller, gathered, lexsorted, own_cells, rank, ranks, run
 
 FOLDER = sys.argv[1]
 EXTENT = [-8, 8, -7, 9, -6, 26]  # 8 slices for each of four processes: they share the volume
@@ -50,14 +49,6 @@ def pieces(proxy):
         iterator.InitTraversal()
         output = iterator.GetCurrentDataObject()
     return gathered(output)
-
-
-def own_cells(mesh):
-    """A process's own: ParaView asks for ghosts behind a reader of files."""
-    marks = mesh.GetCellData().GetArray("vtkGhostType")
-    mesh.GetPointData().RemoveArray("vtkGhostType")
-    rows = cells(mesh)
-    return rows if marks is None else rows[vtk_to_numpy(marks) == 0]
 
 
 def compare(name, proxy, filter):
