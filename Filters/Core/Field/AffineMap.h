@@ -15,13 +15,14 @@ struct AffineMap
 
   std::array<double, 3> operator()(double x, double y, double z) const
   {
-    std::array<double, 3> world{};
-    for (int i = 0; i < 3; ++i)
-    {
-      const std::array<double, 4>& row = this->Rows[i];
-      world[i] = row[0] * x + row[1] * y + row[2] * z + row[3];
-    }
-    return world;
+    return { this->At(0, x, y, z), this->At(1, x, y, z), this->At(2, x, y, z) };
+  }
+
+  /** One coordinate in the world. */
+  double At(int axis, double x, double y, double z) const
+  {
+    const std::array<double, 4>& row = this->Rows[axis];
+    return row[0] * x + row[1] * y + row[2] * z + row[3];
   }
 
   /** Determinant of the linear part. */

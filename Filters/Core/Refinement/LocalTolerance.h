@@ -45,18 +45,27 @@ public:
       most, this->TheQuery.View ? this->TheQuery.View->GreatestIn(this->TheGrid) : 0.0);
   }
 
-  /** At most what is tolerated of any diamond that has its centre in a brick of a scale. */
-  Tolerances LeastIn(int scale, const Point& brickOrigin) const
+  /** What is tolerated of the diamonds that have their centre in a brick of a scale. */
+  struct OfBrick
   {
-    const bool mayTouch =
-      !this->TheQuery.Region || this->TheQuery.Region->MayTouch(scale, brickOrigin);
-    Tolerances least = mayTouch ? this->Inside() : this->Outside();
-    if (this->TheQuery.Region)
+    Tolerances Least;      ///< of any: at most that
+    bool AreEqual = false; ///< whether it is that of all
+  };
+  OfBrick In(int scale, const Point& brickOrigin) const
+  {
+    using Relation = RegionOfInterest::Relation;
+    const Relation relation =
+      this->TheQuery.Region ? this->TheQuery.Region->OfBrick(scale, brickOrigin) : Relation::Within;
+    Tolerances least = relation == Relation::Apart ? this->Outside() : this->Inside();
+    if (relation == Relation::Unclear)
     {
       least.Surface = std::min(least.Surface, this->Outside().Surface); // some may not touch it
     }
-    return this->Seen(
-      least, this->TheQuery.View ? this->TheQuery.View->LeastIn(scale, brickOrigin) : 0.0);
+    if (this->TheQuery.View)
+    {
+      return { this->Seen(least, this->TheQuery.View->LeastIn(scale, brickOrigin)), false };
+    }
+    return { least, relation != Relation::Unclear };
   }
 
   /** What is tolerated of a diamond. */

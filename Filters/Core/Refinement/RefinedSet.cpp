@@ -63,12 +63,14 @@ BrickMask ExceedingIn(const Brick& brick, const Exceeds& exceeds)
   return mask;
 }
 
-/** Of a brick's candidates those that exceed what is tolerated of them, and are no relevant ones.
- */
+/** Of a brick's candidates those that are no relevant ones, and exceed what is tolerated of them.
+ *  @param areSure whether they exceed that wherever they are in the brick */
 BrickMask ExceedingLocally(const IsodiamondHierarchy& hierarchy, const BrickPlace& place,
-  const Brick& brick, const BrickMask& candidates, const LocalTolerance& tolerance)
+  const BrickMask& candidates, const LocalTolerance& tolerance, bool areSure)
 {
-  const Point origin = hierarchy.Diamonds().Level(place.Scale).Box.Origin(brick.BoxIndex);
+  const BrickLevel& level = hierarchy.Diamonds().Level(place.Scale);
+  const Brick& brick = level.Bricks[place.Index];
+  const Point origin = level.Box.Origin(brick.BoxIndex);
   BrickMask mask{};
   for (int z = 0; z < 8; ++z)
   {
@@ -77,7 +79,8 @@ BrickMask ExceedingLocally(const IsodiamondHierarchy& hierarchy, const BrickPlac
       {
         const std::uint32_t rank = brick.Rank(z, bit);
         const bool wanted = hierarchy.KindOf(rank) != Kind::Relevant &&
-          Exceeds(hierarchy, tolerance.At({ place.Scale, PositionOf(origin, z, bit) }))(rank);
+          (areSure ||
+            Exceeds(hierarchy, tolerance.At({ place.Scale, PositionOf(origin, z, bit) }))(rank));
         mask[z] |= static_cast<std::uint64_t>(wanted) << bit;
       });
   }
@@ -147,8 +150,8 @@ DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalToler
       [&](std::int64_t i)
       {
         const Brick& brick = level.Bricks[i];
-        const Exceeds exceedsLeast(
-          hierarchy, tolerance.LeastIn(scale, level.Box.Origin(brick.BoxIndex)));
+        const LocalTolerance::OfBrick own = tolerance.In(scale, level.Box.Origin(brick.BoxIndex));
+        const Exceeds exceedsLeast(hierarchy, own.Least);
         if (exceedsLeast.InBrick(level.FirstNumber + i))
         {
           BrickMask candidates = ExceedingIn(brick, exceedsLeast);
@@ -157,7 +160,7 @@ DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalToler
           {
             candidates[z] &= ~everywhere[z];
           }
-          added[i] = ExceedingLocally(hierarchy, { scale, i }, brick, candidates, tolerance);
+          added[i] = ExceedingLocally(hierarchy, { scale, i }, candidates, tolerance, own.AreEqual);
         }
       });
     for (std::size_t i = 0; i < added.size(); ++i)

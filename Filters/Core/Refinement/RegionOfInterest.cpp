@@ -14,33 +14,26 @@ namespace isodiamond
 namespace
 {
 
-/** The smallest box around lattice points placed in the world. */
-template <typename Points>
-Box BoundsOf(const Points& points, const AffineMap& world)
+/** The smallest box in the world around a box of lattice points. Each coordinate grows or falls
+ * with each index, whose sign tells at which corners it is least and greatest; so it does rounded.
+ */
+Box BoundsOf(const Point& minimum, const Point& maximum, const AffineMap& world)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
-  for (const Point& point : points)
+  Box bounds;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const Vector position = world(point[0], point[1], point[2]);
-    for (int axis = 0; axis < 3; ++axis)
+    const std::array<double, 4>& row = world.Rows[axis];
+    Point least{};
+    Point greatest{};
+    for (int i = 0; i < 3; ++i)
     {
-      bounds.Minimum[axis] = std::min(bounds.Minimum[axis], position[axis]);
-      bounds.Maximum[axis] = std::max(bounds.Maximum[axis], position[axis]);
+      least[i] = row[i] < 0.0 ? maximum[i] : minimum[i];
+      greatest[i] = row[i] < 0.0 ? minimum[i] : maximum[i];
     }
+    bounds.Minimum[axis] = world.At(axis, least[0], least[1], least[2]);
+    bounds.Maximum[axis] = world.At(axis, greatest[0], greatest[1], greatest[2]);
   }
   return bounds;
-}
-
-std::array<Point, 8> CornersOf(const Point& minimum, const Point& maximum)
-{
-  std::array<Point, 8> corners{};
-  for (int i = 0; i < 8; ++i)
-  {
-    corners[i] = { (i & 1) != 0 ? maximum[0] : minimum[0], (i & 2) != 0 ? maximum[1] : minimum[1],
-      (i & 4) != 0 ? maximum[2] : minimum[2] };
-  }
-  return corners;
 }
 
 /** For each side of the box whether a point lies beyond it: what has a side in common with all
@@ -112,7 +105,7 @@ RegionOfInterest::RegionOfInterest(const Box& box, const Grid& grid, const Affin
   }
   // Bounds beyond the base cube, infinite ones too, come to the cube's: no diamond is outside.
   const int last = 1 << grid.Depth();
-  const Box cube = BoundsOf(CornersOf({ 0, 0, 0 }, { last, last, last }), world);
+  const Box cube = BoundsOf({ 0, 0, 0 }, { last, last, last }, world);
   for (int axis = 0; axis < 3; ++axis)
   {
     this->Bounds.Minimum[axis] = std::max(box.Minimum[axis], cube.Minimum[axis]);
@@ -132,7 +125,7 @@ RegionOfInterest::RegionOfInterest(const Box& box, const Grid& grid, const Affin
 RegionOfInterest::Relation RegionOfInterest::Compare(
   const Point& minimum, const Point& maximum) const
 {
-  const Box bounds = BoundsOf(CornersOf(minimum, maximum), this->World);
+  const Box bounds = BoundsOf(minimum, maximum, this->World);
   bool within = true;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -147,10 +140,10 @@ RegionOfInterest::Relation RegionOfInterest::Compare(
   return within ? Relation::Within : Relation::Unclear;
 }
 
-bool RegionOfInterest::MayTouch(int scale, const Point& brickOrigin) const
+RegionOfInterest::Relation RegionOfInterest::OfBrick(int scale, const Point& origin) const
 {
-  return this->Compare((1 << scale) * (brickOrigin + Point{ -1, -1, -1 }),
-           (1 << scale) * (brickOrigin + Point{ 8, 8, 8 })) != Relation::Apart;
+  return this->Compare(
+    (1 << scale) * (origin + Point{ -1, -1, -1 }), (1 << scale) * (origin + Point{ 8, 8, 8 }));
 }
 
 bool RegionOfInterest::Touches(const Place& place) const

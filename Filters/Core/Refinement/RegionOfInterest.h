@@ -40,12 +40,6 @@ public:
    *  @throws std::invalid_argument if a bound is NaN */
   RegionOfInterest(const Box& box, const Grid& grid, const AffineMap& world);
 
-  bool Touches(const Place& place) const;
-
-  /** Whether a diamond can touch the region that has its centre in a brick of a scale. */
-  bool MayTouch(int scale, const Point& brickOrigin) const;
-
-private:
   enum class Relation
   {
     Apart,
@@ -53,6 +47,13 @@ private:
     Unclear
   };
 
+  bool Touches(const Place& place) const;
+
+  /** How all diamonds lie to the region that have their centre in a brick of a scale: none touches
+   *  it, all do, or some may. */
+  Relation OfBrick(int scale, const Point& origin) const;
+
+private:
   /** How a box of lattice points lies to the region. */
   Relation Compare(const Point& minimum, const Point& maximum) const;
   bool TouchesTetrahedron(const std::array<Point, 4>& corners) const;
