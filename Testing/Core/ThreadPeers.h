@@ -85,11 +85,22 @@ private:
       ++traffic.Meetings;
       this->All.Places[this->Number] = values;
       this->All.Meet();
-      std::vector<T> all(values, values + count);
+      // Each combines a part of the values, in its own place: nobody else reads that part.
+      const std::int64_t begin = count * this->Number / this->Count();
+      const std::int64_t end = count * (this->Number + 1) / this->Count();
       for (const void* place : this->All.Places)
       {
         const T* const others = static_cast<const T*>(place);
-        std::transform(all.begin(), all.end(), others, all.begin(), operation);
+        std::transform(others + begin, others + end, values + begin, values + begin, operation);
+      }
+      this->All.Meet();
+      std::vector<T> all(count);
+      for (int part = 0; part < this->Count(); ++part)
+      {
+        const T* const combined = static_cast<const T*>(this->All.Places[part]);
+        std::copy(combined + count * part / this->Count(),
+          combined + count * (part + 1) / this->Count(),
+          all.begin() + count * part / this->Count());
       }
       this->All.Meet();
       std::copy(all.begin(), all.end(), values);
