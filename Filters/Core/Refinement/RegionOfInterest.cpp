@@ -188,6 +188,10 @@ bool RegionOfInterest::TouchesTetrahedron(const std::array<Point, 4>& corners) c
   for (int i = 0; i < 4; ++i)
   {
     points[i] = this->World(corners[i][0], corners[i][1], corners[i][2]);
+    if (SidesBeyond(this->Bounds, points[i]) == 0)
+    {
+      return true; // as most do that touch it
+    }
   }
   const auto isSeparating = [&](const Vector& axis)
   {
