@@ -102,8 +102,13 @@ public:
   void Classify(const BrickBox& box, std::int64_t index, std::vector<ClassifiedBrick>& result) const
   {
     const Point origin = box.Origin(index);
+    const bool wantsInside = this->WantsInside(origin);
+    if (!wantsInside && this->Signs.AreEqualAround(this->Scale, origin))
+    {
+      return;
+    }
     const SignBlock block(this->Signs, this->Scale, origin);
-    if (!block.IsMixed() && !(block.Signs == 1U << InsideSign && this->WantsInside(origin)))
+    if (!block.IsMixed() && !(block.Signs == 1U << InsideSign && wantsInside))
     {
       return;
     }

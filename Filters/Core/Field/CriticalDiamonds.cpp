@@ -124,6 +124,10 @@ DiamondMask CriticalDiamonds(
     const BrickBox& box = result.Box(scale);
     const auto find = [&](std::int64_t index, std::vector<CriticalBrick>& list)
     {
+      if (signs.AreEqualAround(scale, box.Origin(index)))
+      {
+        return;
+      }
       const SignBlock block(signs, scale, box.Origin(index));
       if (block.IsMixed())
       {

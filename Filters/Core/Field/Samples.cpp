@@ -4,6 +4,7 @@
 #include "Field/Peers.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace isodiamond
@@ -15,6 +16,44 @@ template <typename T>
 bool IsFinite(T value)
 {
   return std::is_integral_v<T> || value - value == T{ 0 };
+}
+
+/** The least and the greatest of some values; of NaN nothing. */
+template <typename T>
+struct Ends
+{
+  T Low = std::numeric_limits<T>::max();
+  T High = std::numeric_limits<T>::lowest();
+
+  void Add(T value)
+  {
+    this->Low = value < this->Low ? value : this->Low;
+    this->High = value > this->High ? value : this->High;
+  }
+};
+
+/** Adds values to ends of their own in turn, which do not wait for each other. */
+template <typename T>
+void AddInLanes(const T* values, std::int64_t count, Ends<T>& ends)
+{
+  constexpr int width = 64 / sizeof(T);
+  std::array<T, width> low;
+  std::array<T, width> high;
+  low.fill(ends.Low);
+  high.fill(ends.High);
+  std::int64_t i = 0;
+  for (; i + width <= count; i += width)
+  {
+    for (int lane = 0; lane < width; ++lane)
+    {
+      const T value = values[i + lane];
+      low[lane] = value < low[lane] ? value : low[lane];
+      high[lane] = value > high[lane] ? value : high[lane];
+    }
+  }
+  ends.Low = *std::min_element(low.begin(), low.end());
+  ends.High = *std::max_element(high.begin(), high.end());
+  std::for_each(values + i, values + count, [&](T value) { ends.Add(value); });
 }
 
 }
@@ -119,20 +158,23 @@ void FiniteRangeOfSlabs::Add(const AnySamples& samples)
     [&](const auto& view)
     {
       using T = typename std::decay_t<decltype(view)>::Value;
-      T low = std::numeric_limits<T>::max();
-      T high = std::numeric_limits<T>::lowest();
-      const T* data = view.Pointer();
-      for (std::int64_t i = 0; i < view.Size(); ++i)
+      Ends<T> ends;
+      AddInLanes(view.Pointer(), view.Size(), ends);
+      if (!IsFinite(ends.Low) || !IsFinite(ends.High))
       {
-        if (IsFinite(data[i]))
-        {
-          low = data[i] < low ? data[i] : low;
-          high = data[i] > high ? data[i] : high;
-        }
+        ends = Ends<T>();
+        std::for_each(view.Pointer(), view.Pointer() + view.Size(),
+          [&](T value)
+          {
+            if (IsFinite(value))
+            {
+              ends.Add(value);
+            }
+          });
       }
-      if (low <= high)
+      if (ends.Low <= ends.High)
       {
-        const ValueRange range{ static_cast<double>(low), static_cast<double>(high) };
+        const ValueRange range{ static_cast<double>(ends.Low), static_cast<double>(ends.High) };
         this->Known.Minimum =
           this->IsAny ? std::min(this->Known.Minimum, range.Minimum) : range.Minimum;
         this->Known.Maximum =

@@ -26,17 +26,6 @@ void PackRow(const T* row, int count, const IsAbove& isAbove, std::uint64_t* wor
   }
 }
 
-/** The even bits of a word, packed into its lower half. */
-std::uint64_t EvenBits(std::uint64_t word)
-{
-  word &= 0x5555555555555555ULL;
-  word = (word | (word >> 1)) & 0x3333333333333333ULL;
-  word = (word | (word >> 2)) & 0x0f0f0f0f0f0f0f0fULL;
-  word = (word | (word >> 4)) & 0x00ff00ff00ff00ffULL;
-  word = (word | (word >> 8)) & 0x0000ffff0000ffffULL;
-  return (word | (word >> 16)) & 0x00000000ffffffffULL;
-}
-
 }
 
 SignLattice::SignLattice(const Grid& grid, const AnySamples& samples, const Isoregion& region,
@@ -52,14 +41,11 @@ SignLattice::SignLattice(const Grid& grid, const Isoregion& region)
   , Surfaces(region.SurfaceCount())
   , Levels(grid.Depth() + 1)
 {
-  for (int scale = 0; scale <= grid.Depth(); ++scale)
+  for (int surface = 0; surface < this->Surfaces; ++surface)
   {
-    Level& level = this->Levels[scale];
-    level.Count = grid.SampledPositions(scale);
-    level.Words = (level.Count[0] + 63) / 64;
-    for (int surface = 0; surface < this->Surfaces; ++surface)
+    for (int scale = 0; scale <= grid.Depth(); ++scale)
     {
-      level.Bits[surface].resize(level.Words * level.Count[1] * level.Count[2]);
+      this->Levels[scale][surface] = BitTiles(grid.SampledPositions(scale));
     }
   }
 }
@@ -76,7 +62,7 @@ void SignLattice::Merge(Peers& peers)
 {
   for (int surface = 0; surface < this->Surfaces; ++surface)
   {
-    peers.Or(this->Levels[0].Bits[surface]);
+    this->Levels[0][surface].Or(peers);
   }
 }
 
@@ -84,15 +70,20 @@ void SignLattice::Complete(const ParallelFor& parallelFor, std::int64_t minimumP
 {
   for (int surface = 0; surface < this->Surfaces; ++surface)
   {
+    BitTiles& finest = this->Levels[0][surface];
     if (minimumPieceSize > 1)
     {
-      Level& finest = this->Levels[0];
+      std::vector<std::uint64_t> rows = finest.AllRows();
       this->Removed += RemoveSmallPieces(
-        { finest.Bits[surface].data(), finest.Count, finest.Words }, minimumPieceSize, parallelFor);
+        { rows.data(), finest.Count(), finest.WordCount() }, minimumPieceSize, parallelFor);
+      finest = BitTiles(finest.Count());
+      finest.Set(0, finest.Count()[2], rows, parallelFor);
     }
+    finest.Compress();
     for (std::size_t scale = 1; scale < this->Levels.size(); ++scale)
     {
-      Coarsen(this->Levels[scale - 1], surface, this->Levels[scale]);
+      BitTiles& level = this->Levels[scale][surface];
+      level = this->Levels[scale - 1][surface].Coarser(level.Count());
     }
   }
 }
@@ -100,11 +91,13 @@ void SignLattice::Complete(const ParallelFor& parallelFor, std::int64_t minimumP
 /** The samples' own scale: a threshold. */
 void SignLattice::PackSamples(const SampleSlab& slab, int surface, const ParallelFor& parallelFor)
 {
-  Level& finest = this->Levels[0];
+  BitTiles& finest = this->Levels[0][surface];
+  const std::array<int, 3>& count = finest.Count();
   const double isovalue = this->Region.Isovalue(surface);
   const bool closed = this->Region.IsAbove(surface, isovalue); // its own rule for equal values
-  const std::int64_t rows = std::int64_t{ 1 } * finest.Count[1] * (slab.End() - slab.First);
-  std::uint64_t* const words = finest.Bits[surface].data() + finest.RowIndex(0, slab.First);
+  const int slices = slab.End() - slab.First;
+  const std::int64_t rows = std::int64_t{ 1 } * count[1] * slices;
+  std::vector<std::uint64_t> words(rows * finest.WordCount());
   const auto pack = [&](const auto& view, const auto& isAbove)
   {
     parallelFor(rows, 256,
@@ -112,8 +105,8 @@ void SignLattice::PackSamples(const SampleSlab& slab, int surface, const Paralle
       {
         for (std::int64_t row = begin; row < end; ++row)
         {
-          PackRow(view.Pointer() + row * finest.Count[0], finest.Count[0], isAbove,
-            words + row * finest.Words);
+          PackRow(view.Pointer() + row * count[0], count[0], isAbove,
+            words.data() + row * finest.WordCount());
         }
       });
   };
@@ -130,41 +123,26 @@ void SignLattice::PackSamples(const SampleSlab& slab, int surface, const Paralle
       }
     },
     slab.Samples);
-}
-
-/** Every second bit of every second row of every second slice. */
-void SignLattice::Coarsen(const Level& fine, int surface, Level& level)
-{
-  for (int z = 0; z < level.Count[2]; ++z)
-  {
-    for (int y = 0; y < level.Count[1]; ++y)
-    {
-      const std::uint64_t* from = fine.Bits[surface].data() + fine.RowIndex(2 * y, 2 * z);
-      std::uint64_t* to = level.Bits[surface].data() + level.RowIndex(y, z);
-      for (std::int64_t word = 0; word < fine.Words; ++word)
-      {
-        to[word / 2] |= EvenBits(from[word]) << (32 * (word % 2));
-      }
-    }
-  }
+  finest.Set(slab.First, slices, words, parallelFor);
 }
 
 SignLattice::Row SignLattice::Load(int scale, int x0, int y, int z) const
 {
-  const Level& level = this->Levels[scale];
+  const std::array<int, 3>& count = this->Levels[scale][0].Count();
   Row row;
-  if (y < 0 || z < 0 || y >= level.Count[1] || z >= level.Count[2] || x0 > level.Count[0])
+  if (y < 0 || z < 0 || y >= count[1] || z >= count[2] || x0 > count[0])
   {
     return row;
   }
-  row.Sampled = (1U << std::min(10, level.Count[0] - x0 + 1)) - (x0 == 0 ? 2U : 1U);
+  row.Sampled = (1U << std::min(10, count[0] - x0 + 1)) - (x0 == 0 ? 2U : 1U);
   const std::int64_t word = x0 >> 6; // has the eight; one before or after may lie in another
   const int bit = x0 & 63;
   for (int surface = 0; surface < this->Surfaces; ++surface)
   {
-    const std::uint64_t* const words = level.Bits[surface].data() + level.RowIndex(y, z);
-    const std::uint64_t from = word < level.Words ? words[word] >> bit << 1 : 0; // from x0 on
-    const bool isNext = bit == 56 && word + 1 < level.Words;
+    const BitTiles& bits = this->Levels[scale][surface];
+    const BitTiles::Row words = bits.RowAt(y, z);
+    const std::uint64_t from = word < bits.WordCount() ? words[word] >> bit << 1 : 0; // from x0 on
+    const bool isNext = bit == 56 && word + 1 < bits.WordCount();
     const std::uint64_t after = isNext ? words[word + 1] << 9 : 0;
     const std::uint64_t before = x0 > 0 ? words[(x0 - 1) >> 6] >> ((x0 - 1) & 63) & 1U : 0;
     row.Above[surface] = static_cast<std::uint32_t>(before | from | after) & row.Sampled;

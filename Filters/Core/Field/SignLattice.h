@@ -2,9 +2,11 @@
 #ifndef isodiamond_SignLattice_h
 #define isodiamond_SignLattice_h
 
+#include "Field/BitTiles.h"
 #include "Field/Isoregion.h"
 #include "Field/Peers.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,7 +17,7 @@ namespace isodiamond
  * The signs of all samples, a bit for each surface, for every scale a lattice of its own: bit
  * (x, y, z) of scale s says whether the sample at (x, y, z) << s lies above the surface. It is the
  * one pass over the volume that building from samples needs for classification; all scales
- * together take 1/7 of a byte a sample and surface.
+ * together take 1/7 of a byte a sample and surface, where the surface is: see BitTiles.h.
  *
  * Where small pieces are removed, these are the signs of what is left, and they can be others than
  * the samples'; SmallPieces.h.
@@ -44,15 +46,25 @@ public:
   /** Sign of a sampled position. */
   int Sign(int scale, const Point& position) const
   {
-    const Level& level = this->Levels[scale];
     int sign = 0;
     for (int surface = 0; surface < this->Surfaces; ++surface)
     {
       const std::uint64_t word =
-        level.Bits[surface][level.RowIndex(position[1], position[2]) + (position[0] >> 6)];
+        this->Levels[scale][surface].RowAt(position[1], position[2])[position[0] >> 6];
       sign += static_cast<int>((word >> (position[0] & 63)) & 1U);
     }
     return sign;
+  }
+
+  /** Whether no surface passes between the samples of a brick and of one layer around it, as far as
+   *  that can be told without looking at each. */
+  bool AreEqualAround(int scale, const Point& origin) const
+  {
+    const Point first = origin + Point{ -1, -1, -1 };
+    const Point last = origin + Point{ 8, 8, 8 };
+    const std::array<BitTiles, 2>& level = this->Levels[scale];
+    return level[0].AreEqual(first, last) &&
+      (this->Surfaces == 1 || level[1].AreEqual(first, last));
   }
 
   /**
@@ -70,25 +82,12 @@ public:
   Row Load(int scale, int x0, int y, int z) const;
 
 private:
-  struct Level
-  {
-    std::array<int, 3> Count{};
-    std::int64_t Words = 0;                         ///< words a row
-    std::array<std::vector<std::uint64_t>, 2> Bits; ///< by surface
-
-    std::int64_t RowIndex(int y, int z) const
-    {
-      return (std::int64_t{ z } * this->Count[1] + y) * this->Words;
-    }
-  };
-
   void PackSamples(const SampleSlab& slab, int surface, const ParallelFor& parallelFor);
-  static void Coarsen(const Level& fine, int surface, Level& level);
 
   Isoregion Region;
   int Surfaces = 1;
   std::int64_t Removed = 0;
-  std::vector<Level> Levels;
+  std::vector<std::array<BitTiles, 2>> Levels; ///< by surface
 };
 
 }
