@@ -51,7 +51,7 @@ Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregio
   const ParallelFor& parallelFor, const BuildOptions& options)
 {
   CheckOptions(options);
-  const ErrorCode code(FieldErrorScale(samples));
+  const ErrorCode code(FieldErrorScale(samples, parallelFor));
   const Grid grid = GridOf(samples);
   std::optional<FieldErrors> errors; // takes a pass over the samples, and is not always asked
   if (NeedsFieldErrors(region, options))

@@ -73,8 +73,8 @@ StagedBuild::StagedBuild(const AnySamples& samples, const Isoregion& region,
   const ParallelFor& parallelFor, const BuildOptions& options)
 {
   CheckOptions(options);
-  this->Kept = std::make_unique<State>(
-    GridOf(samples), samples, ErrorCode(FieldErrorScale(samples)).Scale(), parallelFor, options);
+  this->Kept = std::make_unique<State>(GridOf(samples), samples,
+    ErrorCode(FieldErrorScale(samples, parallelFor)).Scale(), parallelFor, options);
   State& kept = *this->Kept;
   kept.Done.emplace(kept.From, region, kept.Options, kept.ErrorScale(), kept.For);
   kept.SetRelevant(kept.Done->PlaceIsovertices(0.2, 0.9));
@@ -224,7 +224,7 @@ void StreamedBuild::AddSigns(const SampleSlab& slab, const Slices& slices)
 {
   this->Current->Own.push_back(OfCentres(this->Kept->TheGrid, slices));
   this->Current->Signs->Add(slab, this->Kept->For);
-  this->Current->Range.Add(slab.Samples);
+  this->Current->Range.Add(slab.Samples, this->Kept->For);
   this->Kept->IsFinite->Add(slab);
   if (this->Current->Coarse)
   {

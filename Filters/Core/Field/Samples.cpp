@@ -32,11 +32,12 @@ struct Ends
   }
 };
 
-/** Adds values to ends of their own in turn, which do not wait for each other. */
+/** The same of values in turn, which do not wait for each other. */
 template <typename T>
-void AddInLanes(const T* values, std::int64_t count, Ends<T>& ends)
+Ends<T> EndsInLanes(const T* values, std::int64_t count)
 {
   constexpr int width = 64 / sizeof(T);
+  Ends<T> ends;
   std::array<T, width> low;
   std::array<T, width> high;
   low.fill(ends.Low);
@@ -54,6 +55,27 @@ void AddInLanes(const T* values, std::int64_t count, Ends<T>& ends)
   ends.Low = *std::min_element(low.begin(), low.end());
   ends.High = *std::max_element(high.begin(), high.end());
   std::for_each(values + i, values + count, [&](T value) { ends.Add(value); });
+  return ends;
+}
+
+/** The least and the greatest of the finite ones among some values. */
+template <typename T>
+Ends<T> FiniteEnds(const T* values, std::int64_t count)
+{
+  Ends<T> ends = EndsInLanes(values, count);
+  if (!IsFinite(ends.Low) || !IsFinite(ends.High))
+  {
+    ends = Ends<T>();
+    std::for_each(values, values + count,
+      [&](T value)
+      {
+        if (IsFinite(value))
+        {
+          ends.Add(value);
+        }
+      });
+  }
+  return ends;
 }
 
 }
@@ -135,10 +157,10 @@ void Finiteness::Merge(Peers& peers)
   }
 }
 
-ValueRange FiniteRange(const AnySamples& samples)
+ValueRange FiniteRange(const AnySamples& samples, const ParallelFor& parallelFor)
 {
   FiniteRangeOfSlabs whole;
-  whole.Add(samples);
+  whole.Add(samples, parallelFor);
   return whole.Range();
 }
 
@@ -152,34 +174,28 @@ void FiniteRangeOfSlabs::Merge(Peers& peers)
   this->Known = { -ends[0], ends[1] };
 }
 
-void FiniteRangeOfSlabs::Add(const AnySamples& samples)
+void FiniteRangeOfSlabs::Add(const AnySamples& samples, const ParallelFor& parallelFor)
 {
   std::visit(
     [&](const auto& view)
     {
       using T = typename std::decay_t<decltype(view)>::Value;
-      Ends<T> ends;
-      AddInLanes(view.Pointer(), view.Size(), ends);
-      if (!IsFinite(ends.Low) || !IsFinite(ends.High))
+      constexpr std::int64_t most = 1 << 18; // at once
+      std::vector<Ends<T>> parts((view.Size() + most - 1) / most);
+      ForEachIndex(parallelFor, parts.size(), 1,
+        [&](std::int64_t i) {
+          parts[i] = FiniteEnds(view.Pointer() + most * i, std::min(most, view.Size() - most * i));
+        });
+      for (const Ends<T>& ends : parts)
       {
-        ends = Ends<T>();
-        std::for_each(view.Pointer(), view.Pointer() + view.Size(),
-          [&](T value)
-          {
-            if (IsFinite(value))
-            {
-              ends.Add(value);
-            }
-          });
-      }
-      if (ends.Low <= ends.High)
-      {
-        const ValueRange range{ static_cast<double>(ends.Low), static_cast<double>(ends.High) };
-        this->Known.Minimum =
-          this->IsAny ? std::min(this->Known.Minimum, range.Minimum) : range.Minimum;
-        this->Known.Maximum =
-          this->IsAny ? std::max(this->Known.Maximum, range.Maximum) : range.Maximum;
-        this->IsAny = true;
+        if (ends.Low <= ends.High)
+        {
+          const auto low = static_cast<double>(ends.Low);
+          const auto high = static_cast<double>(ends.High);
+          this->Known.Minimum = this->IsAny ? std::min(this->Known.Minimum, low) : low;
+          this->Known.Maximum = this->IsAny ? std::max(this->Known.Maximum, high) : high;
+          this->IsAny = true;
+        }
       }
     },
     samples);

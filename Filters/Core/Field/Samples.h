@@ -2,6 +2,7 @@
 #ifndef isodiamond_Samples_h
 #define isodiamond_Samples_h
 
+#include "Field/Parallel.h"
 #include "Lattice/Lattice.h"
 
 #include <cassert>
@@ -143,13 +144,13 @@ struct ValueRange
 };
 
 /** The range of all finite samples. */
-ValueRange FiniteRange(const AnySamples& samples);
+ValueRange FiniteRange(const AnySamples& samples, const ParallelFor& parallelFor = SerialFor);
 
 /** The same of a volume that comes in slabs. */
 class FiniteRangeOfSlabs
 {
 public:
-  void Add(const AnySamples& samples);
+  void Add(const AnySamples& samples, const ParallelFor& parallelFor = SerialFor);
   void Merge(Peers& peers);
   ValueRange Range() const { return this->IsAny ? this->Known : ValueRange{}; }
 

@@ -229,16 +229,16 @@ ScalarHierarchy::WalkResult ScalarHierarchy::Refine(const Isoregion& region,
   return walk.TakeResult();
 }
 
-double FieldErrorScale(const AnySamples& samples)
+double FieldErrorScale(const AnySamples& samples, const ParallelFor& parallelFor)
 {
-  const ValueRange range = FiniteRange(samples);
+  const ValueRange range = FiniteRange(samples, parallelFor);
   return ErrorCode(range.Maximum - range.Minimum).Scale();
 }
 
 ScalarEncoding BuildScalarHierarchy(const AnySamples& samples, const ParallelFor& parallelFor)
 {
   const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));
-  const ErrorCode code(FieldErrorScale(samples));
+  const ErrorCode code(FieldErrorScale(samples, parallelFor));
   const FieldErrors errors(grid, samples, parallelFor);
   ScalarEncoding encoding;
   encoding.ErrorScale = code.Scale();

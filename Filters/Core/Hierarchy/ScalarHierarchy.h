@@ -91,7 +91,7 @@ struct ScalarEncoding
 };
 
 /** The scale of field error codes: the extent of the finite samples. */
-double FieldErrorScale(const AnySamples& samples);
+double FieldErrorScale(const AnySamples& samples, const ParallelFor& parallelFor);
 
 /** Builds an HD: visits every sample once per class and scale. */
 ScalarEncoding BuildScalarHierarchy(const AnySamples& samples, const ParallelFor& parallelFor);
