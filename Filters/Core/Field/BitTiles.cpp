@@ -74,6 +74,11 @@ void BitTiles::Set(int firstSlice, int sliceCount, const std::vector<std::uint64
       const Point at = this->TileAt(first + i);
       states[i] = this->StateOf(tileOf(at), at);
     });
+  const std::size_t most = this->Mixed.size() + std::count(states.begin(), states.end(), 0);
+  if (most > this->Mixed.capacity())
+  {
+    this->Mixed.reserve(std::max(most, this->Mixed.size() + this->Mixed.size() / 4)); // not twice
+  }
   for (std::int64_t i = 0; i < last - first; ++i)
   {
     std::int32_t& found = this->Lookup[first + i];
