@@ -6,8 +6,9 @@
 One process makes the shares of 1, 2, 4 and 8 one after the other, with one thread, and prints the time
 of the slowest, as the median of interleaved runs, and how much larger than their mean the largest is; and
 for each number a process of its own makes the first share, and tells how much memory that took beyond
-the hierarchy (Linux only). It runs in Python itself, as `pvpython` cannot start another one. The field is the gyroid of extraction.py, by the field
-metric, at full resolution and at a tolerance that leaves a quarter of the triangles.
+the hierarchy (Linux only). It runs in Python itself, as `pvpython` cannot start another one. The field
+is the gyroid of extraction.py, by the field metric, at full resolution and at a tolerance that leaves a
+quarter of the triangles.
 """
 import statistics
 import subprocess

@@ -32,7 +32,7 @@ struct Ends
   }
 };
 
-/** The same of values in turn, which do not wait for each other. */
+/** The same of an array. In lanes of their own, so that no value waits for the one before. */
 template <typename T>
 Ends<T> EndsInLanes(const T* values, std::int64_t count)
 {
