@@ -20,7 +20,7 @@ LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
 
 def save():
     hierarchy = IsodiamondHierarchy(Wavelet(WholeExtent=EXTENT), Isovalue=150, ErrorMetric="Distance")
-    SaveData(PATH, hierarchy)
+    SaveData(PATH, hierarchy, DataMode="Binary")  # see README.md on files
     controller.Barrier()
     # One of them has written it all: no process has a part of a hierarchy.
     assert os.listdir(PATH[:-5]) == ["hierarchy_0.vtp"], os.listdir(PATH[:-5])
