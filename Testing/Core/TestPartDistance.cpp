@@ -4,6 +4,7 @@
 #include "Simplification/Covering.h"
 #include "Simplification/PartDistance.h"
 #include "Simplification/ShadowTest.h"
+#include "Simplification/Simplification.h"
 #include "SimplificationTestTools.h"
 
 #include <gtest/gtest.h>
@@ -69,6 +70,38 @@ TEST(PartDistance, TellsOfWhatIsNotAsAtTheStart)
   {
     const PartDistance::Faults faults = distance.Find(wrong, homes, { false, isTouched });
     EXPECT_GT(std::count(faults.Triangles.begin(), faults.Triangles.end(), 1U), 0);
+  }
+}
+
+// A mesh of many triangles, simplified for four times what is allowed then: threads find the same
+// of it as one does, and keep the same in mind for the next time.
+TEST(PartDistance, IsTheSameWithThreads)
+{
+  const AllowedMesh careless = test::MeshOf(test::WaveField({ 41, 38, 33 }), 0.0, 0.8);
+  const LinkedTriangles simple =
+    Connectivity(careless.Mesh.Positions.size(), Simplify(careless, SerialFor).Triangles).Linked();
+  AllowedMesh asked = careless;
+  std::fill(asked.Allowances.begin(), asked.Allowances.end(), 0.2);
+  ASSERT_GT(asked.Mesh.Triangles.size(), std::size_t{ 4000 });
+  MeshPart one = test::WholePart(asked);
+  MeshPart three = test::WholePart(asked);
+  PartDistance ofOne(one);
+  PartDistance ofThree(three);
+  const std::vector<std::uint32_t> homes(one.Samples.size(), None);
+  std::vector<bool> isTouched(simple.Triangles.size(), true);
+  for (int time = 0; time < 2; ++time)
+  {
+    const PartDistance::Faults found = ofOne.Find(simple, homes, isTouched);
+    const PartDistance::Faults same = ofThree.Find(simple, homes, isTouched, test::ThreadedFor(3));
+    EXPECT_GT(found.Triangles.size(), std::size_t{ 100 });
+    EXPECT_EQ(found.Triangles, same.Triangles);
+    EXPECT_EQ(found.Points, same.Points);
+    for (std::size_t i = 0; i < asked.Mesh.Triangles.size(); ++i)
+    {
+      ASSERT_TRUE(std::equal(
+        one.Near[i].begin(), one.Near[i].end(), three.Near[i].begin(), three.Near[i].end()));
+    }
+    isTouched.assign(isTouched.size(), false);
   }
 }
 

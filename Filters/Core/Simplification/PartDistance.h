@@ -2,11 +2,14 @@
 #ifndef isodiamond_PartDistance_h
 #define isodiamond_PartDistance_h
 
+#include "Field/Parallel.h"
+#include "Field/WorkSpaces.h"
 #include "Simplification/Covering.h"
 #include "Simplification/MeshPart.h"
 #include "Simplification/ShadowTest.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace isodiamond
@@ -48,16 +51,28 @@ public:
    * @param isTouched by number: whether it is another triangle, or gone, since the last time
    */
   Faults Find(const LinkedTriangles& simple, const std::vector<std::uint32_t>& homes,
-    const std::vector<bool>& isTouched);
+    const std::vector<bool>& isTouched, const ParallelFor& parallelFor = SerialFor);
 
 private:
   class Comparison;
 
+  /** What a thread looks at the original with. */
+  struct OriginalSpace
+  {
+    explicit OriginalSpace(const MeshPart& part)
+      : Cover(part.Positions, part.Original)
+      , Shadow(part.Positions, part.Original, part.Allowances)
+    {
+    }
+
+    Covering Cover;
+    ShadowTest Shadow;
+  };
+
   MeshPart& Part;
   bool IsStartNear;
   NearLists NearAtStart;
-  Covering Cover;                        ///< over the original
-  ShadowTest Shadow;                     ///< of the original
+  WorkSpaces<OriginalSpace> OriginalSpaces;
   std::vector<std::uint32_t> OriginalAt; ///< by point: one of the original's triangles, or None
 };
 

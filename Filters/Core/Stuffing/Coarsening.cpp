@@ -21,11 +21,11 @@ constexpr double LeastAngle = 16.0;
 constexpr int CollapsePasses = 6;
 
 /** See FarLeaves(). @param distance of the surfaces' part, which is measured */
-std::vector<std::uint32_t> FarLeavesOf(
-  const MeasuredSurfaces& surfaces, PartDistance& distance, const std::vector<bool>& canBeFiner)
+std::vector<std::uint32_t> FarLeavesOf(const MeasuredSurfaces& surfaces, PartDistance& distance,
+  const std::vector<bool>& canBeFiner, const ParallelFor& parallelFor)
 {
   const PartDistance::Faults faults = distance.Find(surfaces.Part.Simple, surfaces.Homes(),
-    std::vector<bool>(surfaces.Part.Simple.Triangles.size(), true));
+    std::vector<bool>(surfaces.Part.Simple.Triangles.size(), true), parallelFor);
   std::vector<std::uint32_t> leaves;
   for (std::uint32_t i = 0; i < surfaces.Part.Original.Triangles.size(); ++i)
   {
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> FarLeaves(
     return {};
   }
   PartDistance distance(surfaces.Part);
-  return FarLeavesOf(surfaces, distance, input.CanBeFiner);
+  return FarLeavesOf(surfaces, distance, input.CanBeFiner, parallelFor);
 }
 
 std::vector<std::uint32_t> Coarsen(
@@ -74,7 +74,8 @@ std::vector<std::uint32_t> Coarsen(
     return {};
   }
   PartDistance distance(part);
-  if (std::vector<std::uint32_t> far = FarLeavesOf(surfaces, distance, input.CanBeFiner);
+  if (std::vector<std::uint32_t> far =
+        FarLeavesOf(surfaces, distance, input.CanBeFiner, parallelFor);
       !far.empty())
   {
     return far;
@@ -96,7 +97,8 @@ std::vector<std::uint32_t> Coarsen(
   }
   do
   {
-    const PartDistance::Faults faults = distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched);
+    const PartDistance::Faults faults =
+      distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched, parallelFor);
     isTouched = faults.Any() ? edges.Undo(faults.Triangles, faults.Points) : std::vector<bool>();
   } while (std::find(isTouched.begin(), isTouched.end(), true) != isTouched.end());
   mesh = tetrahedra.Take();

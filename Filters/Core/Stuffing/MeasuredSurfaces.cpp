@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace isodiamond
@@ -245,17 +246,23 @@ MeasuredSurfaces::MeasuredSurfaces(const TetrahedronMesh& plain, const Tetrahedr
   const std::vector<double>& allowances, const ParallelFor& parallelFor)
 {
   const std::size_t points = stuffed.Positions.size();
-  Surfaces before = SurfacesOf(plain);
-  Surfaces after = SurfacesOf(stuffed);
-  const Connectivity original(points, std::move(before.Triangles));
-  const Connectivity simple(points, std::move(after.Triangles));
+  std::array<Surfaces, 2> surfaces;
+  std::array<std::optional<Connectivity>, 2> links;
+  ForEachIndex(parallelFor, 2, 1,
+    [&](std::int64_t i)
+    {
+      surfaces[i] = SurfacesOf(i == 0 ? plain : stuffed);
+      links[i].emplace(points, std::move(surfaces[i].Triangles));
+    });
+  const Connectivity& original = *links[0];
+  const Connectivity& simple = *links[1];
   this->AreSound = original.FaultyPoints().empty() && simple.FaultyPoints().empty();
   if (!this->AreSound)
   {
     return;
   }
-  this->Origins = std::move(before.Origins);
-  this->SimpleOrigins = std::move(after.Origins);
+  this->Origins = std::move(surfaces[0].Origins);
+  this->SimpleOrigins = std::move(surfaces[1].Origins);
   MeshPart& part = this->Part;
   part.Positions = stuffed.Positions;
   part.Original = original.Linked();
