@@ -30,6 +30,19 @@ MeshPart CutRoof()
   return part;
 }
 
+/** The edge of a thin wall that leans over, along x through point 0. */
+MeshPart ThinWall()
+{
+  AllowedMesh wall;
+  wall.Mesh.Positions = { { 0, 0, 0 }, { -1, 0, 0 }, { 0, 0.02, -1 }, { 1, 0, 0 },
+    { 0, 0.06, -1 } };
+  wall.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 1 } };
+  wall.Allowances.assign(4, 3.0);
+  MeshPart part = test::WholePart(wall);
+  part.Simple = part.Original;
+  return part;
+}
+
 bool HasRidge(const LinkedTriangles& mesh)
 {
   return std::all_of(mesh.Triangles.begin(), mesh.Triangles.end(),
@@ -59,6 +72,56 @@ TEST(EdgeCollapses, FlipsEdgesThatCutAcrossARidge)
   test::ExpectLinks(collapses.Mesh());
   EXPECT_EQ(collapses.SampleHomes()[6], 0);
   EXPECT_EQ(collapses.SampleHomes()[7], 1);
+}
+
+// From no direction all four triangles are seen: each may only turn a little.
+TEST(EdgeCollapses, GoAlongTheEdgeOfAThinWall)
+{
+  const MeshPart wall = ThinWall();
+  EdgeCollapses along(wall, 1.0);
+  along.Run();
+  ASSERT_EQ(test::TrianglesLeft(along.Mesh()).size(), 2U);
+  test::ExpectLinks(along.Mesh());
+  // What lay over one side lies over it still, though it is near enough to the other one.
+  for (std::uint32_t i = 0; i < wall.Original.Triangles.size(); ++i)
+  {
+    const Triangle& under = along.Mesh().Triangles[along.SampleHomes()[wall.Positions.size() + i]];
+    EXPECT_GT(
+      Dot(Across(wall.Positions, under), Across(wall.Positions, wall.Original.Triangles[i])), 0.0);
+  }
+  along.Undo({ 0, 1, 2, 3 }, {});
+  EXPECT_EQ(test::TrianglesLeft(along.Mesh()).size(), 4U);
+  test::ExpectLinks(along.Mesh());
+  for (std::uint32_t i = 0; i < wall.Original.Triangles.size(); ++i)
+  {
+    EXPECT_EQ(along.SampleHomes()[wall.Positions.size() + i], i);
+  }
+
+  MeshPart held = wall;
+  held.IsFixed[1] = true;
+  held.IsFixed[3] = true; // what is left is down one of the sides, by which both would look up
+  held.Samples.resize(held.Positions.size());
+  EdgeCollapses down(held, 1.0);
+  EXPECT_EQ(down.Run(), std::vector<bool>(4, false));
+}
+
+// What was put over a triangle may be beside it: then the plane that it is in tells nothing.
+TEST(EdgeCollapses, AskHowFarWhatIsBesideAHoleIs)
+{
+  AllowedMesh flat;
+  flat.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { 0, -1, 0 } };
+  flat.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 1 } };
+  flat.Allowances.assign(4, 0.5);
+  MeshPart part = test::WholePart(flat);
+  part.Simple = part.Original;
+  for (const double x : { 0.3, 1.3, 3.0 })
+  {
+    MeshPart asked = part;
+    asked.Samples.push_back({ { x, 0.1, 0.0 }, 0.5, 0 });
+    EdgeCollapses collapses(asked, 1.0);
+    collapses.Run();
+    EXPECT_EQ(test::TrianglesLeft(collapses.Mesh()).size(), x < 2.0 ? 2U : 4U) << x;
+  }
 }
 
 // Below the roof is a groove from point 1 to 3: were that edge, which the roof has lost, made

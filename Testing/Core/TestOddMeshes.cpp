@@ -55,6 +55,44 @@ AllowedMesh SheetsThatMeet(int half, double allowed)
   return mesh;
 }
 
+/** A blade along x, closed: its two sides meet in its edge, at z = 0.
+ *  @param thickness of its back @param bend of the whole, to the side */
+AllowedMesh Blade(std::uint32_t steps, double thickness, double bend, double allowed)
+{
+  // Around it, from the edge: up one side, and down the other one.
+  const std::vector<std::array<double, 2>> section = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 3, 3 },
+    { -3, 3 }, { -2, 2 }, { -1, 1 } };
+  const auto count = static_cast<std::uint32_t>(section.size());
+  AllowedMesh mesh;
+  for (std::uint32_t x = 0; x <= steps; ++x)
+  {
+    const double middle = 2.0 * x / steps - 1.0;
+    for (const auto& [y, z] : section)
+    {
+      mesh.Mesh.Positions.push_back({ 1.0 * x, thickness / 6.0 * y + bend * middle * middle, z });
+    }
+  }
+  for (std::uint32_t x = 0; x < steps; ++x)
+  {
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+      const std::uint32_t next = (i + 1) % count;
+      const std::uint32_t a = x * count + i;
+      const std::uint32_t b = x * count + next;
+      mesh.Mesh.Triangles.push_back({ a, b, b + count });
+      mesh.Mesh.Triangles.push_back({ a, b + count, a + count });
+    }
+  }
+  for (std::uint32_t i = 2; i < count; ++i)
+  {
+    const std::uint32_t end = steps * count;
+    mesh.Mesh.Triangles.push_back({ 0, i, i - 1 });
+    mesh.Mesh.Triangles.push_back({ end, end + i - 1, end + i });
+  }
+  mesh.Allowances.assign(mesh.Mesh.Triangles.size(), allowed);
+  return mesh;
+}
+
 }
 
 // Parts may have one sheet each, to which the point looks like any other one.
@@ -112,6 +150,40 @@ TEST(OddMeshes, KeepSpecksThatPartsShare)
     const TriangleMesh after = Simplify(specks, SerialFor, most);
     EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(specks.Mesh)));
     EXPECT_FALSE(test::HasTwins(after)) << most;
+  }
+}
+
+// Points on the sharp edge of a blade have no direction from which all around them is seen.
+TEST(OddMeshes, LosePointsOnTheEdgeOfABlade)
+{
+  struct Case
+  {
+    double Thickness;
+    double Bend;
+    std::size_t Most;
+  };
+  for (const Case& one : { Case{ 0.6, 0.0, 12 }, Case{ 0.9, 0.6, 30 }, Case{ 0.4, 1.5, 80 } })
+  {
+    SCOPED_TRACE(one.Most);
+    const AllowedMesh blade = Blade(30, one.Thickness, one.Bend, 0.3);
+    const SimplerMesh after = Simplify(blade, SerialFor);
+    EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(blade.Mesh)));
+    EXPECT_LE(after.Triangles.size(), one.Most); // 8 if it is straight
+    // What was on one side of it lies over that side now, though the other one may be nearer.
+    int gone = 0;
+    int onOtherSide = 0;
+    for (std::uint32_t point = 0; point < blade.Mesh.Positions.size(); ++point)
+    {
+      const std::uint32_t place = point % 7; // around it
+      if (after.Homes[point] != None && place != 0 && place != 3 && place != 4)
+      {
+        const Vector across = Across(after.Positions, after.Triangles[after.Homes[point]]);
+        onOtherSide += across[1] * (place < 4 ? 1.0 : -1.0) < 0.0 ? 1 : 0;
+        ++gone;
+      }
+    }
+    EXPECT_GT(gone, 100);
+    EXPECT_EQ(onOtherSide, 0);
   }
 }
 

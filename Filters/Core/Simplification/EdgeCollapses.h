@@ -40,10 +40,11 @@ public:
  *
  * A vertex goes, and the hole is filled by triangles from one of its neighbours. Seen along the
  * mean normal of the hole both fillings have to be the same polygon, covered once, so no part is
- * turned over (of an open hole, up to where its new border is); the link condition keeps the
- * topology. Samples of the original stay with the triangle that they lie over: how far they are
- * from it tells nearly how far the original is. So the result is to be measured, and what is wrong
- * with it can be undone.
+ * turned over (of an open hole, up to where its new border is). Where no direction shows them so,
+ * or hardly, as on the edge of a thin wall, no triangle may turn by more than 75 degrees, and
+ * samples stay with what faces as they do. The link condition keeps the topology. Samples of the
+ * original stay with the triangle that they lie over: how far they are from it tells nearly how far
+ * the original is. So the result is to be measured, and what is wrong with it can be undone.
  *
  * A vertex at the border goes along this, and only if its edge there and the next one are on one
  * wall: what is put in their place is so, too. Where no walls are known the border stays. No new
@@ -105,7 +106,7 @@ private:
   struct Filling
   {
     Vector Normal{};
-    TriangleDistance Distance; ///< if the hole is open
+    TriangleDistance Distance; ///< if the hole is open, or a ridge's
     Hole::Place Start{};       ///< of the edge to the next one
     Hole::Place Spoke{};
     std::uint32_t FirstSample = None;
@@ -165,7 +166,9 @@ private:
       this->Positions[points[0]], this->Positions[points[1]], this->Positions[points[2]]);
   }
   bool CanFill(std::uint32_t vertex, Hole& hole);
-  bool Fill(std::uint32_t vertex, const Hole& hole);
+  bool Fill(const Hole& hole);
+  bool TakesSamples(std::uint32_t vertex, const Hole& hole);
+  bool FillRidge(std::uint32_t vertex, const Hole& hole);
   void FillWithTheSame(std::uint32_t vertex, const Hole& hole);
   bool MakesCrease(std::uint32_t vertex, const Hole& hole) const;
   bool MakesCrease(const Flip& flip) const;
@@ -176,7 +179,12 @@ private:
   }
   void AddBorder(std::uint32_t from, std::uint32_t to, const Vector& normal);
   bool FindOpenHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
-  bool IsNear(const Hole& hole, Watched& sample, std::uint32_t number, const Hole::Place& place);
+  bool Put(int i, const Hole& hole, const Vector& direction, double leastCosine);
+  TriangleDistance DistanceFrom(int i, const Hole& hole) const;
+  void Take(Filling& filling, std::uint32_t sample);
+  bool IsNear(
+    const Hole& hole, const Watched& sample, std::uint32_t number, const Hole::Place& place);
+  bool IsNearRidge(std::uint32_t number, const Vector& normal);
   void FlipEdges();
   bool SeeFlip(std::uint32_t triangle, int edge, Flip& flip) const;
   bool IsWorthIt(const Flip& flip) const;
@@ -191,6 +199,7 @@ private:
   void UndoCollapse(const Step& step);
   void Forget(const std::vector<bool>& isUndone);
   void GiveBackSamples(const Step& step);
+  int NearestIn(const Hole& hole, const Vector& place) const;
   void PutOver(std::uint32_t triangle, std::uint32_t sample);
   void TakeAway(std::uint32_t sample);
   void Collapse(std::uint32_t vertex, const Hole& hole);

@@ -6,10 +6,24 @@
 
 namespace isodiamond
 {
+namespace
+{
+
+/** The least cosine between the normals of a triangle at a ridge and of what takes its place. */
+constexpr double LeastCosineAtRidges = 0.25;
+
+}
+
+/** Lets a sample go with what fills a part of the hole. */
+void EdgeCollapses::Take(Filling& filling, std::uint32_t sample)
+{
+  this->Samples[sample].NextOver = filling.FirstSample;
+  filling.FirstSample = sample;
+}
 
 /** Whether a sample is near enough to what fills the hole; then it goes with that. */
 bool EdgeCollapses::IsNear(
-  const Hole& hole, Watched& sample, std::uint32_t number, const Hole::Place& place)
+  const Hole& hole, const Watched& sample, std::uint32_t number, const Hole::Place& place)
 {
   int at = 1;
   while (at + 1 < this->FillingCount && this->Fillings[at].IsBeyond(place))
@@ -17,15 +31,26 @@ bool EdgeCollapses::IsNear(
     ++at;
   }
   Filling& filling = this->Fillings[at];
-  // Over a hole that is closed the plane's distance will do; beyond the new border it would not.
-  const double distance = hole.IsOpen() ? std::sqrt(filling.Distance.Squared(sample.At()))
-                                        : Dot(sample.At() - this->Corner, filling.Normal);
+  // Over a hole that is closed the plane's distance will do; beside it, or the new border, it would
+  // not.
+  double distance = 0.0;
+  if (hole.IsOpen())
+  {
+    distance = std::sqrt(filling.Distance.Squared(sample.At()));
+  }
+  else if (hole.IsOver(at, place))
+  {
+    distance = Dot(sample.At() - this->Corner, filling.Normal);
+  }
+  else
+  {
+    distance = std::sqrt(this->DistanceFrom(at, hole).Squared(sample.At()));
+  }
   if (!(std::abs(distance) <= sample.Allowance))
   {
     return false;
   }
-  sample.NextOver = filling.FirstSample;
-  filling.FirstSample = number;
+  this->Take(filling, number);
   return true;
 }
 
@@ -52,34 +77,50 @@ bool EdgeCollapses::KeepsShape(std::uint32_t vertex, const Hole& hole) const
   return true;
 }
 
-/** Fills a hole by triangles from its first point: the i-th one has the points 0, i and i + 1.
- *  @return whether all samples over it are near enough */
-bool EdgeCollapses::Fill(std::uint32_t vertex, const Hole& hole)
+/** From a triangle that fills a part of a hole. */
+TriangleDistance EdgeCollapses::DistanceFrom(int i, const Hole& hole) const
 {
-  const int last = hole.Count - 1;
-  this->FillingCount = last;
+  return { this->Corner, this->Positions[hole.Points[i]], this->Positions[hole.Points[i + 1]] };
+}
+
+/** Puts a triangle into a hole. @return whether it faces a direction, at the least by a cosine */
+bool EdgeCollapses::Put(int i, const Hole& hole, const Vector& direction, double leastCosine)
+{
+  const Vector across = Cross(this->Positions[hole.Points[i]] - this->Corner,
+    this->Positions[hole.Points[i + 1]] - this->Corner);
+  const double length = std::sqrt(Dot(across, across));
+  this->Fillings[i].Normal = (1.0 / length) * across;
+  this->Fillings[i].FirstSample = None;
+  return Dot(across, direction) > leastCosine * length;
+}
+
+/** Fills a hole by triangles from its first point: the i-th one has the points 0, i and i + 1.
+ *  @return whether they are seen as the hole is */
+bool EdgeCollapses::Fill(const Hole& hole)
+{
+  this->FillingCount = hole.Count - 1;
   this->Corner = this->Positions[hole.Points[0]];
-  for (int i = 1; i < last; ++i)
+  for (int i = 1; i < this->FillingCount; ++i)
   {
-    const Vector& second = this->Positions[hole.Points[i]];
-    const Vector& third = this->Positions[hole.Points[i + 1]];
-    const Vector across = Cross(second - this->Corner, third - this->Corner);
-    const double length = std::sqrt(Dot(across, across));
-    if (!(Dot(across, hole.Normal) > hole.LeastCosine * length))
+    if (!this->Put(i, hole, hole.Normal, hole.LeastCosine))
     {
       return false;
     }
     Filling& filling = this->Fillings[i];
-    filling.Normal = (1.0 / length) * across;
     if (hole.IsOpen())
     {
-      filling.Distance = TriangleDistance(this->Corner, second, third);
+      filling.Distance = this->DistanceFrom(i, hole);
     }
     filling.Start = hole.Places[0];
     filling.Spoke = { hole.Places[i + 1][0] - hole.Places[0][0],
       hole.Places[i + 1][1] - hole.Places[0][1] };
-    filling.FirstSample = None;
   }
+  return true;
+}
+
+/** Whether all samples over a hole are near enough to what fills it as it is seen. */
+bool EdgeCollapses::TakesSamples(std::uint32_t vertex, const Hole& hole)
+{
   if (!this->IsNear(hole, this->Samples[vertex], vertex, { 0.0, 0.0 }))
   {
     return false;
@@ -90,7 +131,7 @@ bool EdgeCollapses::Fill(std::uint32_t vertex, const Hole& hole)
     const bool isThere = hole.Triangles[i] != None;
     for (std::uint32_t at = isThere ? this->FirstSample[hole.Triangles[i]] : None; at != None;)
     {
-      Watched& sample = this->Samples[at];
+      const Watched& sample = this->Samples[at];
       if (!this->IsNear(hole, sample, at, hole.See(sample.At() - origin)))
       {
         return false;
@@ -99,6 +140,62 @@ bool EdgeCollapses::Fill(std::uint32_t vertex, const Hole& hole)
     }
   }
   return true;
+}
+
+/** Whether a sample is near enough to what fills the hole of a ridge and faces as it does; then it
+ *  goes with the nearest such triangle. @param normal of what it lay over; 0 of the vertex */
+bool EdgeCollapses::IsNearRidge(std::uint32_t number, const Vector& normal)
+{
+  const Watched& sample = this->Samples[number];
+  double least = double{ sample.Allowance } * sample.Allowance;
+  Filling* nearest = nullptr;
+  for (int i = 1; i < this->FillingCount; ++i)
+  {
+    Filling& filling = this->Fillings[i];
+    const double squared = filling.Distance.Squared(sample.At());
+    if (squared <= least && Dot(filling.Normal, normal) >= 0.0)
+    {
+      least = squared;
+      nearest = &filling;
+    }
+  }
+  if (nearest != nullptr)
+  {
+    this->Take(*nearest, number);
+  }
+  return nearest != nullptr;
+}
+
+/** Fills a hole that is not seen as one polygon, or hardly, as around a vertex on the edge of a
+ * thin wall: each triangle has to face nearly as the one whose place it takes.
+ *  @return whether all samples over it are near enough to what faces as they do */
+bool EdgeCollapses::FillRidge(std::uint32_t vertex, const Hole& hole)
+{
+  if (hole.IsOpen())
+  {
+    return false;
+  }
+  const int last = hole.Count - 1;
+  this->FillingCount = last;
+  this->Corner = this->Positions[hole.Points[0]];
+  for (int i = 1; i < last; ++i)
+  {
+    if (!this->Put(i, hole, this->Normals[hole.Triangles[i]], LeastCosineAtRidges))
+    {
+      return false;
+    }
+    this->Fillings[i].Distance = this->DistanceFrom(i, hole);
+  }
+  bool isNear = this->IsNearRidge(vertex, {});
+  for (int i = 0; i < hole.Count && isNear; ++i)
+  {
+    for (std::uint32_t at = this->FirstSample[hole.Triangles[i]]; at != None && isNear;
+         at = this->Samples[at].Next)
+    {
+      isNear = this->IsNearRidge(at, this->Normals[hole.Triangles[i]]);
+    }
+  }
+  return isNear;
 }
 
 /** Fills the hole of a vertex that is where its target is: by triangles that are where the old ones
@@ -112,19 +209,14 @@ void EdgeCollapses::FillWithTheSame(std::uint32_t vertex, const Hole& hole)
     this->Fillings[i].Normal = this->Normals[hole.Triangles[i]];
     this->Fillings[i].FirstSample = None;
   }
-  const auto put = [&](std::uint32_t sample, int filling)
-  {
-    this->Samples[sample].NextOver = this->Fillings[filling].FirstSample;
-    this->Fillings[filling].FirstSample = sample;
-  };
-  put(vertex, 1);
+  this->Take(this->Fillings[1], vertex);
   for (int i = 0; i < hole.Count; ++i)
   {
     const bool isThere = hole.Triangles[i] != None;
     for (std::uint32_t at = isThere ? this->FirstSample[hole.Triangles[i]] : None; at != None;
          at = this->Samples[at].Next)
     {
-      put(at, std::clamp(i, 1, last - 1));
+      this->Take(this->Fillings[std::clamp(i, 1, last - 1)], at);
     }
   }
 }
@@ -138,8 +230,12 @@ bool EdgeCollapses::CanFill(std::uint32_t vertex, Hole& hole)
     this->FillWithTheSame(vertex, hole);
     return true;
   }
-  return hole.SeeFromAbove(this->Positions, this->Normals, vertex) &&
-    this->KeepsShape(vertex, hole) && this->Fill(vertex, hole) && !this->MakesCrease(vertex, hole);
+  const bool isSeen = hole.SeeFromAbove(this->Positions, this->Normals, vertex);
+  const bool isFilled = isSeen && this->Fill(hole);
+  const bool isRidge = !isSeen || hole.LeastCosine < Hole::UsualCosine;
+  return (isFilled || isRidge) && this->KeepsShape(vertex, hole) &&
+    (isFilled ? this->TakesSamples(vertex, hole) : this->FillRidge(vertex, hole)) &&
+    !this->MakesCrease(vertex, hole);
 }
 
 }

@@ -79,4 +79,21 @@ int Hole::TriangleAt(const Place& place) const
   return 1; // is never missing
 }
 
+bool Hole::IsOver(int point, const Place& place) const
+{
+  const std::array<const Place*, 3> corners = { &this->Places[0], &this->Places[point],
+    &this->Places[point + 1] };
+  for (int i = 0; i < 3; ++i)
+  {
+    const Place& from = *corners[i];
+    const Place& to = *corners[(i + 1) % 3];
+    if (Cross2({ to[0] - from[0], to[1] - from[1] }, { place[0] - from[0], place[1] - from[1] }) <
+      0.0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 }

@@ -58,6 +58,9 @@ struct Hole
 
   /** The triangle that is seen at a place; any if none is. */
   int TriangleAt(const Place& place) const;
+
+  /** Whether a place is seen over the triangle from the first point to one and the next one. */
+  bool IsOver(int point, const Place& place) const;
 };
 
 /** More than 0 if the second is on the left of the first. */

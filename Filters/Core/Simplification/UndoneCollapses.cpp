@@ -2,6 +2,7 @@
 #include "Simplification/EdgeCollapses.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace isodiamond
 {
@@ -107,9 +108,31 @@ void EdgeCollapses::GiveBackSamples(const Step& step)
   {
     const int at = isSeen
       ? hole.TriangleAt(hole.See(this->Samples[sample].At() - this->Positions[step.Vertex]))
-      : 1;
+      : this->NearestIn(hole, this->Samples[sample].At());
     this->PutOver(hole.Triangles[at], sample);
   }
+}
+
+/** Which of the triangles around a vertex is nearest to a place. */
+int EdgeCollapses::NearestIn(const Hole& hole, const Vector& place) const
+{
+  int nearest = 1; // is never missing
+  double least = HUGE_VAL;
+  for (int i = 0; i < hole.Count; ++i)
+  {
+    const std::uint32_t triangle = hole.Triangles[i];
+    const auto squared = [&]
+    {
+      const auto [a, b, c] = this->Links.Corners(this->Positions, triangle);
+      return TriangleDistance(a, b, c).Squared(place);
+    };
+    if (const double distance = triangle == None ? HUGE_VAL : squared(); distance < least)
+    {
+      least = distance;
+      nearest = i;
+    }
+  }
+  return nearest;
 }
 
 std::vector<bool> EdgeCollapses::Undo(
