@@ -55,14 +55,16 @@ AllowedMesh SheetsThatMeet(int half, double allowed)
   return mesh;
 }
 
+constexpr std::uint32_t PointsAroundBlade = 7;
+
 /** A blade along x, closed: its two sides meet in its edge, at z = 0.
  *  @param thickness of its back @param bend of the whole, to the side */
 AllowedMesh Blade(std::uint32_t steps, double thickness, double bend, double allowed)
 {
   // Around it, from the edge: up one side, and down the other one.
-  const std::vector<std::array<double, 2>> section = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 3, 3 },
-    { -3, 3 }, { -2, 2 }, { -1, 1 } };
-  const auto count = static_cast<std::uint32_t>(section.size());
+  constexpr std::uint32_t count = PointsAroundBlade;
+  const std::array<std::array<double, 2>, count> section = { { { 0, 0 }, { 1, 1 }, { 2, 2 },
+    { 3, 3 }, { -3, 3 }, { -2, 2 }, { -1, 1 } } };
   AllowedMesh mesh;
   for (std::uint32_t x = 0; x <= steps; ++x)
   {
@@ -174,7 +176,7 @@ TEST(OddMeshes, LosePointsOnTheEdgeOfABlade)
     int onOtherSide = 0;
     for (std::uint32_t point = 0; point < blade.Mesh.Positions.size(); ++point)
     {
-      const std::uint32_t place = point % 7; // around it
+      const std::uint32_t place = point % PointsAroundBlade; // around it: 0 is the edge
       if (after.Homes[point] != None && place != 0 && place != 3 && place != 4)
       {
         const Vector across = Across(after.Positions, after.Triangles[after.Homes[point]]);

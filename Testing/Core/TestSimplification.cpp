@@ -384,7 +384,7 @@ TEST(Simplification, IsNearOnAverage)
     sum += distance * distance;
   }
   const double rms = std::sqrt(sum / static_cast<double>(before.Mesh.Triangles.size()));
-  EXPECT_LT(rms, 0.105);
+  EXPECT_LT(rms, 0.102);
 }
 
 // With one try of all that is allowed, of which much has to be undone, it is 1,104 and 4,355.
@@ -392,7 +392,7 @@ TEST(Simplification, TriesLessWhereMuchIsUndone)
 {
   const auto left = [](const test::Field& field)
   { return Simplify(test::MeshOf(field, 0.2, 0.2), SerialFor).Triangles.size(); };
-  EXPECT_LT(left(test::SphereField({ 33, 33, 33 })), 1050U);
+  EXPECT_LT(left(test::SphereField({ 33, 33, 33 })), 1020U);
   EXPECT_LT(left(test::WaveField({ 33, 33, 33 })), 4100U);
 }
 
