@@ -39,7 +39,7 @@ struct Mesh
   /** The smallest and the largest, in degrees, of tetrahedra for simulations. */
   std::optional<std::array<double, 2>> DihedralAngles;
   /** Of such tetrahedra: diamonds that have to be refined, for surfaces are too far away. The mesh
-   *  is not made coarser then. */
+   *  is not done then. */
   std::vector<isodiamond::Place> FarDiamonds;
 
   /** Hands it to a data set. */

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace vtkIsodiamond
 {
@@ -122,9 +123,12 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   FindAllowances(hierarchy, options, input);
   const isodiamond::StuffedMesh result = isodiamond::Stuff(input, parallelFor);
   const isodiamond::TetrahedronMesh& stuffed = result.Mesh;
-  for (const std::uint32_t leaf : result.FarLeaves)
+  if (!result.FarLeaves.empty())
   {
-    mesh.FarDiamonds.push_back(*isodiamond::DiamondOf(leaves, leaf, grid));
+    std::transform(result.FarLeaves.begin(), result.FarLeaves.end(),
+      std::back_inserter(mesh.FarDiamonds),
+      [&](std::uint32_t leaf) { return *isodiamond::DiamondOf(leaves, leaf, grid); });
+    return;
   }
 
   const UsedPoints used(stuffed.Tetrahedra, stuffed.Positions.size(), parallelFor);

@@ -9,7 +9,16 @@
 namespace isodiamond
 {
 
-/** The leaves of an interval volume's mesh in the world, and which of them are at each vertex. */
+/** A point of the mesh where a surface crosses an edge of leaves. */
+struct Crossing
+{
+  Edge Ends = { CutMesh::None, CutMesh::None }; ///< vertices, the younger one first
+  std::int8_t Surface = 0;                      ///< 0 the lower one, 1 the upper
+
+  bool IsThere() const { return this->Ends[0] != CutMesh::None; }
+};
+
+/** The leaves of an interval volume's mesh in the world, and what is at each vertex of theirs. */
 class Background
 {
 public:
@@ -29,6 +38,9 @@ public:
     , IsMirrored(mirrored)
     , Stars(cut.Vertices.size(), cut.Tetrahedra.size(),
         [&](std::size_t tetrahedron) { return cut.Tetrahedra[tetrahedron].Vertices; })
+    , Crossings(FindCrossings(cut, points.size()))
+    , CrossingsOfStars(cut.Vertices.size(), points.size(),
+        [&](std::size_t point) { return this->EndsOf(point); })
   {
   }
 
@@ -55,13 +67,28 @@ public:
   /** The leaves at a vertex. */
   CellsAtPoints::Cells StarOf(std::uint32_t vertex) const { return this->Stars[vertex]; }
 
+  /** By point: where surfaces cross edges; of vertices inside it is not there. */
+  const std::vector<Crossing>& AllCrossings() const { return this->Crossings; }
+  /** The points where surfaces cross the edges of a vertex. */
+  IdRange CrossingsAt(std::uint32_t vertex) const { return this->CrossingsOfStars[vertex]; }
+
 private:
+  static std::vector<Crossing> FindCrossings(const CutMesh& cut, std::size_t pointCount);
+  IdRange EndsOf(std::size_t point) const
+  {
+    const Crossing& crossing = this->Crossings[point];
+    const std::uint32_t* const ends = crossing.Ends.data();
+    return { ends, ends + (crossing.IsThere() ? 2 : 0) };
+  }
+
   const CutMesh& Cut;
   const std::vector<Vector>& VertexPositions;
   std::vector<Walls::Type> VertexWalls;
   const std::vector<Vector>& Points;
   bool IsMirrored;
   CellsAtPoints Stars;
+  std::vector<Crossing> Crossings; ///< by point
+  CellsAtPoints CrossingsOfStars;
 };
 
 }

@@ -67,12 +67,11 @@ void MovedVertices::MoveAll(const ParallelFor& parallelFor)
     });
 }
 
-/** Whether a surface still crosses an edge of a leaf between its vertices. */
-bool MovedVertices::IsCut(std::uint32_t tetrahedron, int younger, int older, int surface) const
+/** Whether a surface still crosses an edge of leaves between its ends. */
+bool MovedVertices::IsCut(std::uint32_t first, std::uint32_t second, int surface) const
 {
-  const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-  const int a = this->States[corners[younger]];
-  const int b = this->States[corners[older]];
+  const int a = this->States[first];
+  const int b = this->States[second];
   const int on = StateOn(surface);
   return (a < on && b > on) || (a > on && b < on);
 }
@@ -90,37 +89,23 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
     return nearest;
   }
   const Vector& at = this->Mesh.PositionOf(vertex);
-  for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
+  for (const std::uint32_t point : this->Mesh.CrossingsAt(vertex))
   {
-    const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-    const int own =
-      static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
-    for (int other = 0; other < 4; ++other)
+    const Crossing& crossing = this->Mesh.AllCrossings()[point];
+    const std::uint32_t other = crossing.Ends[crossing.Ends[0] == vertex ? 1 : 0];
+    const bool isBehind = (state == BelowLower && crossing.Surface == 1) ||
+      (state == AboveUpper && crossing.Surface == 0);
+    const Walls::Type common = CommonWalls(walls, this->Mesh.WallsOf(other));
+    if (isBehind || common != walls || !this->IsCut(vertex, other, crossing.Surface))
     {
-      const int younger = std::min(own, other);
-      const int older = std::max(own, other);
-      for (int surface = 0; surface < 2 && other != own; ++surface)
-      {
-        const bool isBehind =
-          (state == BelowLower && surface == 1) || (state == AboveUpper && surface == 0);
-        if (isBehind || !this->IsCut(tetrahedron, younger, older, surface) ||
-          CommonWalls(walls, this->Mesh.WallsOf(corners[other])) != walls)
-        {
-          continue;
-        }
-        const std::uint32_t point =
-          this->Mesh.Leaves().Tetrahedra[tetrahedron].Cuts[CutEdge(younger, older)][surface];
-        const Vector edge = this->Mesh.PositionOf(corners[other]) - at;
-        const Vector way = this->Mesh.PointAt(point) - at;
-        const double distance = std::sqrt(Dot(way, way) / Dot(edge, edge));
-        if (distance < nearest.Distance || (distance == nearest.Distance && point < nearest.Point))
-        {
-          nearest.Distance = distance;
-          nearest.Point = point;
-          nearest.Surface = surface;
-          nearest.OnWalls = CommonWalls(walls, this->Mesh.WallsOf(corners[other]));
-        }
-      }
+      continue;
+    }
+    const Vector edge = this->Mesh.PositionOf(other) - at;
+    const Vector way = this->Mesh.PointAt(point) - at;
+    const double distance = std::sqrt(Dot(way, way) / Dot(edge, edge));
+    if (distance < nearest.Distance || (distance == nearest.Distance && point < nearest.Point))
+    {
+      nearest = { distance, vertex, point, crossing.Surface, common };
     }
   }
   return nearest;
@@ -154,8 +139,8 @@ bool MovedVertices::ArePiecesPositive(std::uint32_t tetrahedron) const
         this->States[corners[younger]] % 2 != 0 || this->States[corners[older]] % 2 != 0;
       isBent = isBent ||
         (isMoved &&
-          (this->IsCut(tetrahedron, younger, older, 0) ||
-            this->IsCut(tetrahedron, younger, older, 1)));
+          (this->IsCut(corners[younger], corners[older], 0) ||
+            this->IsCut(corners[younger], corners[older], 1)));
     }
   }
   const auto arePositive = [&](const std::vector<PatchTetrahedron>& pieces)
@@ -265,23 +250,14 @@ TetrahedronMesh MovedVertices::PlacedPoints() const
       mesh.OnWalls[point] = this->Mesh.WallsOf(vertex);
     }
   }
-  for (const CutMesh::Tetrahedron& leaf : this->Mesh.Leaves().Tetrahedra)
+  for (std::uint32_t point = 0; point < mesh.Positions.size(); ++point)
   {
-    for (int younger = 0; younger < 3; ++younger)
+    const Crossing& crossing = this->Mesh.AllCrossings()[point];
+    if (crossing.IsThere())
     {
-      for (int older = younger + 1; older < 4; ++older)
-      {
-        for (int surface = 0; surface < 2; ++surface)
-        {
-          const std::uint32_t point = leaf.Cuts[CutEdge(younger, older)][surface];
-          if (point != CutMesh::None)
-          {
-            mesh.Surfaces[point] = static_cast<std::int8_t>(2 * surface - 1);
-            mesh.OnWalls[point] = CommonWalls(
-              this->Mesh.WallsOf(leaf.Vertices[younger]), this->Mesh.WallsOf(leaf.Vertices[older]));
-          }
-        }
-      }
+      mesh.Surfaces[point] = static_cast<std::int8_t>(2 * crossing.Surface - 1);
+      mesh.OnWalls[point] = CommonWalls(
+        this->Mesh.WallsOf(crossing.Ends[0]), this->Mesh.WallsOf(crossing.Ends[1]));
     }
   }
   return mesh;

@@ -52,7 +52,7 @@ private:
   std::uint32_t PointAt(std::uint32_t vertex) const;
   Corners CornersOf(std::uint32_t tetrahedron, const PatchTetrahedron& piece) const;
   const std::vector<std::vector<PatchTetrahedron>>& PatchesOf(std::uint32_t tetrahedron) const;
-  bool IsCut(std::uint32_t tetrahedron, int younger, int older, int surface) const;
+  bool IsCut(std::uint32_t first, std::uint32_t second, int surface) const;
 
   const Background& Mesh;
   std::vector<std::uint8_t> States; ///< by vertex, see VertexState

@@ -59,28 +59,19 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
 /** By point, of isovertices. */
 std::vector<CutSide> CutEdgesOf(const Background& background)
 {
-  std::vector<CutSide> edges(background.AllPoints().size());
-  for (std::uint32_t i = 0; i < background.Leaves().Tetrahedra.size(); ++i)
+  std::vector<CutSide> edges;
+  edges.reserve(background.AllCrossings().size());
+  for (const Crossing& crossing : background.AllCrossings())
   {
-    const CutMesh::Tetrahedron& leaf = background.Leaves().Tetrahedra[i];
-    for (int younger = 0; younger < 3; ++younger)
+    edges.emplace_back();
+    if (crossing.IsThere())
     {
-      for (int older = younger + 1; older < 4; ++older)
-      {
-        const auto& cuts = leaf.Cuts[CutEdge(younger, older)];
-        const bool isRising = background.Leaves().Vertices[leaf.Vertices[younger]].Sign <
-          background.Leaves().Vertices[leaf.Vertices[older]].Sign;
-        for (int surface = 0; surface < 2; ++surface)
-        {
-          if (cuts[surface] != CutMesh::None)
-          {
-            const Vector& young = background.PositionOf(leaf.Vertices[younger]);
-            const Vector& old = background.PositionOf(leaf.Vertices[older]);
-            edges[cuts[surface]] =
-              isRising == (surface == 0) ? CutSide{ old, young } : CutSide{ young, old };
-          }
-        }
-      }
+      const auto [younger, older] = crossing.Ends;
+      const std::vector<CutMesh::Vertex>& vertices = background.Leaves().Vertices;
+      const bool isRising = vertices[younger].Sign < vertices[older].Sign;
+      const bool isOlderInside = isRising == (crossing.Surface == 0);
+      edges.back() = { background.PositionOf(isOlderInside ? older : younger),
+        background.PositionOf(isOlderInside ? younger : older) };
     }
   }
   return edges;
