@@ -19,6 +19,24 @@
 
 #include <algorithm>
 
+namespace
+{
+
+/** Whether no place, or only one, is in a box: VTK's bounds of nothing end before they begin. */
+bool HasNoSize(const double* bounds)
+{
+  bool isPoint = true;
+  bool isNothing = false;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    isPoint = isPoint && bounds[2 * axis] == bounds[2 * axis + 1];
+    isNothing = isNothing || bounds[2 * axis] > bounds[2 * axis + 1];
+  }
+  return isPoint || isNothing;
+}
+
+}
+
 //------------------------------------------------------------------------------
 vtkIsodiamondAlgorithm::vtkIsodiamondAlgorithm()
 {
@@ -95,6 +113,11 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
   if (this->UseRegionOfInterest)
   {
     const double* region = this->RegionOfInterest;
+    if (HasNoSize(region))
+    {
+      vtkWarningMacro("The region of interest has no size, or ends before it begins: the outside "
+                      "tolerance holds nearly everywhere.");
+    }
     query.Region =
       isodiamond::Box{ { region[0], region[2], region[4] }, { region[1], region[3], region[5] } };
   }

@@ -164,6 +164,10 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   options.Wanted = this->GetShare();
   const std::vector<isodiamond::Isoregion> regions = this->GetRegions();
   const auto count = static_cast<double>(regions.size());
+  if (regions.empty())
+  {
+    vtkWarningMacro("There are no isovalues, so there is no surface.");
+  }
   std::vector<vtkSmartPointer<vtkPolyData>> meshes;
   for (std::size_t i = 0; i < regions.size(); ++i)
   {

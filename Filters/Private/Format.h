@@ -35,9 +35,11 @@ inline constexpr const char* Errors = "IsodiamondErrors";
 inline constexpr const char* Minima = "IsodiamondMinima";
 inline constexpr const char* Maxima = "IsodiamondMaxima";
 
-/** Numbers for who looks at the field data, the first of any hierarchy, the others of RI and MI.
- * Nothing reads them. */
+/** Numbers for who looks at the field data, the first three of any hierarchy, the others of RI and
+ * MI. Nothing reads them. */
 inline constexpr const char* LargestErrorTolerance = "LargestErrorTolerance";
+inline constexpr const char* Isovalue = "Isovalue";
+inline constexpr const char* Isorange = "Isorange";
 inline constexpr const char* NumberOfActiveIsodiamonds = "NumberOfActiveIsodiamonds";
 inline constexpr const char* NumberOfRelevantIsodiamonds = "NumberOfRelevantIsodiamonds";
 inline constexpr const char* NumberOfCreationIsodiamonds = "NumberOfCreationIsodiamonds";

@@ -79,7 +79,8 @@ void CheckArray(const InputArray& inputArray, vtkDataSet* grid)
   if (!array)
   {
     throw std::invalid_argument(
-      "There is no array to contour: the input has no such point data array.");
+      "There is no array to contour: the input has no such point data array. Cell data have to be "
+      "converted to point data first.");
   }
   const std::string name =
     "Array \"" + std::string(array->GetName() ? array->GetName() : "") + "\" ";

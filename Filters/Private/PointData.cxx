@@ -200,13 +200,15 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
   };
 }
 
-void CheckNames(
-  const VolumePointData& wanted, const std::vector<vtkSmartPointer<vtkDataArray>>& arrays)
+void CheckNames(const VolumePointData& wanted, const std::string& contoured,
+  const std::vector<vtkSmartPointer<vtkDataArray>>& arrays)
 {
   for (const std::string& name : wanted.Names)
   {
-    if (std::none_of(arrays.begin(), arrays.end(),
-          [&](vtkDataArray* array) { return name == array->GetName(); }))
+    // Meshes have the values of what they are of anyway: who asks for all arrays means the others.
+    if (name != contoured &&
+      std::none_of(arrays.begin(), arrays.end(),
+        [&](vtkDataArray* array) { return name == array->GetName(); }))
     {
       throw std::invalid_argument("The input has no other point array \"" + name + "\".");
     }
@@ -225,7 +227,7 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Volume& vol
   {
     arrays[i] = made->GetArray(i);
   }
-  CheckNames(wanted, arrays);
+  CheckNames(wanted, volume.ArrayName, arrays);
   for (const PointWriter& write : writers)
   {
     isodiamond::ForEachStoredPoint(hierarchy, parallelFor, write);

@@ -56,8 +56,8 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
   const std::vector<vtkSmartPointer<vtkDataArray>>& arrays);
 
 /** @throws std::invalid_argument if one that is wanted by name is not there */
-void CheckNames(
-  const VolumePointData& wanted, const std::vector<vtkSmartPointer<vtkDataArray>>& arrays);
+void CheckNames(const VolumePointData& wanted, const std::string& contoured,
+  const std::vector<vtkSmartPointer<vtkDataArray>>& arrays);
 
 /** Makes such arrays. @throws std::invalid_argument if the volume lacks one that is wanted */
 std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Volume& volume,

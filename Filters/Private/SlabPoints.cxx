@@ -103,7 +103,7 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slab
       peers->Or(Bytes(array), CountBytes(array));
     }
   }
-  CheckNames(wanted, arrays);
+  CheckNames(wanted, slabs.WholeVolume().ArrayName, arrays);
   return arrays;
 }
 

@@ -139,11 +139,14 @@ void WriteNumbers(const isodiamond::Encoding& encoding, vtkFieldData* fieldData)
   }
 }
 
-/** The same for the slider of ParaView's extractor. */
-void WriteLargestTolerance(vtkFieldData* fieldData)
+/** The same for ParaView's panels: the extractor's slider, and the values that it begins with. */
+void WriteDefaults(const Choice& choice, vtkFieldData* fieldData)
 {
   AddArray<vtkDoubleArray>(
     fieldData, format::LargestErrorTolerance, std::vector<double>{ LargestTolerance(fieldData) });
+  AddArray<vtkDoubleArray>(fieldData, format::Isovalue, std::vector<double>{ choice.Isovalue });
+  AddArray<vtkDoubleArray>(fieldData, format::Isorange,
+    std::vector<double>(choice.Isorange.begin(), choice.Isorange.end()));
 }
 
 }
@@ -151,8 +154,8 @@ void WriteLargestTolerance(vtkFieldData* fieldData)
 void RemoveState(vtkFieldData* fieldData)
 {
   const std::string prefix = "Isodiamond"; // of all that a hierarchy is made of
-  const std::set<std::string> numbers = { format::LargestErrorTolerance,
-    format::NumberOfActiveIsodiamonds, format::NumberOfRelevantIsodiamonds,
+  const std::set<std::string> numbers = { format::LargestErrorTolerance, format::Isovalue,
+    format::Isorange, format::NumberOfActiveIsodiamonds, format::NumberOfRelevantIsodiamonds,
     format::NumberOfCreationIsodiamonds, format::NumberOfIsovertices, format::NumberOfRemovedPieces,
     format::StorageSize };
   for (int i = fieldData->GetNumberOfArrays() - 1; i >= 0; --i)
@@ -190,7 +193,7 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice
     AddArray<vtkTypeUInt64Array>(fieldData, format::Followers, encoding.Arrays.Followers);
   }
   WriteNumbers(encoding, fieldData);
-  WriteLargestTolerance(fieldData);
+  WriteDefaults(choice, fieldData);
   for (vtkDataArray* array : pointArrays)
   {
     array->SetName((std::string(format::PointDataPrefix) + array->GetName()).c_str());
@@ -220,7 +223,7 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choi
   AddArray<vtkTypeUInt16Array>(fieldData, format::Errors, encoding.Codes);
   AddSamples(fieldData, format::Minima, encoding.Minima);
   AddSamples(fieldData, format::Maxima, encoding.Maxima);
-  WriteLargestTolerance(fieldData);
+  WriteDefaults(choice, fieldData);
 }
 
 }

@@ -154,6 +154,28 @@ isodiamond::Query CoreQuery(
   return result;
 }
 
+/** Says so where a query asks for what its shape does not have. */
+inline void WarnOfOtherShape(vtkAlgorithm* filter, const State& state, const WorldQuery& query)
+{
+  const bool isVolume =
+    query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
+  if (!isVolume && query.InteriorTolerance < VTK_DOUBLE_MAX)
+  {
+    vtkWarningWithObjectMacro(
+      filter, "An isosurface has no inside: the interior tolerance has no effect.");
+  }
+  if (state.Scalars && !isVolume && query.Isorange)
+  {
+    vtkWarningWithObjectMacro(filter,
+      "An isosurface has no isorange: it has no effect unless the shape is an interval volume.");
+  }
+  if (state.Scalars && isVolume && query.Isovalue)
+  {
+    vtkWarningWithObjectMacro(filter,
+      "An interval volume has no isovalue: it has no effect unless the shape is an isosurface.");
+  }
+}
+
 /** Says so where a relevant or minimal hierarchy cannot do what the query asks. */
 inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, const WorldQuery& query)
 {
@@ -222,6 +244,7 @@ inline std::shared_ptr<const State> ReadForQuery(
   {
     throw std::invalid_argument("A view-dependent mesh needs a hierarchy of the distance metric.");
   }
+  WarnOfOtherShape(filter, *state, query);
   if (state->Isodiamonds)
   {
     WarnOfWhatHasNoEffect(filter, *state, query);

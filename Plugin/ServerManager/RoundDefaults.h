@@ -32,8 +32,9 @@ inline std::vector<double> ReadParts(vtkPVXMLElement* element)
   return parts;
 }
 
-/** Sets a property's elements, as many as there are parts or ranges, whichever is more. @return
- *  false without ranges or parts */
+/** Sets a property's elements, as many as there are parts or ranges, whichever is more; none where
+ *  a range ends before it begins, as bounds of what has never been updated do: the XML's defaults
+ *  stay. @return false without ranges or parts */
 inline bool Set(vtkSMDoubleRangeDomain& domain, const std::vector<double>& parts,
   vtkSMProperty* property, bool useUncheckedValues)
 {
@@ -47,6 +48,13 @@ inline bool Set(vtkSMDoubleRangeDomain& domain, const std::vector<double>& parts
   if (ranges == 0 || parts.empty())
   {
     return false;
+  }
+  for (unsigned int i = 0; i < ranges; ++i)
+  {
+    if (!(domain.GetMinimum(i) <= domain.GetMaximum(i)))
+    {
+      return true;
+    }
   }
   const auto given = static_cast<unsigned int>(parts.size());
   for (unsigned int i = 0; i < std::max(given, ranges); ++i)

@@ -3,7 +3,14 @@
 
 #include "RoundDefaults.h"
 
+#include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkPVXMLElement.h"
+#include "vtkSMPropertyHelper.h"
+
+#include <algorithm>
 
 vtkStandardNewMacro(vtkSMRoundArrayRangeDomain);
 
@@ -23,13 +30,36 @@ void vtkSMRoundArrayRangeDomain::PrintSelf(ostream& os, vtkIndent indent)
 int vtkSMRoundArrayRangeDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElement* element)
 {
   this->Parts = RoundDefaults::ReadParts(element);
+  this->FieldArray = element->GetAttributeOrEmpty("field_array");
   return this->Superclass::ReadXMLAttributes(property, element);
 }
 
 //------------------------------------------------------------------------------
 int vtkSMRoundArrayRangeDomain::SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues)
 {
-  return RoundDefaults::Set(*this, this->Parts, property, useUncheckedValues)
+  return this->SetToFieldArray(property, useUncheckedValues) ||
+      RoundDefaults::Set(*this, this->Parts, property, useUncheckedValues)
     ? 1
     : this->Superclass::SetDefaultValues(property, useUncheckedValues);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMRoundArrayRangeDomain::SetToFieldArray(vtkSMProperty* property, bool useUncheckedValues)
+{
+  vtkPVDataInformation* input = this->GetInputDataInformation("Input");
+  vtkPVArrayInformation* array = input && !this->FieldArray.empty()
+    ? input->GetArrayInformation(this->FieldArray.c_str(), vtkDataObject::FIELD)
+    : nullptr;
+  if (!array)
+  {
+    return false;
+  }
+  vtkSMPropertyHelper helper(property);
+  helper.SetUseUnchecked(useUncheckedValues);
+  const unsigned int count = std::min(helper.GetNumberOfElements(), 2U);
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    helper.Set(i, array->GetComponentRange(0)[i]);
+  }
+  return true;
 }

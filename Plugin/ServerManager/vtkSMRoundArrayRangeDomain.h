@@ -4,7 +4,8 @@
  * @brief   the range of an array, with round numbers as defaults
  *
  * As its base class, but the default of element i is about `default_parts[i]` of the way from the
- * minimum to the maximum, and a number that a person would type.
+ * minimum to the maximum, and a number that a person would type. If the input has field data of the
+ * name `field_array`, a hierarchy's own isovalue for instance, the default is what that holds.
  */
 
 #ifndef vtkSMRoundArrayRangeDomain_h
@@ -13,6 +14,7 @@
 #include "vtkIsodiamondServerManagerModule.h" // for export macro
 #include "vtkSMArrayRangeDomain.h"
 
+#include <string> // for the name
 #include <vector> // for the parts
 
 class VTKISODIAMONDSERVERMANAGER_EXPORT vtkSMRoundArrayRangeDomain : public vtkSMArrayRangeDomain
@@ -34,7 +36,10 @@ private:
   vtkSMRoundArrayRangeDomain(const vtkSMRoundArrayRangeDomain&) = delete;
   void operator=(const vtkSMRoundArrayRangeDomain&) = delete;
 
+  bool SetToFieldArray(vtkSMProperty* property, bool useUncheckedValues);
+
   std::vector<double> Parts;
+  std::string FieldArray;
 };
 
 #endif

@@ -86,7 +86,7 @@ TEST(BadInput, ArraysThatCannotBeContoured)
     [](vtkAlgorithm* filter) {
       filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "nowhere");
     },
-    "no such point data array");
+    "Cell data have to be converted");
   ExpectRefusal(
     [](vtkAlgorithm* filter)
     {
@@ -143,6 +143,20 @@ TEST(BadInput, NoInputAtAll)
     EXPECT_GT(messages->ErrorCount + executive->ErrorCount, 0); // the pipeline's own
     EXPECT_EQ(vtkPointSet::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints(), 0);
   }
+}
+
+TEST(BadInput, NoIsovalue)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(test::BallImage({ 9, 9, 9 }));
+  contour->SetNumberOfContours(0);
+  const auto messages = test::Watch(contour);
+  contour->Update();
+  EXPECT_EQ(messages->WarningCount, 1);
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+  contour->SetValue(0, 0.0);
+  contour->Update();
+  EXPECT_EQ(messages->WarningCount, 1);
 }
 
 TEST(BadInput, TolerancesAndIsovalues)

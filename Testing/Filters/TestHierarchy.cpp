@@ -163,6 +163,8 @@ TEST(Hierarchy, WarnsOfValuesThatAreSetButNotUsed)
   extractor->UseIsovalueOn();
   extractor->Update();
   EXPECT_EQ(messages->WarningCount, 1);
+  extractor->UseIsovalueOff();
+  extractor->StoreIsovalue(0.0);
   extractor->SetShapeToIntervalVolume();
   extractor->StoreIsorange(-0.1, 0.1);
   extractor->Update();
@@ -171,6 +173,54 @@ TEST(Hierarchy, WarnsOfValuesThatAreSetButNotUsed)
   extractor->UseIsorangeOn();
   extractor->Update();
   EXPECT_EQ(messages->WarningCount, 2);
+}
+
+TEST(Hierarchy, WarnsOfWhatOtherShapesHave)
+{
+  const auto hd = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(hd->GetOutputPort());
+  const auto messages = test::Watch(extractor);
+  extractor->SetIsorange(-0.1, 0.1);
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 1);
+  EXPECT_NE(messages->Warnings.find("no isorange"), std::string::npos);
+  extractor->SetShapeToIntervalVolume();
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 1);
+  extractor->SetIsovalue(0.1);
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 2);
+  EXPECT_NE(messages->Warnings.find("no isovalue"), std::string::npos);
+  extractor->UseIsorangeOff();
+  extractor->SetShapeToIsosurface();
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 2);
+  extractor->SetInteriorTolerance(0.1);
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 3);
+  EXPECT_NE(messages->Warnings.find("no inside"), std::string::npos);
+}
+
+TEST(Hierarchy, TellsItsValuesToWhoLooks)
+{
+  const auto hd = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  hd->SetIsovalue(0.25);
+  hd->SetIsorange(-0.5, 0.75);
+  const auto mi = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  mi->SetIsovalue(0.125);
+  for (const auto& [builder, isovalue] : { std::pair(hd, 0.25), std::pair(mi, 0.125) })
+  {
+    builder->Update();
+    vtkFieldData* own = builder->GetOutput()->GetFieldData();
+    ASSERT_NE(own->GetArray("Isovalue"), nullptr);
+    EXPECT_EQ(own->GetArray("Isovalue")->GetTuple1(0), isovalue);
+  }
+  vtkDataArray* range = hd->GetOutput()->GetFieldData()->GetArray("Isorange");
+  ASSERT_NE(range, nullptr);
+  EXPECT_EQ(range->GetTuple1(0), -0.5);
+  EXPECT_EQ(range->GetTuple1(1), 0.75);
+  EXPECT_EQ(Extract(mi->GetOutputPort(), 0.0)->GetFieldData()->GetArray("Isovalue"), nullptr);
 }
 
 TEST(Hierarchy, OfDiamondsAnswersOtherIsovalues)

@@ -14,6 +14,9 @@ fresh = IsodiamondContour(Input=Wavelet(), Isosurfaces=[157])
 fresh.UpdatePipeline()
 assert fresh.GetDataInformation().GetNumberOfCells() > 0
 
+# Nor bounds: then a region of interest has no size, and the filter says so, and none inside out.
+assert list(fresh.RegionOfInterestSize) == [0, 0, 0], fresh.RegionOfInterestSize
+
 wavelet = Wavelet()
 wavelet.UpdatePipeline()
 low, high = wavelet.PointData["RTData"].GetRange()
@@ -169,6 +172,11 @@ mesh = DiamondMesh(hierarchy)
 mesh.UpdatePipeline()
 assert mesh.GetDataInformation().GetNumberOfCells() > 0
 
+# All point arrays: the one that the hierarchy is of anyway is passed over.
+carrying = IsodiamondHierarchy(wavelet, PointArrays=["RTData"])
+carrying.UpdatePipeline()
+assert carrying.FieldData["Isovalue"].GetRange() == (160, 160)
+
 # Interval volumes: defaults of the array's range, tolerances that can be set.
 volume = IsodiamondIntervalVolume(wavelet)
 assert volume.PreserveTopology == 1 and volume.MinimumPieceSize == 0
@@ -220,6 +228,14 @@ diamonds = IsodiamondHierarchy(wavelet, Model="Hierarchy of Diamonds (any isoval
 extract = IsodiamondExtract(diamonds)
 extract.UpdatePipeline()
 assert extract.GetDataInformation().GetNumberOfCells() == full
+extract = IsodiamondExtract(diamonds)  # whose values are known now
+assert extract.Isovalue == 160 and list(extract.Isorange) == [120, 200]
+extract.UseIsovalue = 1
+extract.UpdatePipeline()
+assert extract.GetDataInformation().GetNumberOfCells() == full
+extract.UseIsovalue = 0
+minimal = IsodiamondHierarchy(diamonds)
+assert minimal.Isovalue == 160 and list(minimal.Isorange) == [120, 200]
 extract.Isovalue = 200
 extract.Shape = "Interval Volume"
 extract.Isorange = [120, 180]

@@ -204,6 +204,28 @@ TEST(RegionOfInterest, AtItsExtremes)
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
 }
 
+TEST(RegionOfInterest, WarnsOfBoxesWithoutSize)
+{
+  const double inf = Infinity;
+  const auto contour = MakeContour(test::BallImage({ 9, 9, 9 }));
+  const auto messages = test::Watch(contour);
+  const auto warns = [&](std::array<double, 6> region)
+  {
+    const int before = messages->WarningCount;
+    contour->SetRegionOfInterest(region.data());
+    contour->Update();
+    EXPECT_EQ(messages->ErrorCount, 0);
+    return messages->WarningCount - before;
+  };
+  EXPECT_EQ(warns({ 4, 3, 0, 8, 0, 8 }), 0) << "it is not used";
+  contour->UseRegionOfInterestOn();
+  EXPECT_EQ(warns({ 4, 3, 0, 8, 0, 8.5 }), 1);
+  EXPECT_EQ(warns({ 1, 0, 1, 0, 1, 0 }), 1);
+  EXPECT_EQ(warns({ 1, 1, 2, 2, 3, 3 }), 1);
+  EXPECT_EQ(warns({ 0, 8, 0, 8, 4, 4 }), 0) << "a slice";
+  EXPECT_EQ(warns({ -inf, inf, 2, 2, 3, 3 }), 0) << "a line";
+}
+
 TEST(RegionOfInterest, RefusesWhatIsNoBoxOrTolerance)
 {
   const auto contour = MakeContour(test::BallImage({ 9, 9, 9 }));
