@@ -157,8 +157,7 @@ isodiamond::Query CoreQuery(
 /** Says so where a query asks for what its shape does not have. */
 inline void WarnOfOtherShape(vtkAlgorithm* filter, const State& state, const WorldQuery& query)
 {
-  const bool isVolume =
-    query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
+  const bool isVolume = query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
   if (!isVolume && query.InteriorTolerance < VTK_DOUBLE_MAX)
   {
     vtkWarningWithObjectMacro(

@@ -39,8 +39,8 @@ public:
     , Stars(cut.Vertices.size(), cut.Tetrahedra.size(),
         [&](std::size_t tetrahedron) { return cut.Tetrahedra[tetrahedron].Vertices; })
     , Crossings(FindCrossings(cut, points.size()))
-    , CrossingsOfStars(cut.Vertices.size(), points.size(),
-        [&](std::size_t point) { return this->EndsOf(point); })
+    , CrossingsOfStars(
+        cut.Vertices.size(), points.size(), [&](std::size_t point) { return this->EndsOf(point); })
   {
   }
 

@@ -256,8 +256,8 @@ TetrahedronMesh MovedVertices::PlacedPoints() const
     if (crossing.IsThere())
     {
       mesh.Surfaces[point] = static_cast<std::int8_t>(2 * crossing.Surface - 1);
-      mesh.OnWalls[point] = CommonWalls(
-        this->Mesh.WallsOf(crossing.Ends[0]), this->Mesh.WallsOf(crossing.Ends[1]));
+      mesh.OnWalls[point] =
+        CommonWalls(this->Mesh.WallsOf(crossing.Ends[0]), this->Mesh.WallsOf(crossing.Ends[1]));
     }
   }
   return mesh;
