@@ -55,7 +55,8 @@ PointDataMaker FromVolume(const Volume& volume, const VolumePointData& wanted);
 PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
   const std::vector<vtkSmartPointer<vtkDataArray>>& arrays);
 
-/** @throws std::invalid_argument if one that is wanted by name is not there */
+/** @param contoured the array that meshes have anyway, and which may be among the names
+ *  @throws std::invalid_argument if another one that is wanted by name is not there */
 void CheckNames(const VolumePointData& wanted, const std::string& contoured,
   const std::vector<vtkSmartPointer<vtkDataArray>>& arrays);
 
