@@ -42,7 +42,7 @@ PointWriter WriteGradients(const Volume& volume, vtkFloatArray* normals, vtkFloa
     const isodiamond::Vector gradient = gradientAt(point.Index);
     if (ofNormals)
     {
-      write(ofNormals + 3 * point.Id, isodiamond::NormalOf(gradient));
+      write(ofNormals + 3 * point.Id, gradientAt.NormalAt(point.Index, gradient));
     }
     if (ofGradients)
     {

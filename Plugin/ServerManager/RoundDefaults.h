@@ -9,6 +9,7 @@
 #include "vtkSMPropertyHelper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -63,6 +64,12 @@ inline bool Set(vtkSMDoubleRangeDomain& domain, const std::vector<double>& parts
     helper.Set(i,
       RoundNumbers::Between(
         domain.GetMinimum(range), domain.GetMaximum(range), parts[std::min(i, given - 1)]));
+  }
+  // A range of constant data is nothing that one could choose a part of: what is beyond its end is.
+  if (given > 1 && helper.GetAsDouble(0) == helper.GetAsDouble(given - 1))
+  {
+    const double value = helper.GetAsDouble(0);
+    helper.Set(given - 1, value + std::max(1.0, std::abs(value)));
   }
   return true;
 }

@@ -9,8 +9,10 @@
 #include "vtkPVDataInformation.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMUncheckedPropertyHelper.h"
 
 #include <algorithm>
+#include <cmath>
 
 vtkStandardNewMacro(vtkSMRoundArrayRangeDomain);
 
@@ -32,6 +34,28 @@ int vtkSMRoundArrayRangeDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPV
   this->Parts = RoundDefaults::ReadParts(element);
   this->FieldArray = element->GetAttributeOrEmpty("field_array");
   return this->Superclass::ReadXMLAttributes(property, element);
+}
+
+//------------------------------------------------------------------------------
+void vtkSMRoundArrayRangeDomain::Update(vtkSMProperty* requestingProperty)
+{
+  this->Superclass::Update(requestingProperty);
+  vtkPVDataInformation* input = this->GetInputDataInformation("Input");
+  vtkSMProperty* array = this->GetRequiredProperty("ArraySelection");
+  const bool isFinite = std::isfinite(this->GetMinimum(0)) && std::isfinite(this->GetMaximum(0));
+  if (isFinite || !this->GetMinimumExists(0) || !input || !array)
+  {
+    return;
+  }
+  const vtkSMUncheckedPropertyHelper selection(array);
+  const char* name = selection.GetAsString(4);
+  vtkPVArrayInformation* values =
+    name ? input->GetArrayInformation(name, selection.GetAsInt(3)) : nullptr;
+  if (values)
+  {
+    const double* range = values->GetComponentFiniteRange(0);
+    this->SetEntries(std::vector<vtkEntry>{ vtkEntry(range[0], range[1]) });
+  }
 }
 
 //------------------------------------------------------------------------------

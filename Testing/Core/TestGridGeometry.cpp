@@ -165,6 +165,35 @@ TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
   }
 }
 
+// A linear field, of which one half is no number, and a corner infinite.
+TEST(GridGeometry, NormalsBesideGapsAreThoseOfTheFieldOrOfTheGap)
+{
+  constexpr int size = 7;
+  std::vector<float> field;
+  for (int i = 0; i < size * size * size; ++i)
+  {
+    const int x = i % size;
+    const int y = i / size % size;
+    const int z = i / (size * size);
+    field.push_back(x > 3 ? std::nanf("")
+        : x + y + z == 0  ? HUGE_VALF
+                          : static_cast<float>(2 * x - y + 2 * z));
+  }
+  const AnySamples samples = SampleView<float>(field.data(), { size, size, size });
+  const GridGeometry world{ AffineMap() };
+  const Gradients gradients(samples, world);
+  const auto normalAt = [&](const Vector& at) { return gradients.NormalAt(at, gradients(at)); };
+  for (const Vector& inside : { Vector{ 2.5, 3.25, 4.0 }, Vector{ 3.0, 2.5, 2.0 } })
+  {
+    ExpectNear(gradients(inside), { 2.0, -1.0, 2.0 }, 1e-6);
+    ExpectNear(normalAt(inside), { -2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0 }, 1e-6);
+  }
+  ExpectNear(normalAt({ 3.5, 3.0, 3.0 }), { 1.0, 0.0, 0.0 }); // into the gap
+  EXPECT_GT(normalAt({ 0.75, 0.0, 0.0 })[0], 0.7); // away from what is above
+  EXPECT_GT(normalAt({ 0.0, 0.0, 0.75 })[2], 0.7);
+  ExpectNear(normalAt({ 5.0, 3.0, 3.0 }), { 0.0, 0.0, 1.0 }); // nothing around it
+}
+
 TEST(GridGeometry, NormalsHaveLengthOneHoweverLongTheGradientIs)
 {
   const Vector normal = NormalOf({ 0.0, 3.0, -4.0 });

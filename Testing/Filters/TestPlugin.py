@@ -4,6 +4,8 @@ import os
 import sys
 
 from paraview.simple import *
+from vtkmodules.vtkCommonCore import vtkFloatArray
+from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
@@ -137,6 +139,27 @@ assert removed() > 0
 assert contour.GetDataInformation().GetNumberOfCells() == 0
 contour.MinimumPieceSize = 0
 assert removed() == 0
+
+# Data that are all the same, and such with an infinite value, have defaults to begin with, too.
+odd = vtkImageData()
+odd.SetDimensions(3, 3, 3)
+for name, values in (("constant", [3] * 27), ("spike", [float("inf")] + list(range(1, 27)))):
+    array = vtkFloatArray()
+    array.SetName(name)
+    for value in values:
+        array.InsertNextValue(value)
+    odd.GetPointData().AddArray(array)
+producer = TrivialProducer()
+producer.GetClientSideObject().SetOutput(odd)
+producer.UpdatePipeline()
+constant = IsodiamondIntervalVolume(producer, InputScalars=["POINTS", "constant"])
+assert list(constant.Isorange) == [3, 6], constant.Isorange
+constant.UpdatePipeline()
+assert constant.GetDataInformation().GetNumberOfCells() > 0
+spike = IsodiamondContour(producer, ContourBy=["POINTS", "spike"])
+assert list(spike.Isosurfaces) == [14], spike.Isosurfaces  # of 1 to 26
+spike.UpdatePipeline()
+assert spike.GetDataInformation().GetNumberOfCells() > 0
 
 # Two steps.
 hierarchy = IsodiamondHierarchy(wavelet)

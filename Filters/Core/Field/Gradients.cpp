@@ -11,9 +11,10 @@ namespace isodiamond
 namespace
 {
 
-/** Central differences in index space at a sample. */
-template <typename T>
-Vector IndexGradientAt(const SampleView<T>& samples, const Point& point)
+/** Central differences in index space at a sample, one-sided on the boundary and beside what is not
+ *  finite. @param valueOf (sample) -> the field there */
+template <typename T, typename ValueOf>
+Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const ValueOf& valueOf)
 {
   const std::array<int, 3>& size = samples.Dimensions();
   const std::array<std::int64_t, 3> strides = { 1, size[0], std::int64_t{ 1 } * size[0] * size[1] };
@@ -23,9 +24,16 @@ Vector IndexGradientAt(const SampleView<T>& samples, const Point& point)
   {
     const bool isFirst = point[axis] == 0;
     const bool isLast = point[axis] == size[axis] - 1;
-    const auto before = static_cast<double>(at[isFirst ? 0 : -strides[axis]]);
-    const auto after = static_cast<double>(at[isLast ? 0 : strides[axis]]);
-    gradient[axis] = (isFirst || isLast ? 1.0 : 0.5) * (after - before);
+    double before = valueOf(at[isFirst ? 0 : -strides[axis]]);
+    double after = valueOf(at[isLast ? 0 : strides[axis]]);
+    bool isOneSided = isFirst || isLast;
+    if (const double here = valueOf(*at); std::isfinite(here))
+    {
+      isOneSided = isOneSided || !std::isfinite(before) || !std::isfinite(after);
+      before = std::isfinite(before) ? before : here;
+      after = std::isfinite(after) ? after : here;
+    }
+    gradient[axis] = (isOneSided ? 1.0 : 0.5) * (after - before);
   }
   return gradient;
 }
@@ -62,7 +70,8 @@ Gradients::Gradients(const AnySamples& samples, const GridGeometry& geometry)
   }
 }
 
-Vector Gradients::operator()(const Vector& index) const
+template <typename ValueOf>
+Vector Gradients::At(const Vector& index, const ValueOf& valueOf) const
 {
   Vector sum{};
   std::visit(
@@ -73,7 +82,7 @@ Vector Gradients::operator()(const Vector& index) const
         .ForEachCorner(
           [&](const Point& sample, double weight)
           {
-            const Vector gradient = IndexGradientAt(view, sample);
+            const Vector gradient = IndexGradientAt(view, sample, valueOf);
             sum = sum +
               weight *
                 (this->OfSteps
@@ -83,6 +92,28 @@ Vector Gradients::operator()(const Vector& index) const
     },
     this->Samples);
   return this->OfSteps ? ToWorld(*this->OfSteps, sum) : sum;
+}
+
+Vector Gradients::operator()(const Vector& index) const
+{
+  return this->At(index, [](auto sample) { return static_cast<double>(sample); });
+}
+
+/** Of a field that is 0 where samples are finite, else -1 or 1. */
+Vector Gradients::OfGaps(const Vector& index) const
+{
+  return this->At(index,
+    [](auto sample)
+    {
+      const auto value = static_cast<double>(sample);
+      return std::isfinite(value) ? 0.0 : value > 0.0 ? 1.0 : -1.0;
+    });
+}
+
+Vector Gradients::NormalAt(const Vector& index, const Vector& gradient) const
+{
+  const bool isFinite = std::isfinite(gradient[0] + gradient[1] + gradient[2]);
+  return NormalOf(isFinite ? gradient : this->OfGaps(index));
 }
 
 Vector NormalOf(const Vector& gradient)

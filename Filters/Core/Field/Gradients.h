@@ -13,8 +13,8 @@ namespace isodiamond
 
 /**
  * Gradients in the world of the full-resolution field: central differences at the samples,
- * one-sided on the grid's boundary, interpolated trilinearly. Where the field is not finite they
- * are not either.
+ * one-sided on the grid's boundary and beside samples that are not finite, interpolated
+ * trilinearly. Where the field is not finite they are not either.
  */
 class Gradients
 {
@@ -25,15 +25,24 @@ public:
   /** At a position in index space; the nearest in the grid for one beyond it. */
   Vector operator()(const Vector& index) const;
 
+  /** The unit normal toward lower values, as triangles have them. Where the field is not finite:
+   *  toward what counts as below any value (NaN, too), and away from what counts as above.
+   *  @param gradient the one there */
+  Vector NormalAt(const Vector& index, const Vector& gradient) const;
+
 private:
+  template <typename ValueOf>
+  Vector At(const Vector& index, const ValueOf& valueOf) const;
+  Vector OfGaps(const Vector& index) const;
+
   const AnySamples& Samples;
   const GridGeometry& Geometry;
   /** In the world, for steps in index space, where these are the same everywhere. */
   std::optional<std::array<Vector, 3>> OfSteps;
 };
 
-/** The unit normal toward lower values, as triangles have them; (0, 0, 1) where the gradient
- *  vanishes or is not finite. */
+/** The unit normal of a gradient, toward lower values; (0, 0, 1) where it vanishes or is not
+ * finite. */
 Vector NormalOf(const Vector& gradient);
 
 }
