@@ -4,9 +4,9 @@
  * @brief   the range of an array, with round numbers as defaults
  *
  * As its base class, but the default of element i is about `default_parts[i]` of the way from the
- * minimum to the maximum, and a number that a person would type. Values that are not finite are not in
- * the range. If the input has field data of the
- * name `field_array`, a hierarchy's own isovalue for instance, the default is what that holds.
+ * minimum to the maximum, and a number that a person would type. Values that are not finite are not
+ * in the range. If the input has field data of the name `field_array`, a hierarchy's own isovalue
+ * for instance, the default is what that holds.
  */
 
 #ifndef vtkSMRoundArrayRangeDomain_h
