@@ -189,7 +189,7 @@ TEST(GridGeometry, NormalsBesideGapsAreThoseOfTheFieldOrOfTheGap)
     ExpectNear(normalAt(inside), { -2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0 }, 1e-6);
   }
   ExpectNear(normalAt({ 3.5, 3.0, 3.0 }), { 1.0, 0.0, 0.0 }); // into the gap
-  EXPECT_GT(normalAt({ 0.75, 0.0, 0.0 })[0], 0.7); // away from what is above
+  EXPECT_GT(normalAt({ 0.75, 0.0, 0.0 })[0], 0.7);            // away from what is above
   EXPECT_GT(normalAt({ 0.0, 0.0, 0.75 })[2], 0.7);
   ExpectNear(normalAt({ 5.0, 3.0, 3.0 }), { 0.0, 0.0, 1.0 }); // nothing around it
 }
