@@ -113,11 +113,6 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
   if (this->UseRegionOfInterest)
   {
     const double* region = this->RegionOfInterest;
-    if (HasNoSize(region))
-    {
-      vtkWarningMacro("The region of interest has no size, or ends before it begins: the outside "
-                      "tolerance holds nearly everywhere.");
-    }
     query.Region =
       isodiamond::Box{ { region[0], region[2], region[4] }, { region[1], region[3], region[5] } };
   }
@@ -135,6 +130,16 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
         2.0 * std::tan(0.5 * angle) * this->PixelTolerance / this->ViewHeight };
   }
   return query;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondAlgorithm::WarnWithoutRegion()
+{
+  if (this->UseRegionOfInterest && HasNoSize(this->RegionOfInterest))
+  {
+    vtkWarningMacro("The region of interest has no size, or ends before it begins: the outside "
+                    "tolerance holds nearly everywhere.");
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -105,12 +105,19 @@ void vtkIsodiamondExtractor::StoreInteriorTolerance(double tolerance)
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::SetIsovalue(double isovalue)
 {
-  this->StoreIsovalue(isovalue);
+  this->StoreWantedIsovalue(isovalue);
   this->UseIsovalueOn();
 }
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::StoreIsovalue(double isovalue)
+{
+  this->FirstIsovalue = this->FirstIsovalue.value_or(isovalue);
+  this->StoreWantedIsovalue(isovalue);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::StoreWantedIsovalue(double isovalue)
 {
   if (this->Isovalue != isovalue)
   {
@@ -122,12 +129,19 @@ void vtkIsodiamondExtractor::StoreIsovalue(double isovalue)
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::SetIsorange(double lower, double upper)
 {
-  this->StoreIsorange(lower, upper);
+  this->StoreWantedIsorange(lower, upper);
   this->UseIsorangeOn();
 }
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::StoreIsorange(double lower, double upper)
+{
+  this->FirstIsorange = this->FirstIsorange.value_or(std::array<double, 2>{ lower, upper });
+  this->StoreWantedIsorange(lower, upper);
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondExtractor::StoreWantedIsorange(double lower, double upper)
 {
   if (this->Isorange[0] != lower || this->Isorange[1] != upper)
   {
@@ -265,6 +279,7 @@ int vtkIsodiamondExtractor::RequestData(
       execution->State =
         vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), query);
       this->WarnOfUnusedValues(*execution->State);
+      this->WarnWithoutRegion();
       if (!IsForVolume(query, *execution->State))
       {
         query.TurnToTriangles();
@@ -291,18 +306,20 @@ int vtkIsodiamondExtractor::RequestData(
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::WarnOfUnusedValues(const vtkIsodiamond::State& state)
 {
-  // Values of a user who did not turn them on; what they are at first says nothing.
+  // Values of a user who did not turn them on; what a panel starts with says nothing.
   const vtkIsodiamond::Choice& own = state.Chosen;
   const bool isVolume = IsForVolume(this->GetQuery(), state);
-  if (!isVolume && !this->UseIsovalue && this->Isovalue != 0.0 && this->Isovalue != own.Isovalue)
+  if (!isVolume && !this->UseIsovalue && this->Isovalue != this->FirstIsovalue.value_or(0.0) &&
+    this->Isovalue != own.Isovalue)
   {
     vtkWarningMacro("Isovalue is " << this->Isovalue
                                    << ", but UseIsovalue is off: the mesh has the "
                                    << "hierarchy's, " << own.Isovalue << ".");
   }
   const std::array<double, 2> isorange = { this->Isorange[0], this->Isorange[1] };
-  if (isVolume && !this->UseIsorange && isorange != std::array<double, 2>{ 0.0, 1.0 } &&
-    isorange != own.Isorange)
+  const std::array<double, 2> first =
+    this->FirstIsorange.value_or(std::array<double, 2>{ 0.0, 1.0 });
+  if (isVolume && !this->UseIsorange && isorange != first && isorange != own.Isorange)
   {
     vtkWarningMacro("Isorange is set, but UseIsorange is off: the mesh has the hierarchy's, "
       << own.Isorange[0] << " to " << own.Isorange[1] << ".");

@@ -30,7 +30,9 @@
 #include "vtkIsodiamondFiltersModule.h" // for export macro
 #include "vtkIsodiamondHierarchy.h"     // for the shapes
 
-#include <memory> // for the last execution
+#include <array>    // for what it starts with
+#include <memory>   // for the last execution
+#include <optional> // for what it starts with
 
 namespace isodiamond
 {
@@ -125,7 +127,8 @@ public:
    */
   void SetIsorange(double lower, double upper);
   void SetIsorange(double isorange[2]) { this->SetIsorange(isorange[0], isorange[1]); }
-  /** The same, but leaves UseIsorange as it is: for user interfaces that set both. */
+  /** The same, but leaves UseIsorange as it is: for user interfaces that set both, first to what
+   * they start with. */
   void StoreIsorange(double lower, double upper);
   vtkGetVector2Macro(Isorange, double);
   vtkSetMacro(UseIsorange, bool);
@@ -139,7 +142,8 @@ public:
    * on. RI and MI are of one isovalue: with them it warns and has no effect. Default: off.
    */
   void SetIsovalue(double isovalue);
-  /** The same, but leaves UseIsovalue as it is: for user interfaces that set both. */
+  /** The same, but leaves UseIsovalue as it is: for user interfaces that set both, first to what
+   * they start with. */
   void StoreIsovalue(double isovalue);
   vtkGetMacro(Isovalue, double);
   vtkSetMacro(UseIsovalue, bool);
@@ -224,6 +228,14 @@ private:
   vtkIsodiamond::WorldQuery GetExtracted(
     const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query) const;
   void WarnOfUnusedValues(const vtkIsodiamond::State& state);
+  void StoreWantedIsovalue(double isovalue);
+  void StoreWantedIsorange(double lower, double upper);
+
+  ///@{
+  /** What a user interface started with, if there is one. */
+  std::optional<double> FirstIsovalue;
+  std::optional<std::array<double, 2>> FirstIsorange;
+  ///@}
 
   /** The hierarchy, query and counts of the last execution. */
   struct Execution;

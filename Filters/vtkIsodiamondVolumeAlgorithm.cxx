@@ -185,6 +185,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
     [&](vtkIsodiamond::Task& task)
     {
       vtkIsodiamond::WorldQuery query = this->GetQuery();
+      this->WarnWithoutRegion();
       vtkIsodiamond::CheckTolerances(query);
       vtkInformation* input = inputVector[0]->GetInformationObject(0);
       vtkIsodiamond::InputArray array;

@@ -156,6 +156,12 @@ TEST(Hierarchy, WarnsOfValuesThatAreSetButNotUsed)
   auto messages = test::Watch(extractor);
   extractor->Update();
   EXPECT_EQ(messages->WarningCount, 0);
+  extractor->StoreIsovalue(0.125); // what a panel starts with
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 0);
+  hd->SetIsovalue(0.25);
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 0) << "the hierarchy has another one now";
   extractor->StoreIsovalue(0.3);
   extractor->Update();
   EXPECT_EQ(messages->WarningCount, 1);
@@ -164,8 +170,10 @@ TEST(Hierarchy, WarnsOfValuesThatAreSetButNotUsed)
   extractor->Update();
   EXPECT_EQ(messages->WarningCount, 1);
   extractor->UseIsovalueOff();
-  extractor->StoreIsovalue(0.0);
   extractor->SetShapeToIntervalVolume();
+  extractor->StoreIsorange(-0.2, 0.2);
+  extractor->Update();
+  EXPECT_EQ(messages->WarningCount, 1);
   extractor->StoreIsorange(-0.1, 0.1);
   extractor->Update();
   EXPECT_EQ(messages->WarningCount, 2);

@@ -224,6 +224,17 @@ TEST(RegionOfInterest, WarnsOfBoxesWithoutSize)
   EXPECT_EQ(warns({ 1, 1, 2, 2, 3, 3 }), 1);
   EXPECT_EQ(warns({ 0, 8, 0, 8, 4, 4 }), 0) << "a slice";
   EXPECT_EQ(warns({ -inf, inf, 2, 2, 3, 3 }), 0) << "a line";
+
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(test::BallImage({ 9, 9, 9 }));
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(builder->GetOutputPort());
+  extractor->UseRegionOfInterestOn();
+  extractor->SetRegionOfInterest(1, 0, 1, 0, 1, 0);
+  extractor->SetTargetNumberOfTriangles(500);
+  const auto ofExtractor = test::Watch(extractor);
+  extractor->Update();
+  EXPECT_EQ(ofExtractor->WarningCount, 1) << ofExtractor->Warnings;
 }
 
 TEST(RegionOfInterest, RefusesWhatIsNoBoxOrTolerance)
