@@ -19,24 +19,6 @@
 
 #include <algorithm>
 
-namespace
-{
-
-/** Whether no place, or only one, is in a box: VTK's bounds of nothing end before they begin. */
-bool HasNoSize(const double* bounds)
-{
-  bool isPoint = true;
-  bool isNothing = false;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    isPoint = isPoint && bounds[2 * axis] == bounds[2 * axis + 1];
-    isNothing = isNothing || bounds[2 * axis] > bounds[2 * axis + 1];
-  }
-  return isPoint || isNothing;
-}
-
-}
-
 //------------------------------------------------------------------------------
 vtkIsodiamondAlgorithm::vtkIsodiamondAlgorithm()
 {
@@ -130,16 +112,6 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
         2.0 * std::tan(0.5 * angle) * this->PixelTolerance / this->ViewHeight };
   }
   return query;
-}
-
-//------------------------------------------------------------------------------
-void vtkIsodiamondAlgorithm::WarnWithoutRegion()
-{
-  if (this->UseRegionOfInterest && HasNoSize(this->RegionOfInterest))
-  {
-    vtkWarningMacro("The region of interest has no size, or ends before it begins: the outside "
-                    "tolerance holds nearly everywhere.");
-  }
 }
 
 //------------------------------------------------------------------------------

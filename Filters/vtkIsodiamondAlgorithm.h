@@ -226,9 +226,6 @@ protected:
   /** Puts the angles of a mesh for simulations where users can see them. */
   void NoteDihedralAngles(const vtkIsodiamond::Mesh& mesh, vtkDataObject* output);
 
-  /** Says so if the region of interest that is to be used is a point, or nothing. */
-  void WarnWithoutRegion();
-
   /** The share of a mesh that is asked for. */
   vtkIsodiamond::Share GetShare() const;
 

@@ -279,7 +279,6 @@ int vtkIsodiamondExtractor::RequestData(
       execution->State =
         vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), query);
       this->WarnOfUnusedValues(*execution->State);
-      this->WarnWithoutRegion();
       if (!IsForVolume(query, *execution->State))
       {
         query.TurnToTriangles();

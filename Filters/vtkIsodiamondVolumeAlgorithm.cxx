@@ -185,8 +185,8 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
     [&](vtkIsodiamond::Task& task)
     {
       vtkIsodiamond::WorldQuery query = this->GetQuery();
-      this->WarnWithoutRegion();
       vtkIsodiamond::CheckTolerances(query);
+      vtkIsodiamond::WarnOfEmptyRegion(this, query);
       vtkInformation* input = inputVector[0]->GetInformationObject(0);
       vtkIsodiamond::InputArray array;
       vtkSmartPointer<vtkDataObject> whole; // if it is there at once

@@ -95,6 +95,25 @@ inline void CheckTolerances(const WorldQuery& query)
   }
 }
 
+/** Says so if the region of a query is a point, or nothing: VTK's bounds of nothing end before they
+ *  begin. */
+inline void WarnOfEmptyRegion(vtkAlgorithm* filter, const WorldQuery& query)
+{
+  bool isPoint = query.Region.has_value();
+  bool isNothing = false;
+  for (int axis = 0; axis < 3 && query.Region; ++axis)
+  {
+    isPoint = isPoint && query.Region->Minimum[axis] == query.Region->Maximum[axis];
+    isNothing = isNothing || query.Region->Minimum[axis] > query.Region->Maximum[axis];
+  }
+  if (isPoint || isNothing)
+  {
+    vtkWarningWithObjectMacro(filter,
+      "The region of interest has no size, or ends before it begins: the outside tolerance holds "
+      "nearly everywhere.");
+  }
+}
+
 /** The metric of a hierarchy, and the extent of what it measures. */
 struct Measure
 {
@@ -243,6 +262,7 @@ inline std::shared_ptr<const State> ReadForQuery(
   {
     throw std::invalid_argument("A view-dependent mesh needs a hierarchy of the distance metric.");
   }
+  WarnOfEmptyRegion(filter, query);
   WarnOfOtherShape(filter, *state, query);
   if (state->Isodiamonds)
   {

@@ -2,6 +2,7 @@
 #include "vtkSMErrorToleranceDomain.h"
 
 #include "RoundNumbers.h"
+#include "SelectedArray.h"
 
 #include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
@@ -59,10 +60,7 @@ double vtkSMErrorToleranceDomain::FindLargest()
   }
   else if (input && array)
   {
-    const vtkSMUncheckedPropertyHelper selection(array);
-    const char* name = selection.GetAsString(4);
-    vtkPVArrayInformation* values =
-      name ? input->GetArrayInformation(name, selection.GetAsInt(3)) : nullptr;
+    vtkPVArrayInformation* values = SelectedArray(input, array);
     largest =
       values ? values->GetComponentFiniteRange(0)[1] - values->GetComponentFiniteRange(0)[0] : 0.0;
   }

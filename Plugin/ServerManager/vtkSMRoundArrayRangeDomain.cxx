@@ -2,6 +2,7 @@
 #include "vtkSMRoundArrayRangeDomain.h"
 
 #include "RoundDefaults.h"
+#include "SelectedArray.h"
 
 #include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
@@ -9,7 +10,6 @@
 #include "vtkPVDataInformation.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMUncheckedPropertyHelper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,15 +42,10 @@ void vtkSMRoundArrayRangeDomain::Update(vtkSMProperty* requestingProperty)
   this->Superclass::Update(requestingProperty);
   vtkPVDataInformation* input = this->GetInputDataInformation("Input");
   vtkSMProperty* array = this->GetRequiredProperty("ArraySelection");
-  const bool isFinite = std::isfinite(this->GetMinimum(0)) && std::isfinite(this->GetMaximum(0));
-  if (isFinite || !this->GetMinimumExists(0) || !input || !array)
-  {
-    return;
-  }
-  const vtkSMUncheckedPropertyHelper selection(array);
-  const char* name = selection.GetAsString(4);
+  const bool isInfinite = this->GetMinimumExists(0) &&
+    !(std::isfinite(this->GetMinimum(0)) && std::isfinite(this->GetMaximum(0)));
   vtkPVArrayInformation* values =
-    name ? input->GetArrayInformation(name, selection.GetAsInt(3)) : nullptr;
+    isInfinite && input && array ? SelectedArray(input, array) : nullptr;
   if (values)
   {
     const double* range = values->GetComponentFiniteRange(0);

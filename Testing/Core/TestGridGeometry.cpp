@@ -192,6 +192,8 @@ TEST(GridGeometry, NormalsBesideGapsAreThoseOfTheFieldOrOfTheGap)
   EXPECT_GT(normalAt({ 0.75, 0.0, 0.0 })[0], 0.7);            // away from what is above
   EXPECT_GT(normalAt({ 0.0, 0.0, 0.75 })[2], 0.7);
   ExpectNear(normalAt({ 5.0, 3.0, 3.0 }), { 0.0, 0.0, 1.0 }); // nothing around it
+  // Finite, but its components' sum is not.
+  ExpectNear(gradients.NormalAt({ 3.5, 3.0, 3.0 }, { 0.0, -1.2e308, -0.9e308 }), { 0.0, 0.8, 0.6 });
 }
 
 TEST(GridGeometry, NormalsHaveLengthOneHoweverLongTheGradientIs)

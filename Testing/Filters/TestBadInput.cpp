@@ -86,7 +86,7 @@ TEST(BadInput, ArraysThatCannotBeContoured)
     [](vtkAlgorithm* filter) {
       filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "nowhere");
     },
-    "Cell data have to be converted");
+    "no such point data array. Cell data have to be converted");
   ExpectRefusal(
     [](vtkAlgorithm* filter)
     {

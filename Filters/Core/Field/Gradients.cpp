@@ -3,8 +3,10 @@
 
 #include "Field/Trilinear.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 namespace isodiamond
 {
@@ -19,6 +21,8 @@ Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const V
   const std::array<int, 3>& size = samples.Dimensions();
   const std::array<std::int64_t, 3> strides = { 1, size[0], std::int64_t{ 1 } * size[0] * size[1] };
   const T* const at = samples.Pointer() + samples.Index(point);
+  const double here = valueOf(*at);
+  const bool mayHaveGaps = std::is_floating_point_v<T> && std::isfinite(here);
   Vector gradient{};
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -27,9 +31,9 @@ Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const V
     double before = valueOf(at[isFirst ? 0 : -strides[axis]]);
     double after = valueOf(at[isLast ? 0 : strides[axis]]);
     bool isOneSided = isFirst || isLast;
-    if (const double here = valueOf(*at); std::isfinite(here))
+    if (mayHaveGaps && !(std::isfinite(before) && std::isfinite(after)))
     {
-      isOneSided = isOneSided || !std::isfinite(before) || !std::isfinite(after);
+      isOneSided = true;
       before = std::isfinite(before) ? before : here;
       after = std::isfinite(after) ? after : here;
     }
@@ -112,7 +116,8 @@ Vector Gradients::OfGaps(const Vector& index) const
 
 Vector Gradients::NormalAt(const Vector& index, const Vector& gradient) const
 {
-  const bool isFinite = std::isfinite(gradient[0] + gradient[1] + gradient[2]);
+  const bool isFinite = std::all_of(
+    gradient.begin(), gradient.end(), [](double component) { return std::isfinite(component); });
   return NormalOf(isFinite ? gradient : this->OfGaps(index));
 }
 

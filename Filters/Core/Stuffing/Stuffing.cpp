@@ -59,18 +59,17 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
 /** By point, of isovertices. */
 std::vector<CutSide> CutEdgesOf(const Background& background)
 {
-  std::vector<CutSide> edges;
-  edges.reserve(background.AllCrossings().size());
-  for (const Crossing& crossing : background.AllCrossings())
+  std::vector<CutSide> edges(background.AllCrossings().size());
+  for (std::size_t point = 0; point < edges.size(); ++point)
   {
-    edges.emplace_back();
+    const Crossing& crossing = background.AllCrossings()[point];
     if (crossing.IsThere())
     {
       const auto [younger, older] = crossing.Ends;
       const std::vector<CutMesh::Vertex>& vertices = background.Leaves().Vertices;
       const bool isRising = vertices[younger].Sign < vertices[older].Sign;
       const bool isOlderInside = isRising == (crossing.Surface == 0);
-      edges.back() = { background.PositionOf(isOlderInside ? older : younger),
+      edges[point] = { background.PositionOf(isOlderInside ? older : younger),
         background.PositionOf(isOlderInside ? younger : older) };
     }
   }
