@@ -13,16 +13,14 @@ namespace isodiamond
 namespace
 {
 
-/** Central differences in index space at a sample, one-sided on the boundary and beside what is not
- *  finite. @param valueOf (sample) -> the field there */
-template <typename T, typename ValueOf>
-Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const ValueOf& valueOf)
+/** Central differences in index space at a sample, one-sided on the boundary and, if there are
+ * gaps, beside what is not finite. @param valueOf (sample) -> the field there */
+template <bool HasGaps, typename T, typename ValueOf>
+Vector DifferencesAt(const SampleView<T>& samples, const Point& point, const ValueOf& valueOf)
 {
   const std::array<int, 3>& size = samples.Dimensions();
   const std::array<std::int64_t, 3> strides = { 1, size[0], std::int64_t{ 1 } * size[0] * size[1] };
   const T* const at = samples.Pointer() + samples.Index(point);
-  const double here = valueOf(*at);
-  const bool mayHaveGaps = std::is_floating_point_v<T> && std::isfinite(here);
   Vector gradient{};
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -31,15 +29,25 @@ Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const V
     double before = valueOf(at[isFirst ? 0 : -strides[axis]]);
     double after = valueOf(at[isLast ? 0 : strides[axis]]);
     bool isOneSided = isFirst || isLast;
-    if (mayHaveGaps && !(std::isfinite(before) && std::isfinite(after)))
+    if (const double here = HasGaps ? valueOf(*at) : HUGE_VAL; std::isfinite(here))
     {
-      isOneSided = true;
+      isOneSided = isOneSided || !std::isfinite(before) || !std::isfinite(after);
       before = std::isfinite(before) ? before : here;
       after = std::isfinite(after) ? after : here;
     }
     gradient[axis] = (isOneSided ? 1.0 : 0.5) * (after - before);
   }
   return gradient;
+}
+
+/** The same, with gaps where there are any: few samples are beside one. */
+template <typename T, typename ValueOf>
+Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const ValueOf& valueOf)
+{
+  const Vector gradient = DifferencesAt<false>(samples, point, valueOf);
+  const bool isKnown =
+    !std::is_floating_point_v<T> || std::isfinite(gradient[0] + gradient[1] + gradient[2]);
+  return isKnown ? gradient : DifferencesAt<true>(samples, point, valueOf);
 }
 
 /** Gradients in the world for steps in index space, by the derivatives of the position: the vectors
