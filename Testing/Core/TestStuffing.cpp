@@ -187,7 +187,7 @@ TEST(Stuffing, LeavesFewBadTetrahedraInNoise)
   }
   EXPECT_GT(shifts, 100U); // 187: only where nothing else helps
   EXPECT_LT(shifts, 300U);
-  EXPECT_LT(bad, all / 1000); // 3 of 19091; 126 if no points on surfaces move
+  EXPECT_EQ(bad, 0U) << all; // 3 of 19091 without detours; 126 if no points on surfaces move
 }
 
 // The smallest grid where it fails: a single cell, whose corners stay however near a surface is.
@@ -208,7 +208,7 @@ TEST(Stuffing, FailsInFewGridsOfOneCell)
     failed += stuffed.CountBad() > 0 ? 1 : 0;
   }
   EXPECT_GT(failed, 0);
-  EXPECT_LT(failed, cases / 10); // 66
+  EXPECT_LT(failed, cases / 50); // 8; 66 without detours
 }
 
 TEST(Stuffing, BlendsAttributesAsPositions)
@@ -256,7 +256,8 @@ TEST(Stuffing, BlendsAttributesAsPositions)
 // In noise there is much to be improved.
 TEST(Improvement, DoesNotDependOnThreads)
 {
-  const test::Built built = test::BuildVolume(test::NoiseField({ 9, 9, 9 }, 5), { 3.7, HUGE_VAL });
+  const test::Built built =
+    test::BuildVolume(test::NoiseField({ 11, 11, 11 }, 5), { 3.7, HUGE_VAL });
   const test::Stuffed one(*built.Hierarchy, Query{});
   const test::Stuffed three(*built.Hierarchy, Query{}, AffineMap(), nullptr, test::ThreadedFor(3));
   EXPECT_TRUE(one.Mesh.Tetrahedra == three.Mesh.Tetrahedra);

@@ -498,7 +498,7 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
     EXPECT_LE(better.Positions.back()[2], 0.09 + 1e-12);
   }
   // Not towards what is beyond, and not where nobody knows.
-  EXPECT_EQ(improve(0.2, { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.06 } }).Positions.size(), 4U);
+  EXPECT_LE(improve(0.2, { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.06 } }).Positions.back()[2], 0.05);
   options.CutEdges.clear();
   EXPECT_EQ(Improve(flat, options, SerialFor).Positions.size(), 4U);
 }

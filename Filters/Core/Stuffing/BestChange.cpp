@@ -3,11 +3,14 @@
 
 #include "Stuffing/BestPlace.h"
 #include "Stuffing/RingFilling.h"
+#include "Stuffing/Shortfall.h"
 #include "Stuffing/SurfaceChanges.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
+#include <vector>
 
 namespace isodiamond
 {
@@ -16,27 +19,58 @@ namespace
 
 /** Less of what a tetrahedron lacks is no improvement. */
 constexpr double LeastGain = 0.01;
-/** Tetrahedra with less than this part of the wanted sine are all equally bad. */
-constexpr double WorstPart = 0.01;
 /** How far a point on a surface may move, as a part of its edge. */
 constexpr double MostOfEdge = 0.25;
+
+/** Changes by chance leave tetrahedra of this part of the wanted sine, or more. */
+constexpr double LeastPartByChance = 0.1;
 
 /** Tries all changes around one tetrahedron after the other. */
 class ChangeSearch
 {
 public:
-  ChangeSearch(const LocalMesh& mesh, const ImprovementOptions& options)
+  /** @param chance picks any change instead of the best one, if it is there */
+  ChangeSearch(
+    const LocalMesh& mesh, const ImprovementOptions& options, std::minstd_rand* chance = nullptr)
     : Mesh(mesh)
     , Options(options)
+    , Chance(chance)
     , Wanted(WantedSine(options))
   {
   }
 
-  Change Find(std::uint32_t tetrahedron)
+  /** All in an order by chance, until one can be done. */
+  Change FindAny(std::uint32_t tetrahedron)
   {
     const Corners corners = this->Mesh.CornersOf(tetrahedron);
-    this->Best = Change();
-    this->Best.Gain = LeastGain * this->Shortfall(this->Mesh.SineOf(tetrahedron));
+    using Try = std::function<void()>;
+    std::vector<Try> tries;
+    for (const std::uint32_t point : corners)
+    {
+      tries.emplace_back([=] { this->TryToMove(point); });
+      tries.emplace_back([=] { this->TryToShift(point); });
+      tries.emplace_back([=] { this->TryToRemoveFace(tetrahedron, point); });
+    }
+    this->ForEachEdge(corners,
+      [&](std::uint32_t a, std::uint32_t b)
+      {
+        tries.emplace_back([=] { this->TryToCollapse(a, b); });
+        tries.emplace_back([=] { this->TryToCollapse(b, a); });
+        tries.emplace_back([=] { this->TryToRemoveEdge(a, b); });
+        tries.emplace_back([=] { this->TryToSplit(a, b); });
+      });
+    for (; !tries.empty() && this->Best.Kind == Change::None; tries.pop_back())
+    {
+      std::swap(tries[(*this->Chance)() % tries.size()], tries.back());
+      tries.back()();
+    }
+    return std::move(this->Best);
+  }
+
+  Change FindBest(std::uint32_t tetrahedron)
+  {
+    const Corners corners = this->Mesh.CornersOf(tetrahedron);
+    this->Best.Gain = LeastGain * ShortfallOf(this->Mesh.SineOf(tetrahedron), this->Wanted);
     for (const std::uint32_t point : corners)
     {
       this->TryToMove(point);
@@ -80,42 +114,23 @@ private:
     }
   }
 
-  /** What a tetrahedron lacks: of several bad ones each counts, the worst most. */
-  double Shortfall(double sine) const
-  {
-    const double missing =
-      std::max(0.0, this->Wanted / std::max(sine, WorstPart * this->Wanted) - 1.0);
-    return missing * missing;
-  }
-
-  /** Of some tetrahedra. */
-  struct Shape
-  {
-    double Worst = 1.0; ///< the smallest sine
-    double Shortfall = 0.0;
-  };
-  void Add(double sine, Shape& shape) const
-  {
-    shape.Worst = std::min(shape.Worst, sine);
-    shape.Shortfall += this->Shortfall(sine);
-  }
   template <typename Tetrahedra>
-  Shape ShapeOf(const Tetrahedra& tetrahedra) const
+  Shortfall LackOf(const Tetrahedra& tetrahedra) const
   {
-    Shape shape;
+    Shortfall sum(this->Wanted);
     for (const auto& tetrahedron : tetrahedra)
     {
-      this->Add(this->Mesh.SineOf(tetrahedron), shape);
+      sum.Add(this->Mesh.SineOf(tetrahedron));
     }
-    return shape;
+    return sum;
   }
 
   /** Of the tetrahedra of a star with its point at a place. */
-  Shape ShapeAt(const PointStar& star, const Vector& place) const
+  Shortfall LackAt(const PointStar& star, const Vector& place) const
   {
-    Shape shape;
-    star.ForEachSine(place, [&](double sine) { this->Add(sine, shape); });
-    return shape;
+    Shortfall sum(this->Wanted);
+    star.ForEachSine(place, [&](double sine) { sum.Add(sine); });
+    return sum;
   }
   PointStar FacesAround(std::uint32_t point) const
   {
@@ -128,17 +143,19 @@ private:
   }
 
   /** Whether a change would be the best one so far: the worst gets no worse, and all together
-   *  better. */
-  bool IsBetter(const Shape& before, const Shape& after) const
+   *  better. By chance, whether it could be done. */
+  bool IsBetter(const Shortfall& before, const Shortfall& after) const
   {
-    return after.Worst >= before.Worst && before.Shortfall - after.Shortfall > this->Best.Gain;
+    return this->Chance == nullptr
+      ? after.Worst >= before.Worst && before.Sum - after.Sum > this->Best.Gain
+      : after.Worst >= LeastPartByChance * this->Wanted;
   }
   /** Begins the best change so far. */
-  Change& Take(Change::Kinds kind, const Shape& before, const Shape& after)
+  Change& Take(Change::Kinds kind, const Shortfall& before, const Shortfall& after)
   {
     this->Best = Change();
     this->Best.Kind = kind;
-    this->Best.Gain = before.Shortfall - after.Shortfall;
+    this->Best.Gain = before.Sum - after.Sum;
     return this->Best;
   }
 
@@ -150,15 +167,15 @@ private:
     {
       return;
     }
-    const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
-    if (!(before.Shortfall > this->Best.Gain))
+    const Shortfall before = this->LackOf(this->Mesh.StarOf(point));
+    if (this->Chance == nullptr && !(before.Sum > this->Best.Gain))
     {
       return;
     }
     PointStar star = this->FacesAround(point);
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Wanted);
-    const Shape after = this->ShapeAt(star, best.Place);
+    const Shortfall after = this->LackAt(star, best.Place);
     if (this->IsBetter(before, after))
     {
       Change& move = this->Take(Change::Move, before, after);
@@ -171,15 +188,15 @@ private:
 
   void TryToCollapse(std::uint32_t from, std::uint32_t to)
   {
-    const Shape before = this->ShapeOf(this->Mesh.StarOf(from));
-    Shape after;
+    const Shortfall before = this->LackOf(this->Mesh.StarOf(from));
+    Shortfall after(this->Wanted);
     for (const std::uint32_t tetrahedron : this->Mesh.StarOf(from))
     {
       Corners corners = this->Mesh.CornersOf(tetrahedron);
       if (!Has(corners, to))
       {
         std::replace(corners.begin(), corners.end(), from, to);
-        this->Add(this->Mesh.SineOf(corners), after);
+        after.Add(this->Mesh.SineOf(corners));
         if (!this->IsBetter(before, after))
         {
           return;
@@ -205,10 +222,10 @@ private:
     {
       return;
     }
-    const Shape before = this->ShapeOf(ring.Tetrahedra);
+    const Shortfall before = this->LackOf(ring.Tetrahedra);
     std::vector<Corners> fresh;
     FillRing(this->Mesh, a, b, ring.Points, fresh);
-    const Shape after = this->ShapeOf(fresh);
+    const Shortfall after = this->LackOf(fresh);
     if (this->IsBetter(before, after) && this->AreNew(ring, fresh))
     {
       Change& replace = this->Take(Change::Replace, before, after);
@@ -272,8 +289,8 @@ private:
     std::vector<Corners> fresh = { { far, apex, face[0], face[1] }, { far, apex, face[1], face[2] },
       { far, apex, face[2], face[0] } };
     std::vector<std::uint32_t> old = { tetrahedron, *other };
-    const Shape before = this->ShapeOf(old);
-    const Shape after = this->ShapeOf(fresh);
+    const Shortfall before = this->LackOf(old);
+    const Shortfall after = this->LackOf(fresh);
     if (this->IsBetter(before, after) && !this->Mesh.HasEdge(apex, far))
     {
       Change& replace = this->Take(Change::Replace, before, after);
@@ -317,8 +334,8 @@ private:
     const auto walls = static_cast<Walls::Type>(place);
     const PlacedPoint best = BestPlace(
       star, 0.5 * (this->Mesh.At(a) + this->Mesh.At(b)), walls, this->Options.Axes, this->Wanted);
-    const Shape before = this->ShapeOf(ring.Tetrahedra);
-    const Shape after = this->ShapeAt(star, best.Place);
+    const Shortfall before = this->LackOf(ring.Tetrahedra);
+    const Shortfall after = this->LackAt(star, best.Place);
     if (this->IsBetter(before, after))
     {
       Change& split = this->Take(Change::Split, before, after);
@@ -349,10 +366,10 @@ private:
       [&](const Vector& place)
       { return Dot(place - from, place - from) <= most * most && IsBeside(edge, from, place); } };
     PointStar star = this->FacesAround(point);
-    const Shape before = this->ShapeOf(this->Mesh.StarOf(point));
+    const Shortfall before = this->LackOf(this->Mesh.StarOf(point));
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Wanted, reach);
-    const Shape after = this->ShapeAt(star, best.Place);
+    const Shortfall after = this->LackAt(star, best.Place);
     if (this->IsBetter(before, after) && CanShift(this->Mesh, point, best.Place))
     {
       Change& shift = this->Take(Change::Shift, before, after);
@@ -363,6 +380,7 @@ private:
 
   const LocalMesh& Mesh;
   const ImprovementOptions& Options;
+  std::minstd_rand* Chance;
   double Wanted; ///< sine
   Change Best;
 };
@@ -372,7 +390,13 @@ private:
 Change BestChange(
   const LocalMesh& mesh, const ImprovementOptions& options, std::uint32_t tetrahedron)
 {
-  return ChangeSearch(mesh, options).Find(tetrahedron);
+  return ChangeSearch(mesh, options).FindBest(tetrahedron);
+}
+
+Change AnyChange(const LocalMesh& mesh, const ImprovementOptions& options,
+  std::uint32_t tetrahedron, std::minstd_rand& random)
+{
+  return ChangeSearch(mesh, options, &random).FindAny(tetrahedron);
 }
 
 }

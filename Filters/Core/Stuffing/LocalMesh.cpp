@@ -21,6 +21,10 @@ LocalMesh::LocalMesh(TetrahedronMesh mesh)
   {
     this->Sines.push_back(this->SineOf(corners));
   }
+  for (std::uint32_t i = 0; i < this->TheMesh.Blended.size(); ++i)
+  {
+    this->BlendOf[this->TheMesh.Blended[i].Point] = i;
+  }
 }
 
 LocalMesh::Star LocalMesh::StarOf(std::uint32_t point) const

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/Change.h"
+
+#include <algorithm>
+
+namespace isodiamond
+{
+namespace
+{
+
+void Split(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& changed)
+{
+  const std::uint32_t point = mesh.AddPoint(0.5 * (mesh.At(change.Point) + mesh.At(change.Other)),
+    0, change.OnWalls, { { change.Point, 0.5 }, { change.Other, 0.5 } });
+  std::vector<Corners> fresh = change.Fresh;
+  for (Corners& corners : fresh)
+  {
+    std::replace(corners.begin(), corners.end(), Change::NewPoint, point);
+  }
+  mesh.Replace(change.Old, fresh, changed);
+  mesh.Move(point, change.Place);
+}
+
+/** The old point stays known: it tells where the surface was. Attributes are those of before. */
+void Shift(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& changed)
+{
+  const std::uint32_t old = change.Point;
+  const std::uint32_t point = mesh.AddPoint(
+    change.Place, mesh.Mesh().Surfaces[old], mesh.Mesh().OnWalls[old], { { old, 1.0 } });
+  const LocalMesh::Star star = mesh.StarOf(old);
+  const std::vector<std::uint32_t> around(star.begin(), star.end());
+  for (const std::uint32_t tetrahedron : around)
+  {
+    Corners corners = mesh.CornersOf(tetrahedron);
+    std::replace(corners.begin(), corners.end(), old, point);
+    mesh.Replace({ tetrahedron }, { corners }, changed);
+  }
+}
+
+}
+
+void Do(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& changed)
+{
+  switch (change.Kind)
+  {
+    case Change::None:
+      break;
+    case Change::Move:
+      mesh.Move(change.Point, change.Place);
+      changed.insert(
+        changed.end(), mesh.StarOf(change.Point).begin(), mesh.StarOf(change.Point).end());
+      break;
+    case Change::Collapse:
+      mesh.Collapse(change.Point, change.Other, changed);
+      break;
+    case Change::Replace:
+      mesh.Replace(change.Old, change.Fresh, changed);
+      break;
+    case Change::Split:
+      Split(change, mesh, changed);
+      break;
+    case Change::Shift:
+      Shift(change, mesh, changed);
+      break;
+  }
+}
+
+}

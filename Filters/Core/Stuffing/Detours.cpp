@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/Detours.h"
+
+#include "Stuffing/BestChange.h"
+#include "Stuffing/ChangeNotes.h"
+#include "Stuffing/MeshPiece.h"
+#include "Stuffing/Shortfall.h"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** Most is done in the first pass; what is left is tried with other chances, and more of them. */
+constexpr int DetourPasses = 4;
+///@{
+/** Changes that are tried in one piece, and in all: some, and so many more for each tetrahedron
+ * that is good thanks to them; they take half of that. Where a mesh can be no better, as it is
+ * coarse, it ends soon; and where steps on the axes differ, and much is bad, it takes no longer
+ * than single changes do. */
+constexpr std::int64_t TriesInOnePiece(int pass)
+{
+  return std::int64_t{ 1000 } << pass;
+}
+constexpr std::int64_t FirstTries = 4000;
+constexpr std::int64_t TriesForOneMore = 200;
+constexpr std::int64_t MostTries(std::size_t tetrahedra)
+{
+  return 2000 + static_cast<std::int64_t>(tetrahedra / 5);
+}
+///@}
+/** Changes by chance at the beginning of an attempt, 1 to that. */
+constexpr int MostByChance = 3;
+/** Improvements after that. */
+constexpr int MostImprovements = 40;
+/** Tetrahedra around which pieces are cut out to be searched at the same time. */
+constexpr std::size_t LooksAtOnce = 16;
+
+/** Changes of a piece. */
+struct Detour
+{
+  std::vector<MeshPiece::Step> Steps;
+  std::int64_t Tries = 0;
+};
+
+/** Looks for the best detour in a piece. */
+class DetourSearch
+{
+public:
+  DetourSearch(const MeshPiece& piece, std::int64_t mostTries, int seed)
+    : Piece(piece)
+    , MostTries(mostTries)
+    , Wanted(WantedSine(piece.Options()))
+    , Random(static_cast<unsigned>(seed))
+  {
+  }
+
+  Detour Find()
+  {
+    State best{ this->Piece.Mesh(), {}, {} };
+    const Shortfall before = this->LackOf(best.Mesh);
+    double least = before.Sum;
+    for (int attempt = 0; this->Tries < this->MostTries && !this->BadOf(best.Mesh).empty();
+         ++attempt)
+    {
+      State state = best;
+      if (!this->ChangeByChance(state, 1 + attempt % MostByChance))
+      {
+        continue;
+      }
+      this->Improve(state);
+      const Shortfall after = this->LackOf(state.Mesh);
+      if (after.Worst >= before.Worst && after.Sum < least)
+      {
+        least = after.Sum;
+        best = std::move(state);
+      }
+    }
+    return { std::move(best.Steps), this->Tries };
+  }
+
+private:
+  /** What a piece has become. */
+  struct State
+  {
+    LocalMesh Mesh;
+    ChangeNotes Notes;
+    std::vector<MeshPiece::Step> Steps;
+
+    void Do(const Change& change)
+    {
+      this->Steps.emplace_back(change, this->Mesh);
+      std::vector<std::uint32_t> changed;
+      this->Notes.Do(change, this->Mesh, changed);
+    }
+  };
+
+  Shortfall LackOf(const LocalMesh& mesh) const
+  {
+    Shortfall sum(this->Wanted);
+    for (std::uint32_t i = 0; i < mesh.Mesh().Tetrahedra.size(); ++i)
+    {
+      if (mesh.IsAlive(i))
+      {
+        sum.Add(mesh.SineOf(i));
+      }
+    }
+    return sum;
+  }
+
+  std::vector<std::uint32_t> BadOf(const LocalMesh& mesh) const
+  {
+    std::vector<std::uint32_t> bad = WorstFirst(mesh, this->Wanted);
+    bad.erase(std::remove_if(bad.begin(), bad.end(),
+                [&](std::uint32_t tetrahedron) { return !this->Piece.IsFree(mesh, tetrahedron); }),
+      bad.end());
+    return bad;
+  }
+
+  std::size_t Draw(std::size_t count) { return this->Random() % count; }
+
+  /** Changes something that touches a bad tetrahedron, several times. @return whether it could */
+  bool ChangeByChance(State& state, int times)
+  {
+    for (; times > 0; --times)
+    {
+      const std::vector<std::uint32_t> bad = this->BadOf(state.Mesh);
+      if (bad.empty())
+      {
+        return true;
+      }
+      ++this->Tries;
+      const Corners& corners = state.Mesh.CornersOf(bad[this->Draw(bad.size())]);
+      const LocalMesh::Star star = state.Mesh.StarOf(corners[this->Draw(corners.size())]);
+      const std::uint32_t beside = *(star.begin() + this->Draw(star.end() - star.begin()));
+      const Change change = this->Piece.IsFree(state.Mesh, beside)
+        ? AnyChange(state.Mesh, this->Piece.Options(), beside, this->Random)
+        : Change();
+      if (change.Kind == Change::None)
+      {
+        return false;
+      }
+      state.Do(change);
+    }
+    return true;
+  }
+
+  /** What is bad, as far as single changes help: the worst first, each time. */
+  void Improve(State& state)
+  {
+    bool goesOn = true;
+    for (int i = 0; i < MostImprovements && goesOn; ++i)
+    {
+      const std::vector<std::uint32_t> bad = this->BadOf(state.Mesh);
+      goesOn = std::any_of(bad.begin(), bad.end(),
+        [&](std::uint32_t tetrahedron)
+        {
+          if (!state.Notes.IsWorthATry(state.Mesh, tetrahedron))
+          {
+            return false;
+          }
+          ++this->Tries;
+          state.Notes.NoteTry(tetrahedron);
+          const Change change = BestChange(state.Mesh, this->Piece.Options(), tetrahedron);
+          if (change.Kind == Change::None)
+          {
+            return false;
+          }
+          state.Do(change);
+          return true;
+        });
+    }
+  }
+
+  const MeshPiece& Piece;
+  std::int64_t MostTries;
+  std::int64_t Tries = 0;
+  double Wanted; ///< sine
+  std::minstd_rand Random;
+};
+
+/** Cuts out pieces that have no point in common. */
+class ApartPieces
+{
+public:
+  ApartPieces(const LocalMesh& mesh, const ImprovementOptions& options)
+    : Mesh(mesh)
+    , Options(options)
+  {
+  }
+
+  /** Of the first ones of some tetrahedra. @param waiting loses those that a piece is around */
+  std::vector<MeshPiece> Take(std::vector<std::uint32_t>& waiting)
+  {
+    ++this->Turn;
+    this->TakenIn.resize(this->Mesh.Mesh().Positions.size());
+    std::vector<MeshPiece> pieces;
+    std::vector<std::uint32_t> left;
+    const std::size_t looks = std::min(LooksAtOnce, waiting.size());
+    for (std::size_t i = 0; i < looks; ++i)
+    {
+      MeshPiece piece(this->Mesh, this->Options, waiting[i]);
+      const bool isApart = std::all_of(piece.Ids().begin(), piece.Ids().end(),
+        [&](std::uint32_t point) { return this->TakenIn[point] != this->Turn; });
+      if (isApart)
+      {
+        std::for_each(piece.Ids().begin(), piece.Ids().end(),
+          [&](std::uint32_t point) { this->TakenIn[point] = this->Turn; });
+        pieces.push_back(std::move(piece));
+      }
+      else
+      {
+        left.push_back(waiting[i]);
+      }
+    }
+    left.insert(left.end(), waiting.begin() + static_cast<std::ptrdiff_t>(looks), waiting.end());
+    waiting = std::move(left);
+    return pieces;
+  }
+
+private:
+  const LocalMesh& Mesh;
+  const ImprovementOptions& Options;
+  int Turn = 0;
+  std::vector<int> TakenIn; ///< by point: the last turn in which a piece had it
+};
+
+}
+
+void TakeDetours(LocalMesh& mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
+{
+  const double wanted = WantedSine(options);
+  ApartPieces apart(mesh, options);
+  std::vector<std::uint32_t> bad = WorstFirst(mesh, wanted);
+  std::int64_t credit = FirstTries;
+  std::int64_t left = MostTries(mesh.Mesh().Tetrahedra.size());
+  for (int pass = 1; pass <= DetourPasses; ++pass)
+  {
+    for (std::vector<std::uint32_t> waiting = bad; !waiting.empty();)
+    {
+      const std::int64_t most = std::min({ credit, left, TriesInOnePiece(pass) });
+      if (most <= 0)
+      {
+        return;
+      }
+      const std::vector<MeshPiece> pieces = apart.Take(waiting);
+      std::vector<Detour> detours(pieces.size());
+      ForEachIndex(parallelFor, pieces.size(), 1,
+        [&](std::int64_t i) { detours[i] = DetourSearch(pieces[i], most, pass).Find(); });
+      const std::size_t before = bad.size();
+      for (std::size_t i = 0; i < pieces.size(); ++i)
+      {
+        credit -= detours[i].Tries;
+        left -= detours[i].Tries;
+        pieces[i].DoInWhole(detours[i].Steps, mesh, bad);
+      }
+      bad = WorstFirst(mesh, wanted, std::move(bad));
+      credit += TriesForOneMore * static_cast<std::int64_t>(before - std::min(before, bad.size()));
+      waiting = WorstFirst(mesh, wanted, std::move(waiting)); // some are good by now, or gone
+    }
+  }
+}
+
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stuffing/MeshPiece.h"
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_map>
+#include <utility>
+
+namespace isodiamond
+{
+namespace
+{
+
+/** The tetrahedron of a mesh with these corners, in any order, which is there. */
+std::uint32_t TetrahedronOf(const LocalMesh& mesh, const Corners& corners)
+{
+  const LocalMesh::Star star = mesh.StarOf(corners[0]);
+  return *std::find_if(star.begin(), star.end(),
+    [&](std::uint32_t tetrahedron)
+    {
+      return std::all_of(corners.begin(), corners.end(),
+        [&](std::uint32_t corner) { return Has(mesh.CornersOf(tetrahedron), corner); });
+    });
+}
+
+}
+
+MeshPiece::MeshPiece(
+  const LocalMesh& whole, const ImprovementOptions& options, std::uint32_t tetrahedron)
+  : TheOptions{ options.WantedAngle, options.SurfaceMove, {}, options.Axes }
+  , TheMesh(this->CutOut(whole, options, tetrahedron))
+{
+}
+
+TetrahedronMesh MeshPiece::CutOut(
+  const LocalMesh& whole, const ImprovementOptions& options, std::uint32_t tetrahedron)
+{
+  TetrahedronMesh piece;
+  std::unordered_map<std::uint32_t, std::uint32_t> numbers; // by id
+  const auto take = [&](std::uint32_t id, int away)
+  {
+    const auto [at, isNew] = numbers.emplace(id, static_cast<std::uint32_t>(this->TheIds.size()));
+    if (isNew)
+    {
+      this->TheIds.push_back(id);
+      this->Away.push_back(away);
+      piece.Positions.push_back(whole.At(id));
+      piece.Surfaces.push_back(whole.Mesh().Surfaces[id]);
+      piece.OnWalls.push_back(whole.Mesh().OnWalls[id]);
+    }
+    return at->second;
+  };
+
+  // From point to point, the nearest first.
+  for (const std::uint32_t corner : whole.CornersOf(tetrahedron))
+  {
+    take(corner, 0);
+  }
+  std::vector<std::uint32_t> taken;
+  for (std::size_t i = 0; i < this->TheIds.size() && this->Away[i] <= Reach; ++i)
+  {
+    for (const std::uint32_t beside : whole.StarOf(this->TheIds[i]))
+    {
+      taken.push_back(beside);
+      for (const std::uint32_t corner : whole.CornersOf(beside))
+      {
+        take(corner, this->Away[i] + 1);
+      }
+    }
+  }
+  std::sort(taken.begin(), taken.end());
+  taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
+  for (const std::uint32_t each : taken)
+  {
+    Corners corners = whole.CornersOf(each);
+    std::transform(corners.begin(), corners.end(), corners.begin(),
+      [&](std::uint32_t corner) { return numbers.at(corner); });
+    piece.Tetrahedra.push_back(corners);
+    piece.Origins.push_back(whole.Mesh().Origins[each]);
+  }
+
+  // Where a surface was is told by points that may not be in the mesh any more.
+  const std::size_t points = this->TheIds.size();
+  for (std::uint32_t i = 0; i < points; ++i)
+  {
+    const std::uint32_t source = whole.SourceOf(this->TheIds[i]);
+    if (source != this->TheIds[i])
+    {
+      piece.Blended.push_back({ i, { { take(source, Reach + 1), 1.0 } } });
+    }
+  }
+  for (const std::uint32_t id : this->TheIds)
+  {
+    if (!options.CutEdges.empty())
+    {
+      this->TheOptions.CutEdges.push_back(
+        id < options.CutEdges.size() ? options.CutEdges[id] : CutSide());
+    }
+  }
+  return piece;
+}
+
+bool MeshPiece::IsFree(const LocalMesh& mesh, std::uint32_t tetrahedron) const
+{
+  const Corners& corners = mesh.CornersOf(tetrahedron);
+  return std::all_of(corners.begin(), corners.end(),
+    [&](std::uint32_t corner)
+    { return corner >= this->Away.size() || this->Away[corner] < Reach; }); // new ones are near
+}
+
+MeshPiece::Step::Step(Change change, const LocalMesh& mesh)
+  : Way(std::move(change))
+{
+  std::transform(this->Way.Old.begin(), this->Way.Old.end(), std::back_inserter(this->Old),
+    [&](std::uint32_t tetrahedron) { return mesh.CornersOf(tetrahedron); });
+}
+
+void MeshPiece::DoInWhole(
+  const std::vector<Step>& steps, LocalMesh& whole, std::vector<std::uint32_t>& changed) const
+{
+  const std::size_t first = whole.Mesh().Positions.size(); // of the points that will be new
+  const auto idOf = [&](std::uint32_t point)
+  {
+    return point == Change::NewPoint ? point
+      : point < this->TheIds.size()
+      ? this->TheIds[point]
+      : static_cast<std::uint32_t>(first + point - this->TheIds.size());
+  };
+  const auto idsOf = [&](Corners corners)
+  {
+    std::transform(corners.begin(), corners.end(), corners.begin(), idOf);
+    return corners;
+  };
+  for (const Step& step : steps)
+  {
+    Change change = step.Way;
+    change.Point = idOf(change.Point);
+    change.Other = idOf(change.Other);
+    std::transform(change.Fresh.begin(), change.Fresh.end(), change.Fresh.begin(), idsOf);
+    std::transform(step.Old.begin(), step.Old.end(), change.Old.begin(),
+      [&](const Corners& corners) { return TetrahedronOf(whole, idsOf(corners)); });
+    Do(change, whole, changed);
+  }
+}
+
+}
