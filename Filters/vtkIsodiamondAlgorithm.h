@@ -70,8 +70,8 @@ public:
    * tunnels stay, and tetrahedra positive and conforming. By the distance metric the mesh begins at
    * 0.65 of the tolerance and is made as coarse as all of it allows, which holds, measured
    * both ways, but for cells of full resolution, which move their part of a surface by up to a
-   * voxel; with an interior tolerance points inside stay. With spacings that differ between the
-   * axes angles are worse.
+   * voxel; with an interior tolerance points inside stay. With spacings that differ much between
+   * the axes it takes longer.
    *
    * Triangles of an isosurface: it is simplified as by Simplify, with the same promise, but no new
    * triangle has an angle below 15 degrees, unless one that it replaces had a smaller one. Where

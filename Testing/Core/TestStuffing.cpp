@@ -160,7 +160,7 @@ std::array<Vector, 2> EdgeAt(const test::Field& field, const Vector& point)
 
 }
 
-TEST(Stuffing, LeavesFewBadTetrahedraInNoise)
+TEST(Stuffing, LeavesNoBadTetrahedraInNoise)
 {
   std::size_t shifts = 0;
   std::size_t bad = 0;

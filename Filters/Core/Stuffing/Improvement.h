@@ -37,7 +37,7 @@ double WantedSine(const ImprovementOptions& options);
  * edge gets a point in its middle, which is moved. Nothing is done that makes the worst one worse.
  * Points on surfaces stay where they are, or go, unless all of that fails: where sheets nearly
  * touch there is no room for anything round, so one of them is moved off (SurfaceChanges.h), and is
- * a new point then.
+ * a new point then. What is left in the end needs several changes at once (Detours.h).
  *
  * The worst come first; order and result do not depend on anything but the mesh. Topology is that
  * of before (LocalMesh.h). Klingner & Shewchuk, "Aggressive tetrahedral mesh improvement" (2007),

@@ -36,13 +36,13 @@ struct StuffingInput
  * some of those that the volume's mesh has otherwise; a few inside are moved or added, and fewer
  * still on surfaces move off these, by a quarter of their edge at most. Tetrahedra are positive and
  * conform; surfaces have the topology that they had. What is wanted of the angles, 15 to 165
- * degrees, is no promise: where a surface nearly touches itself some are left that are worse.
+ * degrees, is no promise: where so much is bad that the search gives up, some are left that are
+ * worse.
  *
  * If there are allowances the surfaces are measured; it is for the caller to refine where they are
  * too far away. If they are not, the mesh is made coarser, as far as allowed (Coarsening.h).
  *
- * Angles are those of the world: if steps on the axes differ in length, they suffer from the
- * start.
+ * Angles are those of the world: if steps on the axes differ in length, there is more to improve.
  */
 struct StuffedMesh
 {
