@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes by chance, and on pieces of a mesh.
+// Changes by chance, and on copies of what is around a tetrahedron.
 #include "StuffingTestTools.h"
 
 #include "Stuffing/BestChange.h"
 #include "Stuffing/Detours.h"
-#include "Stuffing/MeshPiece.h"
 #include "Stuffing/Shortfall.h"
+#include "Stuffing/Surroundings.h"
 
 #include <gtest/gtest.h>
 
@@ -110,9 +110,9 @@ TEST(AnyChange, KeepsTheMeshSound)
   }
 }
 
-// What is best for a free tetrahedron is so in the piece as in the whole, after any changes; and
+// What is best for a free tetrahedron is so in the copy as in the whole, after any changes; and
 // these do the same to both.
-TEST(MeshPiece, ChangesAsTheWholeDoes)
+TEST(Surroundings, ChangeAsTheWholeDoes)
 {
   for (unsigned seed = 1; seed <= 2; ++seed)
   {
@@ -124,10 +124,10 @@ TEST(MeshPiece, ChangesAsTheWholeDoes)
     std::vector<std::uint32_t> changed;
     for (int round = 0; round < 12; ++round)
     {
-      const MeshPiece piece(whole, options, DrawAlive(whole, random));
-      LocalMesh mesh = piece.Mesh();
+      const Surroundings around(whole, options, DrawAlive(whole, random));
+      LocalMesh mesh = around.Mesh();
       ASSERT_LT(mesh.Mesh().Tetrahedra.size(), whole.Mesh().Tetrahedra.size() / 2);
-      std::vector<MeshPiece::Step> steps;
+      std::vector<Surroundings::Step> steps;
       LocalMesh follower = whole;
       for (int i = 0; i < 12; ++i)
       {
@@ -135,13 +135,13 @@ TEST(MeshPiece, ChangesAsTheWholeDoes)
         do
         {
           tetrahedron = DrawAlive(mesh, random);
-        } while (!piece.IsFree(mesh, tetrahedron));
+        } while (!around.IsFree(mesh, tetrahedron));
         // The same one in the whole.
         const auto idOf = [&](std::uint32_t point)
         {
-          return static_cast<std::uint32_t>(point < piece.Ids().size()
-              ? piece.Ids()[point]
-              : whole.Mesh().Positions.size() + point - piece.Ids().size());
+          return static_cast<std::uint32_t>(point < around.Ids().size()
+              ? around.Ids()[point]
+              : whole.Mesh().Positions.size() + point - around.Ids().size());
         };
         const Corners& corners = mesh.CornersOf(tetrahedron);
         const LocalMesh::Star star = follower.StarOf(idOf(corners[0]));
@@ -153,19 +153,19 @@ TEST(MeshPiece, ChangesAsTheWholeDoes)
               { return Has(follower.CornersOf(candidate), idOf(corner)); });
           });
         ASSERT_NE(same, star.end());
-        const Change best = BestChange(mesh, piece.Options(), tetrahedron);
+        const Change best = BestChange(mesh, around.Options(), tetrahedron);
         const Change inWhole = BestChange(follower, options, *same);
         EXPECT_EQ(best.Kind, inWhole.Kind);
         EXPECT_NEAR(best.Gain, inWhole.Gain, 1e-6 * (1.0 + best.Gain));
         const Change change =
-          i % 2 == 0 ? best : AnyChange(mesh, piece.Options(), tetrahedron, random);
+          i % 2 == 0 ? best : AnyChange(mesh, around.Options(), tetrahedron, random);
         steps.emplace_back(change, mesh);
         Do(change, mesh, changed);
         follower = whole;
-        piece.DoInWhole(steps, follower, changed);
+        around.DoInWhole(steps, follower, changed);
       }
       std::multiset<std::set<Vector>> expected = PlacesOf(whole);
-      for (const std::set<Vector>& places : PlacesOf(piece.Mesh()))
+      for (const std::set<Vector>& places : PlacesOf(around.Mesh()))
       {
         expected.erase(expected.find(places));
       }

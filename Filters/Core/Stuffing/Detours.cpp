@@ -3,8 +3,8 @@
 
 #include "Stuffing/BestChange.h"
 #include "Stuffing/ChangeNotes.h"
-#include "Stuffing/MeshPiece.h"
 #include "Stuffing/Shortfall.h"
+#include "Stuffing/Surroundings.h"
 
 #include <algorithm>
 #include <random>
@@ -18,11 +18,11 @@ namespace
 /** Most is done in the first pass; what is left is tried with other chances, and more of them. */
 constexpr int DetourPasses = 4;
 ///@{
-/** Changes that are tried in one piece, and in all: some, and so many more for each tetrahedron
+/** Changes that are tried at one place, and in all: some, and so many more for each tetrahedron
  * that is good thanks to them; they take half of that. Where a mesh can be no better, as it is
  * coarse, it ends soon; and where steps on the axes differ, and much is bad, it takes no longer
  * than single changes do. */
-constexpr std::int64_t TriesInOnePiece(int pass)
+constexpr std::int64_t TriesAtOnePlace(int pass)
 {
   return std::int64_t{ 1000 } << pass;
 }
@@ -37,31 +37,31 @@ constexpr std::int64_t MostTries(std::size_t tetrahedra)
 constexpr int MostByChance = 3;
 /** Improvements after that. */
 constexpr int MostImprovements = 40;
-/** Tetrahedra around which pieces are cut out to be searched at the same time. */
+/** Tetrahedra whose surroundings are searched at the same time, if they are apart. */
 constexpr std::size_t LooksAtOnce = 16;
 
-/** Changes of a piece. */
+/** Changes of what is around a tetrahedron. */
 struct Detour
 {
-  std::vector<MeshPiece::Step> Steps;
+  std::vector<Surroundings::Step> Steps;
   std::int64_t Tries = 0;
 };
 
-/** Looks for the best detour in a piece. */
+/** Looks for the best detour around one tetrahedron. */
 class DetourSearch
 {
 public:
-  DetourSearch(const MeshPiece& piece, std::int64_t mostTries, int seed)
-    : Piece(piece)
+  DetourSearch(const Surroundings& around, std::int64_t mostTries, int seed)
+    : Around(around)
     , MostTries(mostTries)
-    , Wanted(WantedSine(piece.Options()))
+    , Wanted(WantedSine(around.Options()))
     , Random(static_cast<unsigned>(seed))
   {
   }
 
   Detour Find()
   {
-    State best{ this->Piece.Mesh(), {}, {} };
+    State best{ this->Around.Mesh(), {}, {} };
     const Shortfall before = this->LackOf(best.Mesh);
     double least = before.Sum;
     for (int attempt = 0; this->Tries < this->MostTries && !this->BadOf(best.Mesh).empty();
@@ -84,12 +84,12 @@ public:
   }
 
 private:
-  /** What a piece has become. */
+  /** What the surroundings have become. */
   struct State
   {
     LocalMesh Mesh;
     ChangeNotes Notes;
-    std::vector<MeshPiece::Step> Steps;
+    std::vector<Surroundings::Step> Steps;
 
     void Do(const Change& change)
     {
@@ -116,7 +116,7 @@ private:
   {
     std::vector<std::uint32_t> bad = WorstFirst(mesh, this->Wanted);
     bad.erase(std::remove_if(bad.begin(), bad.end(),
-                [&](std::uint32_t tetrahedron) { return !this->Piece.IsFree(mesh, tetrahedron); }),
+                [&](std::uint32_t tetrahedron) { return !this->Around.IsFree(mesh, tetrahedron); }),
       bad.end());
     return bad;
   }
@@ -137,8 +137,8 @@ private:
       const Corners& corners = state.Mesh.CornersOf(bad[this->Draw(bad.size())]);
       const LocalMesh::Star star = state.Mesh.StarOf(corners[this->Draw(corners.size())]);
       const std::uint32_t beside = *(star.begin() + this->Draw(star.end() - star.begin()));
-      const Change change = this->Piece.IsFree(state.Mesh, beside)
-        ? AnyChange(state.Mesh, this->Piece.Options(), beside, this->Random)
+      const Change change = this->Around.IsFree(state.Mesh, beside)
+        ? AnyChange(state.Mesh, this->Around.Options(), beside, this->Random)
         : Change();
       if (change.Kind == Change::None)
       {
@@ -165,7 +165,7 @@ private:
           }
           ++this->Tries;
           state.Notes.NoteTry(tetrahedron);
-          const Change change = BestChange(state.Mesh, this->Piece.Options(), tetrahedron);
+          const Change change = BestChange(state.Mesh, this->Around.Options(), tetrahedron);
           if (change.Kind == Change::None)
           {
             return false;
@@ -176,41 +176,41 @@ private:
     }
   }
 
-  const MeshPiece& Piece;
+  const Surroundings& Around;
   std::int64_t MostTries;
   std::int64_t Tries = 0;
   double Wanted; ///< sine
   std::minstd_rand Random;
 };
 
-/** Cuts out pieces that have no point in common. */
-class ApartPieces
+/** Cuts out surroundings that have no point in common. */
+class ApartSurroundings
 {
 public:
-  ApartPieces(const LocalMesh& mesh, const ImprovementOptions& options)
+  ApartSurroundings(const LocalMesh& mesh, const ImprovementOptions& options)
     : Mesh(mesh)
     , Options(options)
   {
   }
 
-  /** Of the first ones of some tetrahedra. @param waiting loses those that a piece is around */
-  std::vector<MeshPiece> Take(std::vector<std::uint32_t>& waiting)
+  /** Of the first ones of some tetrahedra. @param waiting loses those */
+  std::vector<Surroundings> Take(std::vector<std::uint32_t>& waiting)
   {
     ++this->Turn;
     this->TakenIn.resize(this->Mesh.Mesh().Positions.size());
-    std::vector<MeshPiece> pieces;
+    std::vector<Surroundings> apart;
     std::vector<std::uint32_t> left;
     const std::size_t looks = std::min(LooksAtOnce, waiting.size());
     for (std::size_t i = 0; i < looks; ++i)
     {
-      MeshPiece piece(this->Mesh, this->Options, waiting[i]);
-      const bool isApart = std::all_of(piece.Ids().begin(), piece.Ids().end(),
+      Surroundings around(this->Mesh, this->Options, waiting[i]);
+      const bool isApart = std::all_of(around.Ids().begin(), around.Ids().end(),
         [&](std::uint32_t point) { return this->TakenIn[point] != this->Turn; });
       if (isApart)
       {
-        std::for_each(piece.Ids().begin(), piece.Ids().end(),
+        std::for_each(around.Ids().begin(), around.Ids().end(),
           [&](std::uint32_t point) { this->TakenIn[point] = this->Turn; });
-        pieces.push_back(std::move(piece));
+        apart.push_back(std::move(around));
       }
       else
       {
@@ -219,14 +219,14 @@ public:
     }
     left.insert(left.end(), waiting.begin() + static_cast<std::ptrdiff_t>(looks), waiting.end());
     waiting = std::move(left);
-    return pieces;
+    return apart;
   }
 
 private:
   const LocalMesh& Mesh;
   const ImprovementOptions& Options;
   int Turn = 0;
-  std::vector<int> TakenIn; ///< by point: the last turn in which a piece had it
+  std::vector<int> TakenIn; ///< by point: the last turn in which it was
 };
 
 }
@@ -234,7 +234,7 @@ private:
 void TakeDetours(LocalMesh& mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
 {
   const double wanted = WantedSine(options);
-  ApartPieces apart(mesh, options);
+  ApartSurroundings apart(mesh, options);
   std::vector<std::uint32_t> bad = WorstFirst(mesh, wanted);
   std::int64_t credit = FirstTries;
   std::int64_t left = MostTries(mesh.Mesh().Tetrahedra.size());
@@ -242,21 +242,21 @@ void TakeDetours(LocalMesh& mesh, const ImprovementOptions& options, const Paral
   {
     for (std::vector<std::uint32_t> waiting = bad; !waiting.empty();)
     {
-      const std::int64_t most = std::min({ credit, left, TriesInOnePiece(pass) });
+      const std::int64_t most = std::min({ credit, left, TriesAtOnePlace(pass) });
       if (most <= 0)
       {
         return;
       }
-      const std::vector<MeshPiece> pieces = apart.Take(waiting);
-      std::vector<Detour> detours(pieces.size());
-      ForEachIndex(parallelFor, pieces.size(), 1,
-        [&](std::int64_t i) { detours[i] = DetourSearch(pieces[i], most, pass).Find(); });
+      const std::vector<Surroundings> places = apart.Take(waiting);
+      std::vector<Detour> detours(places.size());
+      ForEachIndex(parallelFor, places.size(), 1,
+        [&](std::int64_t i) { detours[i] = DetourSearch(places[i], most, pass).Find(); });
       const std::size_t before = bad.size();
-      for (std::size_t i = 0; i < pieces.size(); ++i)
+      for (std::size_t i = 0; i < places.size(); ++i)
       {
         credit -= detours[i].Tries;
         left -= detours[i].Tries;
-        pieces[i].DoInWhole(detours[i].Steps, mesh, bad);
+        places[i].DoInWhole(detours[i].Steps, mesh, bad);
       }
       bad = WorstFirst(mesh, wanted, std::move(bad));
       credit += TriesForOneMore * static_cast<std::int64_t>(before - std::min(before, bad.size()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Stuffing/MeshPiece.h"
+#include "Stuffing/Surroundings.h"
 
 #include <algorithm>
 #include <iterator>
@@ -25,17 +25,17 @@ std::uint32_t TetrahedronOf(const LocalMesh& mesh, const Corners& corners)
 
 }
 
-MeshPiece::MeshPiece(
+Surroundings::Surroundings(
   const LocalMesh& whole, const ImprovementOptions& options, std::uint32_t tetrahedron)
   : TheOptions{ options.WantedAngle, options.SurfaceMove, {}, options.Axes }
-  , TheMesh(this->CutOut(whole, options, tetrahedron))
+  , TheMesh(this->CopyOf(whole, options, tetrahedron))
 {
 }
 
-TetrahedronMesh MeshPiece::CutOut(
+TetrahedronMesh Surroundings::CopyOf(
   const LocalMesh& whole, const ImprovementOptions& options, std::uint32_t tetrahedron)
 {
-  TetrahedronMesh piece;
+  TetrahedronMesh copy;
   std::unordered_map<std::uint32_t, std::uint32_t> numbers; // by id
   const auto take = [&](std::uint32_t id, int away)
   {
@@ -44,9 +44,9 @@ TetrahedronMesh MeshPiece::CutOut(
     {
       this->TheIds.push_back(id);
       this->Away.push_back(away);
-      piece.Positions.push_back(whole.At(id));
-      piece.Surfaces.push_back(whole.Mesh().Surfaces[id]);
-      piece.OnWalls.push_back(whole.Mesh().OnWalls[id]);
+      copy.Positions.push_back(whole.At(id));
+      copy.Surfaces.push_back(whole.Mesh().Surfaces[id]);
+      copy.OnWalls.push_back(whole.Mesh().OnWalls[id]);
     }
     return at->second;
   };
@@ -75,8 +75,8 @@ TetrahedronMesh MeshPiece::CutOut(
     Corners corners = whole.CornersOf(each);
     std::transform(corners.begin(), corners.end(), corners.begin(),
       [&](std::uint32_t corner) { return numbers.at(corner); });
-    piece.Tetrahedra.push_back(corners);
-    piece.Origins.push_back(whole.Mesh().Origins[each]);
+    copy.Tetrahedra.push_back(corners);
+    copy.Origins.push_back(whole.Mesh().Origins[each]);
   }
 
   // Where a surface was is told by points that may not be in the mesh any more.
@@ -86,7 +86,7 @@ TetrahedronMesh MeshPiece::CutOut(
     const std::uint32_t source = whole.SourceOf(this->TheIds[i]);
     if (source != this->TheIds[i])
     {
-      piece.Blended.push_back({ i, { { take(source, Reach + 1), 1.0 } } });
+      copy.Blended.push_back({ i, { { take(source, Reach + 1), 1.0 } } });
     }
   }
   for (const std::uint32_t id : this->TheIds)
@@ -97,10 +97,10 @@ TetrahedronMesh MeshPiece::CutOut(
         id < options.CutEdges.size() ? options.CutEdges[id] : CutSide());
     }
   }
-  return piece;
+  return copy;
 }
 
-bool MeshPiece::IsFree(const LocalMesh& mesh, std::uint32_t tetrahedron) const
+bool Surroundings::IsFree(const LocalMesh& mesh, std::uint32_t tetrahedron) const
 {
   const Corners& corners = mesh.CornersOf(tetrahedron);
   return std::all_of(corners.begin(), corners.end(),
@@ -108,14 +108,14 @@ bool MeshPiece::IsFree(const LocalMesh& mesh, std::uint32_t tetrahedron) const
     { return corner >= this->Away.size() || this->Away[corner] < Reach; }); // new ones are near
 }
 
-MeshPiece::Step::Step(Change change, const LocalMesh& mesh)
+Surroundings::Step::Step(Change change, const LocalMesh& mesh)
   : Way(std::move(change))
 {
   std::transform(this->Way.Old.begin(), this->Way.Old.end(), std::back_inserter(this->Old),
     [&](std::uint32_t tetrahedron) { return mesh.CornersOf(tetrahedron); });
 }
 
-void MeshPiece::DoInWhole(
+void Surroundings::DoInWhole(
   const std::vector<Step>& steps, LocalMesh& whole, std::vector<std::uint32_t>& changed) const
 {
   const std::size_t first = whole.Mesh().Positions.size(); // of the points that will be new
