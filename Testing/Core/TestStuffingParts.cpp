@@ -498,7 +498,10 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
     EXPECT_LE(better.Positions.back()[2], 0.09 + 1e-12);
   }
   // Not towards what is beyond, and not where nobody knows.
-  EXPECT_LE(improve(0.2, { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.06 } }).Positions.back()[2], 0.05);
+  const TetrahedronMesh aside = improve(0.2, { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.06 } });
+  ASSERT_EQ(aside.Positions.size(), 5U);
+  EXPECT_LE(aside.Positions[4][2], 0.05);
+  EXPECT_GT(DihedralAngles(aside)[0], DihedralAngles(flat)[0]);
   options.CutEdges.clear();
   EXPECT_EQ(Improve(flat, options, SerialFor).Positions.size(), 4U);
 }

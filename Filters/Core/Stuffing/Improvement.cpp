@@ -73,11 +73,6 @@ public:
   TetrahedronMesh Take() { return this->Mesh.Take(); }
 
 private:
-  bool IsBad(std::uint32_t tetrahedron) const
-  {
-    return this->Mesh.IsAlive(tetrahedron) && this->Mesh.SineOf(tetrahedron) < this->Wanted;
-  }
-
   /** Finds the best changes for some tetrahedra at once, and does them one after the other. A
    *  change that is found by what another one has changed is found again: so all are as if each
    *  had been found when it was its turn. */
@@ -85,7 +80,10 @@ private:
     std::vector<std::uint32_t>& changed)
   {
     const auto isToBeTried = [&](std::size_t i)
-    { return this->IsBad(tetrahedra[i]) && this->Notes.IsWorthATry(this->Mesh, tetrahedra[i]); };
+    {
+      return IsBad(this->Mesh, this->Wanted, tetrahedra[i]) &&
+        this->Notes.IsWorthATry(this->Mesh, tetrahedra[i]);
+    };
     const int before = this->Notes.Count();
     std::vector<Change> changes(count);
     ForEachIndex(parallelFor, count, 1,

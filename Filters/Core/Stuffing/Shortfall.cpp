@@ -11,8 +11,7 @@ std::vector<std::uint32_t> WorstFirst(
   const LocalMesh& mesh, double wanted, std::vector<std::uint32_t> some)
 {
   some.erase(std::remove_if(some.begin(), some.end(),
-               [&](std::uint32_t tetrahedron)
-               { return !mesh.IsAlive(tetrahedron) || mesh.SineOf(tetrahedron) >= wanted; }),
+               [&](std::uint32_t tetrahedron) { return !IsBad(mesh, wanted, tetrahedron); }),
     some.end());
   std::sort(some.begin(), some.end());
   some.erase(std::unique(some.begin(), some.end()), some.end());

@@ -40,6 +40,12 @@ struct Shortfall
   double Sum = 0.0;
 };
 
+/** Whether a tetrahedron, which may be dead, lacks something. */
+inline bool IsBad(const LocalMesh& mesh, double wanted, std::uint32_t tetrahedron)
+{
+  return mesh.IsAlive(tetrahedron) && mesh.SineOf(tetrahedron) < wanted;
+}
+
 /** The tetrahedra of a mesh that lack something, each once, the worst first. */
 std::vector<std::uint32_t> WorstFirst(const LocalMesh& mesh, double wanted);
 /** The same of some, which may be dead. */
