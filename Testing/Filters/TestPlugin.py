@@ -39,6 +39,7 @@ assert domain.GetMinimum(0) == 0 and domain.GetMaximum(0) == 0.7, domain.GetMaxi
 assert list(contour.RegionOfInterestPosition) == [-5, -5, -5], contour.RegionOfInterestPosition
 assert list(contour.RegionOfInterestSize) == [10, 10, 10], contour.RegionOfInterestSize
 assert not contour.UseRegionOfInterest and contour.OutsideErrorTolerance == 0
+assert list(contour.ViewPosition) == [0, 0, 70], contour.ViewPosition  # as a new view's camera
 contour.UpdatePipeline()
 full = contour.GetDataInformation().GetNumberOfCells()
 assert not any("tolerance" in name for name in contour.FieldData.keys())
@@ -237,6 +238,7 @@ domain = extract.GetProperty("ErrorTolerance").GetDomain("range")
 assert domain.GetMaximum(0) == 0.7, domain.GetMaximum(0)
 assert list(extract.RegionOfInterestPosition) == [-5, -5, -5]
 assert list(extract.RegionOfInterestSize) == [10, 10, 10]
+assert list(extract.ViewPosition) == [0, 0, 70]
 extract.ErrorTolerance = 1
 extract.UpdatePipeline()
 assert 0 < extract.GetDataInformation().GetNumberOfCells() < full / 2
