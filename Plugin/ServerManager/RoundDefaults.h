@@ -66,7 +66,9 @@ inline bool Set(vtkSMDoubleRangeDomain& domain, const std::vector<double>& parts
         domain.GetMinimum(range), domain.GetMaximum(range), parts[std::min(i, given - 1)]));
   }
   // A range of constant data is nothing that one could choose a part of: what is beyond its end is.
-  if (given > 1 && helper.GetAsDouble(0) == helper.GetAsDouble(given - 1))
+  const unsigned int last = std::min(given, ranges) - 1;
+  if (given > 1 && domain.GetMinimum(last) == domain.GetMaximum(last) &&
+    helper.GetAsDouble(0) == helper.GetAsDouble(given - 1))
   {
     const double value = helper.GetAsDouble(0);
     helper.Set(given - 1, value + std::max(1.0, std::abs(value)));

@@ -56,6 +56,11 @@ assert table["Triangles at tolerance 0"] == full, table
 assert full > table["Triangles at tolerance 0.1"] > table["Triangles at tolerance 0.5"] > coarse
 
 
+# Of each axis by itself: the same number on two of them is no reason to change one.
+long = Wavelet(WholeExtent=[0, 140, -10, 10, -10, 10])
+long.UpdatePipeline()
+assert list(IsodiamondContour(long).ViewPosition) == [70, 0, 70]
+
 # In blocks: ParaView's sources make no more of the volume than is asked for.
 triangles = []
 for blocks in (1, 4):
