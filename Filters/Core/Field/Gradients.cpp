@@ -50,6 +50,39 @@ Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const V
   return isKnown ? gradient : DifferencesAt<true>(samples, point, valueOf);
 }
 
+/** Whether all samples next to a cell's corners are there. */
+bool IsInside(const CellPosition& position, const std::array<int, 3>& dimensions)
+{
+  bool isInside = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    isInside = isInside && position.Cell[axis] > 0 && position.Cell[axis] + 2 < dimensions[axis];
+  }
+  return isInside;
+}
+
+/** The interpolated differences in index space at a position inside, where there are no gaps: most
+ *  are, and large meshes wait for this. */
+template <typename T, typename ValueOf>
+Vector IndexGradientInside(
+  const SampleView<T>& samples, const CellPosition& position, const ValueOf& valueOf)
+{
+  const std::array<int, 3>& size = samples.Dimensions();
+  const std::int64_t row = size[0];
+  const std::int64_t slice = row * size[1];
+  const T* const cell = samples.Pointer() + samples.Index(position.Cell);
+  Vector sum{};
+  position.ForEachCornerNumber(
+    [&](int corner, double weight)
+    {
+      const T* const at = cell + (corner & 1) + ((corner >> 1) & 1) * row + (corner >> 2) * slice;
+      const auto difference = [&](std::int64_t stride)
+      { return valueOf(at[stride]) - valueOf(at[-stride]); };
+      sum = sum + weight * Vector{ difference(1), difference(row), difference(slice) };
+    });
+  return 0.5 * sum;
+}
+
 /** Gradients in the world for steps in index space, by the derivatives of the position: the vectors
  *  whose products with these are 1 on their own axis, and 0 on the others. */
 std::array<Vector, 3> GradientsOfSteps(const std::array<Vector, 3>& derivatives)
@@ -85,25 +118,32 @@ Gradients::Gradients(const AnySamples& samples, const GridGeometry& geometry)
 template <typename ValueOf>
 Vector Gradients::At(const Vector& index, const ValueOf& valueOf) const
 {
-  Vector sum{};
-  std::visit(
+  return std::visit(
     [&](const auto& view)
     {
-      CellPosition(index, view.Dimensions())
-        .Clamped()
-        .ForEachCorner(
-          [&](const Point& sample, double weight)
-          {
-            const Vector gradient = IndexGradientAt(view, sample, valueOf);
-            sum = sum +
-              weight *
-                (this->OfSteps
-                    ? gradient
-                    : ToWorld(GradientsOfSteps(this->Geometry.DerivativesAt(sample)), gradient));
-          });
+      const CellPosition position(index, view.Dimensions());
+      if (this->OfSteps && IsInside(position, view.Dimensions()))
+      {
+        const Vector gradient = IndexGradientInside(view, position, valueOf);
+        if (std::isfinite(gradient[0] + gradient[1] + gradient[2]))
+        {
+          return ToWorld(*this->OfSteps, gradient);
+        }
+      }
+      Vector sum{};
+      position.Clamped().ForEachCorner(
+        [&](const Point& sample, double weight)
+        {
+          const Vector gradient = IndexGradientAt(view, sample, valueOf);
+          sum = sum +
+            weight *
+              (this->OfSteps
+                  ? gradient
+                  : ToWorld(GradientsOfSteps(this->Geometry.DerivativesAt(sample)), gradient));
+        });
+      return this->OfSteps ? ToWorld(*this->OfSteps, sum) : sum;
     },
     this->Samples);
-  return this->OfSteps ? ToWorld(*this->OfSteps, sum) : sum;
 }
 
 Vector Gradients::operator()(const Vector& index) const

@@ -4,6 +4,7 @@
 #include "Field/Trilinear.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace isodiamond
 {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace isodiamond
@@ -25,8 +24,8 @@ struct CellPosition
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      this->Cell[axis] =
-        std::clamp(static_cast<int>(std::floor(index[axis])), 0, dimensions[axis] - 2);
+      // What is cut off is the same as rounded down, but below 0.
+      this->Cell[axis] = std::clamp(static_cast<int>(index[axis]), 0, dimensions[axis] - 2);
       this->Fraction[axis] = index[axis] - this->Cell[axis];
     }
   }
@@ -42,27 +41,40 @@ struct CellPosition
     return nearest;
   }
 
-  /** Calls body(sample, weight) for those of the cell's corners that have a weight. */
+  /** Calls body(corner, weight) for those of the cell's corners that have a weight: the bits of a
+   *  corner's number tell on which axes it is the farther one. */
+  template <typename Body>
+  void ForEachCornerNumber(Body&& body) const
+  {
+    // Most positions that come here lie on an edge of the lattice, so most corners have no weight.
+    // Which ones cannot be guessed: they are sorted out without a decision for each.
+    const Vector& far = this->Fraction;
+    const Vector near = { 1.0 - far[0], 1.0 - far[1], 1.0 - far[2] };
+    const std::array<double, 4> square = { near[0] * near[1], far[0] * near[1], near[0] * far[1],
+      far[0] * far[1] };
+    std::array<int, 8> corners;
+    std::array<double, 8> weights;
+    int count = 0;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      corners[count] = corner;
+      weights[count] = square[corner & 3] * (corner < 4 ? near[2] : far[2]);
+      count += weights[count] != 0.0 ? 1 : 0;
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      body(corners[i], weights[i]);
+    }
+  }
+
+  /** Calls body(sample, weight) for the same corners. */
   template <typename Body>
   void ForEachCorner(Body&& body) const
   {
-    // Most positions that come here lie on an edge of the lattice, so most corners have none.
-    const auto weightOf = [&](int axis, int far)
-    { return far != 0 ? this->Fraction[axis] : 1.0 - this->Fraction[axis]; };
-    for (int z = 0; z < 2; ++z)
-    {
-      for (int y = 0; y < 2 && weightOf(2, z) != 0.0; ++y)
-      {
-        for (int x = 0; x < 2 && weightOf(1, y) != 0.0; ++x)
-        {
-          const double weight = weightOf(0, x) * weightOf(1, y) * weightOf(2, z);
-          if (weight != 0.0)
-          {
-            body(this->Cell + Point{ x, y, z }, weight);
-          }
-        }
-      }
-    }
+    this->ForEachCornerNumber(
+      [&](int corner, double weight) {
+        body(this->Cell + Point{ corner & 1, (corner >> 1) & 1, corner >> 2 }, weight);
+      });
   }
 };
 
