@@ -147,9 +147,17 @@ int vtkIsodiamondVolumeAlgorithm::FillInputPortInformation(int, vtkInformation* 
 //------------------------------------------------------------------------------
 int vtkIsodiamondVolumeAlgorithm::ModifyRequest(vtkInformation* request, int when)
 {
-  if (when == vtkExecutive::BeforeForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  const bool isForData = request->Has(vtkDemandDrivenPipeline::REQUEST_DATA());
+  if (isForData && when == vtkExecutive::BeforeForward)
   {
     this->NumberOfRemovedPieces = 0;
+  }
+  if (isForData && when == vtkExecutive::AfterForward)
+  {
+    const std::vector<vtkDataSet*> blocks = vtkIsodiamond::LeavesOf(this->GetInput());
+    this->HaveBlocksTheArray = blocks.size() > 1 &&
+      std::any_of(blocks.begin(), blocks.end(),
+        [this](vtkDataSet* block) { return this->FindInputArray(block).Array != nullptr; });
   }
   this->Plan->Note(this, request, when);
   return this->Superclass::ModifyRequest(request, when);
@@ -209,6 +217,10 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
         vtkDataSet* grid = vtkDataSet::SafeDownCast(whole);
         vtkIsodiamond::CheckWhole(grid, input, this->Piece);
         array = this->FindInputArray(grid);
+        if (!array.Array && this->HaveBlocksTheArray)
+        {
+          return;
+        }
         volume = vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
       }
       const double unit = this->GetUnit(volume.Placement.World.SmallestStep());

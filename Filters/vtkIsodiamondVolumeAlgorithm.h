@@ -270,6 +270,9 @@ private:
 
   std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
   std::unique_ptr<vtkIsodiamond::SlabPlan> Plan;
+  /** Of a composite input: whether some have it. The others then have no mesh; else nobody has it,
+   *  which is an error. */
+  bool HaveBlocksTheArray = false;
   vtkIdType NumberOfRemovedPieces = 0;
   vtkIdType RemovedFromBlock = 0; ///< counts as soon as all of the block is well
 };

@@ -401,6 +401,41 @@ TEST(Grids, BlocksOfACompositeAreWorkedOnOneByOneAndKept)
   EXPECT_EQ(contour->GetNumberOfBuilds(), 3); // not again for the second tolerance
 }
 
+TEST(Grids, BlocksWithoutTheArrayHaveNoMesh)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (int i = 0; i < 3; ++i)
+  {
+    const auto image = test::BallImage({ 15, 15, 15 });
+    image->GetPointData()->GetScalars()->SetName(i == 1 ? "other" : "ball");
+    blocks->SetBlock(i, image);
+  }
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(blocks);
+  contour->SetValue(0, 0.0);
+  const auto cellsOf = [&](const char* array)
+  {
+    contour->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array);
+    contour->Update();
+    auto* output = vtkMultiBlockDataSet::SafeDownCast(contour->GetOutputDataObject(0));
+    std::vector<vtkIdType> cells;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      auto* mesh = vtkPolyData::SafeDownCast(output->GetBlock(i));
+      cells.push_back(mesh ? mesh->GetNumberOfCells() : -1);
+    }
+    return cells;
+  };
+  const vtkIdType all = Contour(test::BallImage({ 15, 15, 15 }), 0.0)->GetNumberOfCells();
+  const auto messages = test::Watch(contour);
+  EXPECT_EQ(cellsOf("ball"), (std::vector<vtkIdType>{ all, 0, all }));
+  EXPECT_EQ(messages->Errors, "");
+  EXPECT_EQ(cellsOf("other"), (std::vector<vtkIdType>{ 0, all, 0 }));
+  EXPECT_EQ(messages->Errors, "");
+  EXPECT_EQ(cellsOf("nobody's"), (std::vector<vtkIdType>{ 0, 0, 0 }));
+  EXPECT_EQ(messages->ErrorCount, 3);
+}
+
 TEST(Grids, PartitionsAreWorkedOnOneByOne)
 {
   vtkNew<vtkPartitionedDataSet> partitions;
