@@ -6,7 +6,7 @@
 For each volume: the first Apply at full resolution; then the first tolerance, half a voxel, which
 measures errors; then another one, a voxel; a first Apply at half a voxel at once; and one with
 OneTolerance. All as the panel starts them, but without normals and scalars, which vtkContourFilter
-makes none of here, either. Beside it Contour and Decimate (vtkDecimatePro) for as many triangles as half a voxel has.
+makes none of here, either; full resolution with both, too, beside it with both. And Contour and Decimate (vtkDecimatePro) for as many triangles as half a voxel has.
 Medians of some runs, each with a new filter; in times of vtkContourFilter, which has one thread, as
 vtkDecimatePro has. RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are synthetic and, where
 Debian's mricron-data is installed, an MRI head.
@@ -22,11 +22,11 @@ from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkDecimatePro
 from volumes import HEAD, HEAD_ISOVALUE, gyroid, head, image_of, phantom, raw_volume
 
 
-def configured(contour, image, isovalue):
+def configured(contour, image, isovalue, shaded=False):
     contour.SetInputData(image)
     contour.SetValue(0, isovalue)
-    contour.ComputeNormalsOff()
-    contour.ComputeScalarsOff()
+    contour.SetComputeNormals(shaded)
+    contour.SetComputeScalars(shaded)
     return contour
 
 
@@ -45,6 +45,13 @@ def waits(image, isovalue, threads):
     only.OneToleranceOn()
     times = [at(first, 0), at(first, voxel / 2), at(first, voxel), at(second, voxel / 2)]
     return times + [at(only, voxel / 2)]
+
+
+def first_with_normals(image, isovalue, threads):
+    """Milliseconds of full resolution, with normals and scalars."""
+    contour = configured(vtkIsodiamondContour(), image, isovalue, shaded=True)
+    contour.SetNumberOfThreads(threads)
+    return at(contour, 0)
 
 
 def contour_and_decimate(contour, image, isovalue):
@@ -80,17 +87,22 @@ def main():
     if os.path.exists(HEAD):
         volumes.append(("MRI head", head(), HEAD_ISOVALUE))
     volumes.extend(arguments.raw)
-    print("| volume | threads | vtkContourFilter, ms | full resolution | first tolerance | next "
-          "| half a voxel at once | OneTolerance | Contour + Decimate |")
-    print("|---|---:|---:|---:|---:|---:|---:|---:|---:|")
+    print("| volume | threads | vtkContourFilter, ms | full resolution | with normals "
+          "| first tolerance | next | half a voxel at once | OneTolerance | Contour + Decimate |")
+    print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|")
     for name, image, isovalue in volumes:
         reference = configured(vtkContourFilter(), image, isovalue)
         unit = statistics.median(timed(reference) for _ in range(arguments.runs))
+        shaded = configured(vtkContourFilter(), image, isovalue, shaded=True)
+        unit_shaded = statistics.median(timed(shaded) for _ in range(arguments.runs))
         decimated = contour_and_decimate(reference, image, isovalue)
         for threads in (1, 2):
             runs = [waits(image, isovalue, threads) for _ in range(arguments.runs)]
             times = [statistics.median(column) for column in zip(*runs)] + [decimated]
+            with_normals = statistics.median(
+                first_with_normals(image, isovalue, threads) for _ in range(arguments.runs))
             ratios = [f"{time / unit:.2f}" for time in times]
+            ratios.insert(1, f"{with_normals / unit_shaded:.2f}")
             print("|", " | ".join([name, str(threads), f"{unit:.0f}", *ratios]), "|", flush=True)
 
 
