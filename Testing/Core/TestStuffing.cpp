@@ -4,6 +4,7 @@
 #include "StuffingTestTools.h"
 
 #include "Mesh/IntervalExtraction.h"
+#include "Stuffing/Improvement.h"
 #include "Stuffing/LocalMesh.h"
 #include "Stuffing/MovedVertices.h"
 #include "Stuffing/Stuffing.h"
@@ -263,6 +264,33 @@ TEST(Improvement, DoesNotDependOnThreads)
   EXPECT_TRUE(one.Mesh.Tetrahedra == three.Mesh.Tetrahedra);
   EXPECT_TRUE(one.Mesh.Positions == three.Mesh.Positions);
   EXPECT_FALSE(one.Mesh.Blended.empty());
+}
+
+// What is of nearly no height leaves a choice.
+TEST(Improvement, LeavesFewerIfThatIsWanted)
+{
+  const test::Built built =
+    test::BuildVolume(test::NoiseField({ 11, 11, 11 }, 5), { 3.7, HUGE_VAL });
+  TetrahedronMesh plain = test::Stuffed(*built.Hierarchy, Query{}).PlainMesh();
+  plain.OnWalls.resize(plain.Positions.size());
+  plain.Blended.clear();
+  const auto improved = [&](bool leavesFewer)
+  {
+    ImprovementOptions options;
+    options.LeavesFewer = leavesFewer;
+    return Improve(plain, options, SerialFor);
+  };
+  const auto countBad = [](const TetrahedronMesh& mesh)
+  {
+    const double wanted = WantedSine(ImprovementOptions());
+    return std::count_if(mesh.Tetrahedra.begin(), mesh.Tetrahedra.end(),
+      [&](const Corners& corners) { return SmallestSine(mesh, corners) < wanted; });
+  };
+  const TetrahedronMesh all = improved(false);
+  const TetrahedronMesh fewer = improved(true);
+  EXPECT_LT(fewer.Tetrahedra.size(), 0.995 * all.Tetrahedra.size()); // 17265 of 17456
+  EXPECT_LT(countBad(fewer), 1.1 * countBad(all));                   // 859 and 838 of 3005
+  EXPECT_LT(countBad(all), countBad(plain) / 3);
 }
 
 // Where the surface hugs a wall the nearest isovertex is off the wall, but another one is on it.

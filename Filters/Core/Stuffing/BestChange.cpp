@@ -19,6 +19,8 @@ namespace
 
 /** Less of what a tetrahedron lacks is no improvement. */
 constexpr double LeastGain = 0.01;
+/** Where fewer are wanted, a change has to gain so many times what one before it does. */
+constexpr double ClearlyBetter = 1.05;
 /** How far a point on a surface may move, as a part of its edge. */
 constexpr double MostOfEdge = 0.25;
 
@@ -71,21 +73,18 @@ public:
   {
     const Corners corners = this->Mesh.CornersOf(tetrahedron);
     this->Best.Gain = LeastGain * ShortfallOf(this->Mesh.SineOf(tetrahedron), this->Wanted);
-    for (const std::uint32_t point : corners)
+    if (this->Options.LeavesFewer)
     {
-      this->TryToMove(point);
+      this->TryEdges(corners, Edges::Inside);
+      this->TryFaces(tetrahedron, corners);
+      this->TryMoves(corners);
+      this->TryEdges(corners, Edges::OnSurfaces);
     }
-    this->ForEachEdge(corners,
-      [&](std::uint32_t a, std::uint32_t b)
-      {
-        this->TryToCollapse(a, b);
-        this->TryToCollapse(b, a);
-      });
-    this->ForEachEdge(
-      corners, [&](std::uint32_t a, std::uint32_t b) { this->TryToRemoveEdge(a, b); });
-    for (const std::uint32_t point : corners)
+    else
     {
-      this->TryToRemoveFace(tetrahedron, point);
+      this->TryMoves(corners);
+      this->TryEdges(corners, Edges::All);
+      this->TryFaces(tetrahedron, corners);
     }
     if (this->Best.Kind == Change::None)
     {
@@ -112,6 +111,57 @@ private:
         body(corners[i], corners[j]);
       }
     }
+  }
+
+  void TryMoves(const Corners& corners)
+  {
+    for (const std::uint32_t point : corners)
+    {
+      this->TryToMove(point);
+    }
+  }
+
+  void TryFaces(std::uint32_t tetrahedron, const Corners& corners)
+  {
+    for (const std::uint32_t point : corners)
+    {
+      this->TryToRemoveFace(tetrahedron, point);
+    }
+  }
+
+  /** Those that may change a surface, the others, or both. */
+  enum class Edges
+  {
+    All,
+    Inside,
+    OnSurfaces
+  };
+
+  void TryEdges(const Corners& corners, Edges which)
+  {
+    const auto isOne = [which](bool isOnSurface)
+    { return which == Edges::All || isOnSurface == (which == Edges::OnSurfaces); };
+    const auto isOnSurface = [this](std::uint32_t point)
+    { return this->Mesh.Mesh().Surfaces[point] != 0; };
+    this->ForEachEdge(corners,
+      [&](std::uint32_t a, std::uint32_t b)
+      {
+        for (const auto& [from, to] : { std::pair(a, b), std::pair(b, a) })
+        {
+          if (isOne(isOnSurface(from)))
+          {
+            this->TryToCollapse(from, to);
+          }
+        }
+      });
+    this->ForEachEdge(corners,
+      [&](std::uint32_t a, std::uint32_t b)
+      {
+        if (isOne(isOnSurface(a) && isOnSurface(b)))
+        {
+          this->TryToRemoveEdge(a, b);
+        }
+      });
   }
 
   template <typename Tetrahedra>
@@ -147,8 +197,13 @@ private:
   bool IsBetter(const Shortfall& before, const Shortfall& after) const
   {
     return this->Chance == nullptr
-      ? after.Worst >= before.Worst && before.Sum - after.Sum > this->Best.Gain
+      ? after.Worst >= before.Worst && before.Sum - after.Sum > this->GainToBeat()
       : after.Worst >= LeastPartByChance * this->Wanted;
+  }
+  double GainToBeat() const
+  {
+    const bool isAfterAnother = this->Options.LeavesFewer && this->Best.Kind != Change::None;
+    return (isAfterAnother ? ClearlyBetter : 1.0) * this->Best.Gain;
   }
   /** Begins the best change so far. */
   Change& Take(Change::Kinds kind, const Shortfall& before, const Shortfall& after)
@@ -168,7 +223,7 @@ private:
       return;
     }
     const Shortfall before = this->LackOf(this->Mesh.StarOf(point));
-    if (this->Chance == nullptr && !(before.Sum > this->Best.Gain))
+    if (this->Chance == nullptr && !(before.Sum > this->GainToBeat()))
     {
       return;
     }

@@ -22,6 +22,9 @@ struct ImprovementOptions
   std::vector<CutSide> CutEdges = {};
   /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
   std::array<Vector, 3> Axes{};
+  /** Of what is nearly as good, what leaves fewer tetrahedra, and surfaces as they are: where no
+   * one makes the mesh coarser afterwards, which goes better with points that have moved. */
+  bool LeavesFewer = false;
 };
 
 /** The sine of the angle that is wanted. */

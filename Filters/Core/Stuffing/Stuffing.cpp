@@ -95,6 +95,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   options.CutEdges = CutEdgesOf(background);
   MovedVertices vertices(background);
   const bool getsCoarser = !input.Allowances.empty();
+  options.LeavesFewer = !getsCoarser;
   const TetrahedronMesh plain = getsCoarser ? vertices.Cut(parallelFor) : TetrahedronMesh();
   const CoarseningInput coarsening{ plain, input.Allowances, input.CanBeFiner, input.KeepsInside };
   vertices.MoveAll(parallelFor);
