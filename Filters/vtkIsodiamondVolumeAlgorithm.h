@@ -5,10 +5,10 @@
  *
  * The input is a volume: a vtkImageData (vtkUniformGrid too), a vtkRectilinearGrid or a
  * vtkStructuredGrid with two or more samples on each axis, and a point array of one component.
- * Composite inputs are worked on block by block. The filter keeps the minimal isodiamond
- * hierarchies that it builds: a new tolerance, region of interest or viewpoint only extracts again,
- * and so do blocks, time steps, isovalues and isoranges that it has seen before, while they are
- * kept (CacheSize).
+ * Composite inputs are worked on block by block; blocks without the array have no mesh. The filter
+ * keeps the minimal isodiamond hierarchies that it builds: a new tolerance, region of interest or
+ * viewpoint only extracts again, and so do blocks, time steps, isovalues and isoranges that it has
+ * seen before, while they are kept (CacheSize).
  *
  * Blanked cells, cells at blanked points and ghost cells count as absent. Distances are the world's
  * on images and rectilinear grids, however these are spaced; on structured grids tolerances are by

@@ -87,6 +87,8 @@ TetrahedronMesh Stuffed::PlainMesh() const
   TetrahedronMesh plain = this->Mesh;
   plain.Tetrahedra.clear();
   plain.Positions.resize(this->Plain.Points.size());
+  plain.OnWalls.resize(plain.Positions.size());
+  plain.Blended.clear();
   plain.Surfaces = this->Plain.Surfaces;
   for (const std::array<std::int32_t, 4>& corners : this->Plain.Tetrahedra)
   {

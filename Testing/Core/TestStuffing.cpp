@@ -271,9 +271,7 @@ TEST(Improvement, LeavesFewerIfThatIsWanted)
 {
   const test::Built built =
     test::BuildVolume(test::NoiseField({ 11, 11, 11 }, 5), { 3.7, HUGE_VAL });
-  TetrahedronMesh plain = test::Stuffed(*built.Hierarchy, Query{}).PlainMesh();
-  plain.OnWalls.resize(plain.Positions.size());
-  plain.Blended.clear();
+  const TetrahedronMesh plain = test::Stuffed(*built.Hierarchy, Query{}).PlainMesh();
   const auto improved = [&](bool leavesFewer)
   {
     ImprovementOptions options;

@@ -200,6 +200,7 @@ private:
       ? after.Worst >= before.Worst && before.Sum - after.Sum > this->GainToBeat()
       : after.Worst >= LeastPartByChance * this->Wanted;
   }
+  /** What a change has to gain to be the best one so far. */
   double GainToBeat() const
   {
     const bool isAfterAnother = this->Options.LeavesFewer && this->Best.Kind != Change::None;
