@@ -8,109 +8,6 @@
 namespace isodiamond
 {
 
-/** Reads the triangles of one brick of cells off the diamonds of scale 0. */
-class FineSurface::Reader
-{
-public:
-  Reader(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
-    const Point& brick)
-    : Hierarchy(hierarchy)
-    , Surface(surface)
-    , Hidden(hidden)
-    , Origin(8 * brick)
-    , Window(hierarchy.Diamonds().Level(0), 8 * brick)
-  {
-  }
-
-  /** Calls body(cell, tetrahedron, patch) for the tetrahedra that have one, cells as in a brick. */
-  template <typename Body>
-  void ForEachPatch(const Body& body) const
-  {
-    // A tetrahedron is half of one of the diamonds of class 2 at its youngest vertex, which can be
-    // the last of its cell on each axis.
-    for (Point offset{}; offset[2] <= 8; ++offset[2])
-    {
-      for (offset[1] = 0; offset[1] <= 8; ++offset[1])
-      {
-        for (offset[0] = 0; offset[0] <= 8; ++offset[0])
-        {
-          const int parity = Parity(offset); // the origin is even
-          if (parity != 0 && tables::Parities[parity].DiamondClass == 2)
-          {
-            this->ForEachPatchOf({ 0, this->Origin + offset }, body);
-          }
-        }
-      }
-    }
-  }
-
-  /** @param cell as in a brick */
-  StoredTriangle Place(
-    int cell, const HalfPlace& tetrahedron, const std::array<std::uint8_t, 3>& edges) const
-  {
-    const Point inBrick = { cell & 7, (cell >> 3) & 7, cell >> 6 };
-    StoredTriangle triangle;
-    for (int i = 0; i < 3; ++i)
-    {
-      const auto [owner, edge] = OwnedEdgeOf(tetrahedron, edges[i]);
-      const auto rank = static_cast<std::uint32_t>(this->Window.Rank(owner.Position));
-      triangle[i] = { IsovertexAt(this->Hierarchy, owner, rank, edge, this->Surface),
-        this->Origin + inBrick, owner.Position,
-        tables::Parities[Parity(owner.Position)].Offsets[edge] };
-    }
-    return triangle;
-  }
-
-private:
-  template <typename Body>
-  void ForEachPatchOf(const isodiamond::Place& youngest, const Body& body) const
-  {
-    const std::int64_t found = this->Window.Rank(youngest.Position);
-    if (found == DiamondSet::None)
-    {
-      return;
-    }
-    const auto rank = static_cast<std::uint32_t>(found);
-    const TypeTable& shape = ShapeOf(youngest.Position);
-    for (int i = 0; i < shape.HalfTetrahedronCount; ++i)
-    {
-      const HalfTetrahedron& half = shape.HalfTetrahedra[i];
-      Point cell = youngest.Position;
-      for (const std::uint8_t vertex : half.Vertices)
-      {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          cell[axis] = std::min(cell[axis], youngest.Position[axis] + shape.Offsets[vertex][axis]);
-        }
-      }
-      const Point inBrick = cell + -1 * this->Origin;
-      if (CellBox{ {}, { 8, 8, 8 } }.Holds(inBrick) && this->IsThere(cell))
-      {
-        const SurfacePatch patch = PatchOf(this->Hierarchy, rank, half, this->Surface);
-        if (patch.TriangleCount > 0)
-        {
-          body(inBrick[0] + 8 * inBrick[1] + 64 * inBrick[2], HalfPlace{ youngest, rank, &half },
-            patch);
-        }
-      }
-    }
-  }
-
-  bool IsThere(const Point& cell) const
-  {
-    const Point& last = cell + Point{ 1, 1, 1 };
-    return this->Hierarchy.SampleGrid().IsSampled(cell) &&
-      this->Hierarchy.SampleGrid().IsSampled(last) &&
-      !(this->Hidden != nullptr && (*this->Hidden)(cell));
-  }
-
-  const IsodiamondHierarchy& Hierarchy;
-  int Surface;
-  const HiddenCells* Hidden;
-  Point Origin;
-  BrickWindow Window;
-};
-
 void FineSurface::CellBrick::SumUp()
 {
   for (int row = 0; row < Rows; ++row)
@@ -133,7 +30,7 @@ void FineSurface::SomeBricks::MakeRoom()
     count += brick.Size();
   }
   this->Triangles.resize(count);
-  const StoredTriangle* first = this->Triangles.data();
+  const CellTriangle* first = this->Triangles.data();
   for (CellBrick& brick : this->Bricks)
   {
     brick.First = first;
@@ -219,16 +116,16 @@ FineSurface::SomeBricks FineSurface::MakeSome(std::vector<std::int64_t> indices)
   SomeBricks made;
   made.Indices = std::move(indices);
   const auto brickCount = static_cast<std::int64_t>(made.Indices.size());
-  const auto reader = [&](std::int64_t i)
-  { return Reader(this->Hierarchy, this->Surface, this->Hidden, this->PlaceOf(made.Indices[i])); };
+  const auto trianglesOf = [&](std::int64_t i) -> BrickTriangles
+  { return { this->Hierarchy, this->Surface, this->Hidden, this->PlaceOf(made.Indices[i]) }; };
 
   // Count.
   made.Bricks.resize(made.Indices.size());
   ForEachIndex(this->For, brickCount, 4,
     [&](std::int64_t i)
     {
-      reader(i).ForEachPatch([&](int cell, const HalfPlace&, const SurfacePatch& patch)
-        { made.Bricks[i].Add(cell, patch.TriangleCount); });
+      trianglesOf(i).ForEachTetrahedron([&](const BrickTriangles::Tetrahedron& tetrahedron)
+        { made.Bricks[i].Add(tetrahedron.Cell, tetrahedron.Patch.TriangleCount); });
     });
 
   // Prefix sum.
@@ -243,20 +140,20 @@ FineSurface::SomeBricks FineSurface::MakeSome(std::vector<std::int64_t> indices)
       {
         return;
       }
-      std::array<StoredTriangle*, CellBrick::Cells> write;
-      StoredTriangle* begin = made.Triangles.data() + (brick.First - made.Triangles.data());
+      std::array<CellTriangle*, CellBrick::Cells> write;
+      CellTriangle* begin = made.Triangles.data() + (brick.First - made.Triangles.data());
       for (int cell = 0; cell < CellBrick::Cells; ++cell)
       {
         write[cell] = begin;
         begin += brick.Count(cell);
       }
-      const Reader patches = reader(i);
-      patches.ForEachPatch(
-        [&](int cell, const HalfPlace& tetrahedron, const SurfacePatch& patch)
+      const BrickTriangles triangles = trianglesOf(i);
+      triangles.ForEachTetrahedron(
+        [&](const BrickTriangles::Tetrahedron& tetrahedron)
         {
-          for (int t = 0; t < patch.TriangleCount; ++t)
+          for (int number = 0; number < tetrahedron.Patch.TriangleCount; ++number)
           {
-            *write[cell]++ = patches.Place(cell, tetrahedron, patch.Triangles[t]);
+            *write[tetrahedron.Cell]++ = triangles.TriangleOf(tetrahedron, number);
           }
         });
     });

@@ -2,15 +2,12 @@
 #ifndef isodiamond_FineSurface_h
 #define isodiamond_FineSurface_h
 
-#include "DistanceError/IsovertexClusters.h"
+#include "DistanceError/BrickTriangles.h"
 #include "Field/HiddenCells.h"
 #include "Field/PeerPortion.h"
-#include "Lattice/DiamondTetrahedra.h"
-#include "Patches/SurfacePatch.h"
 
 #include <array>
 #include <atomic>
-#include <cassert>
 #include <cstdint>
 #include <mutex>
 #include <vector>
@@ -120,58 +117,12 @@ public:
   bool AnyHidden(const CellBox& box) const;
 
 private:
-  /** A corner of a triangle, from its cell's first sample on: it lies between two of the cell's,
-   * each told by a bit an axis, at a part of the way in 256ths. */
-  class StoredCorner
-  {
-  public:
-    StoredCorner() = default;
-
-    /** @param position of what is on an edge @param cell that has the edge
-     *  @param from, offset where the edge begins, and where it leads from there */
-    StoredCorner(
-      const FinePosition& position, const Point& cell, const Point& from, const Point& offset)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const int begin = from[axis] - cell[axis];
-        const int end = begin + offset[axis];
-        assert((begin == 0 || begin == 1) && (end == 0 || end == 1) && "corners of the cell");
-        this->Bits |= static_cast<std::uint8_t>(begin << axis | end << (3 + axis));
-        if (begin != end)
-        {
-          const int along = (position[axis] - FineUnits * from[axis]) * offset[axis];
-          assert(along >= 0 && along < FineUnits && "between them");
-          this->Along = static_cast<std::uint8_t>(along);
-        }
-      }
-    }
-
-    FinePosition After(const FinePosition& origin) const
-    {
-      FinePosition position = origin;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const int begin = (this->Bits >> axis) & 1;
-        const int end = (this->Bits >> (3 + axis)) & 1;
-        position[axis] += FineUnits * begin + this->Along * (end - begin);
-      }
-      return position;
-    }
-
-  private:
-    std::uint8_t Bits = 0;
-    std::uint8_t Along = 0;
-  };
-  using StoredTriangle = std::array<StoredCorner, 3>;
-  static_assert(sizeof(StoredTriangle) == 6, "of dense surfaces there are more than of all else");
-
   struct CellBrick
   {
-    static constexpr int Cells = 512;
+    static constexpr int Cells = BrickTriangles::Cells;
     static constexpr int Rows = 64; ///< of 8 cells along x
 
-    const StoredTriangle* First = nullptr;        ///< its triangles
+    const CellTriangle* First = nullptr;        ///< its triangles
     std::array<std::uint16_t, Rows + 1> Before{}; ///< those of rows before a row, from there on
     std::array<std::uint8_t, Cells / 2> Counts{}; ///< those of two cells: each has 12 at the most
 
@@ -188,14 +139,14 @@ private:
   /** The triangles of one cell. */
   struct TriangleRange
   {
-    const StoredTriangle* Begin;
-    const StoredTriangle* End;
+    const CellTriangle* Begin;
+    const CellTriangle* End;
     FinePosition Origin;
 
     template <typename Body>
     void operator()(const Body& body) const
     {
-      for (const StoredTriangle* stored = this->Begin; stored != this->End; ++stored)
+      for (const CellTriangle* stored = this->Begin; stored != this->End; ++stored)
       {
         body(Triangle{ (*stored)[0].After(this->Origin), (*stored)[1].After(this->Origin),
           (*stored)[2].After(this->Origin) });
@@ -224,10 +175,10 @@ private:
         {
           continue;
         }
-        const StoredTriangle* next = brick.First + brick.Before[row];
+        const CellTriangle* next = brick.First + brick.Before[row];
         for (int x = 0; x < high[0]; ++x)
         {
-          const StoredTriangle* const begin = next;
+          const CellTriangle* const begin = next;
           next += brick.Count(x + 8 * row);
           const Point position = origin + Point{ x, y, z };
           if (x >= low[0] && begin != next &&
@@ -256,14 +207,12 @@ private:
   /** Wants what is elsewhere of the bricks of a box. By any thread. */
   void Note(const CellBox& box) const;
 
-  class Reader;
-
   /** Some bricks, each with its triangles. */
   struct SomeBricks
   {
     std::vector<std::int64_t> Indices;
     std::vector<CellBrick> Bricks;
-    std::vector<StoredTriangle> Triangles;
+    std::vector<CellTriangle> Triangles;
 
     /** Once triangles are counted: where they are. */
     void MakeRoom();
@@ -301,7 +250,7 @@ private:
   mutable std::mutex Mutex;                           ///< of what is noted
   std::vector<std::int64_t> Here;                     ///< the bricks that are not elsewhere
   std::vector<CellBrick> Bricks;                      ///< those of these that have triangles
-  std::vector<std::vector<StoredTriangle>> Triangles; ///< of some bricks each
+  std::vector<std::vector<CellTriangle>> Triangles; ///< of some bricks each
 };
 
 }
