@@ -4,6 +4,7 @@
 #include "Build/ActivationThresholds.h"
 #include "DistanceError/DistanceError.h"
 #include "DistanceError/FineSurface.h"
+#include "DistanceError/IsovertexClusters.h"
 #include "DistanceError/SlabTest.h"
 #include "DistanceError/SpineNeighbourhood.h"
 #include "DistanceTestTools.h"
