@@ -9,6 +9,7 @@
 #include "Stuffing/MeasuredSurfaces.h"
 #include "Stuffing/Stuffing.h"
 
+#include <array>
 #include <functional>
 
 /**
@@ -17,6 +18,10 @@
  */
 namespace test
 {
+
+/** The directions of a grid's axes in index space. */
+inline constexpr std::array<isodiamond::Vector, 3> UnitAxes = { { { 1.0, 0.0, 0.0 },
+  { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } } };
 
 /** The mesh of a query, and what is made of it for simulations. */
 struct Stuffed

@@ -4,6 +4,7 @@
 #include "StuffingTestTools.h"
 
 #include "Stuffing/Coarsening.h"
+#include "Stuffing/Relaxation.h"
 #include "Stuffing/TetrahedronCollapses.h"
 
 #include <gtest/gtest.h>
@@ -31,8 +32,8 @@ struct Coarsened
     const TetrahedronMesh plain = stuffed.PlainMesh();
     const std::vector<double> allowances(stuffed.LeafCount, allowance);
     const std::vector<bool> finer(stuffed.LeafCount, canBeFiner);
-    this->FarLeaves =
-      Coarsen(this->Result.Mesh, { plain, allowances, finer, keepsInside, usedPart }, SerialFor);
+    this->FarLeaves = Coarsen(this->Result.Mesh,
+      { plain, allowances, finer, keepsInside, usedPart, test::UnitAxes }, SerialFor);
   }
 };
 
@@ -149,7 +150,8 @@ TEST(Coarsening, KeepsPromiseShapeAndTopologyOfRandomFields)
       std::size_t inside = 0;
       for (std::size_t i = 0; i < volume.Points.size(); ++i)
       {
-        EXPECT_EQ(points.erase(volume.Points[i]), 1U);
+        EXPECT_TRUE(
+          points.erase(volume.Points[i]) == 1 || (volume.Surfaces[i] == 0 && !keepsInside));
         inside += volume.Surfaces[i] == 0 ? 1 : 0;
       }
       if (keepsInside)
@@ -229,8 +231,10 @@ TEST(Coarsening, IsTheSameWithThreads)
   four.Result.Mesh = stuffed.Mesh;
   const std::vector<double> allowances(stuffed.LeafCount, 0.5);
   const std::vector<bool> finer(stuffed.LeafCount, true);
-  Coarsen(four.Result.Mesh, { stuffed.PlainMesh(), allowances, finer }, test::ThreadedFor(4));
+  Coarsen(four.Result.Mesh, { stuffed.PlainMesh(), allowances, finer, false, 0.75, test::UnitAxes },
+    test::ThreadedFor(4));
   EXPECT_EQ(four.Result.Mesh.Tetrahedra, one.Result.Mesh.Tetrahedra);
+  EXPECT_EQ(four.Result.Mesh.Positions, one.Result.Mesh.Positions);
 }
 
 // Any collapses are undone, with what builds on them; of all nothing is left.
@@ -269,6 +273,62 @@ TEST(TetrahedronCollapses, CanBeUndone)
   EXPECT_EQ(collapses.Undo(all).size(), count);
   EXPECT_EQ(collapses.Count(), 0U);
   EXPECT_EQ(SetOf(collapses.Take()), before);
+}
+
+// Where points inside have moved more edges can collapse; surfaces stay.
+TEST(TetrahedronCollapses, GoOnWhereThingsAreRelaxed)
+{
+  const test::Stuffed stuffed = Gyroid(0.1);
+  TetrahedronCollapses collapses(stuffed.Mesh, 16.0, VolumeOf(stuffed.Mesh));
+  std::size_t before = 0;
+  do
+  {
+    before = collapses.Count();
+    collapses.CollapseInside(SerialFor);
+  } while (collapses.Count() > before);
+  collapses.RelaxInside(test::UnitAxes, SerialFor);
+  EXPECT_EQ(collapses.Count(), 0U);
+  collapses.CollapseInside(SerialFor);
+  EXPECT_GT(collapses.Count(), before / 40);
+  const TetrahedronMesh mesh = collapses.Take();
+  EXPECT_EQ(SetOf(SurfacesOf(mesh).Triangles), SetOf(SurfacesOf(stuffed.Mesh).Triangles));
+  EXPECT_GE(WorstSine(mesh), std::min(WorstSine(stuffed.Mesh), LeastSine));
+  EXPECT_NEAR(VolumeOf(mesh), VolumeOf(stuffed.Mesh), 1e-9 * VolumeOf(mesh));
+}
+
+TEST(Relaxation, MovesPointsInsideToBetterPlaces)
+{
+  const test::Stuffed stuffed = Gyroid(0.1);
+  RelaxationOptions options{ 0.6, test::UnitAxes,
+    [](std::uint32_t, const Vector&) { return true; } };
+  LocalMesh mesh(stuffed.Mesh);
+  const std::vector<std::uint32_t> moved = RelaxInside(mesh, options, SerialFor);
+  const LocalMesh before(stuffed.Mesh);
+  std::size_t better = 0;
+  for (std::uint32_t point = 0; point < stuffed.Mesh.Positions.size(); ++point)
+  {
+    const bool isMoved = std::find(moved.begin(), moved.end(), point) != moved.end();
+    EXPECT_EQ(isMoved, mesh.At(point) != before.At(point));
+    EXPECT_TRUE(!isMoved || stuffed.Mesh.Surfaces[point] == 0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (Walls::OnAxis(stuffed.Mesh.OnWalls[point], axis))
+      {
+        EXPECT_EQ(mesh.At(point)[axis], before.At(point)[axis]);
+      }
+    }
+    better += isMoved && mesh.WorstAround(point) > before.WorstAround(point) + 0.02 ? 1 : 0;
+  }
+  EXPECT_GT(better, moved.size() / 2);
+  EXPECT_GT(better, 500U);
+  EXPECT_GE(WorstSine(mesh.Mesh()), WorstSine(stuffed.Mesh));
+
+  LocalMesh four(stuffed.Mesh);
+  EXPECT_EQ(RelaxInside(four, options, test::ThreadedFor(4)), moved);
+  EXPECT_EQ(four.Mesh().Positions, mesh.Mesh().Positions);
+
+  options.Allows = [](std::uint32_t, const Vector&) { return false; };
+  EXPECT_TRUE(RelaxInside(four, options, SerialFor).empty());
 }
 
 // What is undone on a surface takes with it what builds on it inside, and on the surface by that.

@@ -17,9 +17,6 @@ using namespace isodiamond;
 namespace
 {
 
-constexpr std::array<Vector, 3> UnitAxes = { Vector{ 1, 0, 0 }, Vector{ 0, 1, 0 },
-  Vector{ 0, 0, 1 } };
-
 /** A tetrahedral mesh of noise, and what may be done to it. */
 struct NoisyMesh
 {
@@ -29,7 +26,7 @@ struct NoisyMesh
     , Stuffed(*this->Built.Hierarchy, Query{})
   {
     // Any edges: those that the surface cuts go through a point on it.
-    this->Options.Axes = UnitAxes;
+    this->Options.Axes = test::UnitAxes;
     this->Options.SurfaceMove = 0.25;
     for (const Vector& position : this->Stuffed.Mesh.Positions)
     {

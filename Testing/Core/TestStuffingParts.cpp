@@ -2,6 +2,7 @@
 // What Stuffing is made of, one by one, on small meshes where it is known what should happen.
 #include "CoreTestTools.h"
 #include "RandomTestTools.h"
+#include "StuffingTestTools.h"
 
 #include "Patches/IntervalPatches.h"
 #include "Stuffing/Background.h"
@@ -94,8 +95,6 @@ PointStar StarOf(const TetrahedronMesh& mesh, std::uint32_t point)
   }
   return star;
 }
-
-constexpr std::array<Vector, 3> UnitAxes = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
 
 /** All ways to make triangles of a polygon's corners from one to another. */
 std::vector<std::vector<Face>> Triangulations(int first, int last)
@@ -231,14 +230,14 @@ TEST(BestPlace, IsBetterAndTellsItsSine)
     const double before = WorstSine(mesh.Positions, mesh.Tetrahedra);
     PointStar star = StarOf(mesh, 0);
     const Vector from = mesh.Positions[0];
-    const PlacedPoint best = BestPlace(star, from, 0, UnitAxes, 1.0);
+    const PlacedPoint best = BestPlace(star, from, 0, test::UnitAxes, 1.0);
     mesh.Positions[0] = best.Place;
     EXPECT_NEAR(WorstSine(mesh.Positions, mesh.Tetrahedra), best.Sine, 1e-9);
     EXPECT_GE(best.Sine, before - 1e-9);
     EXPECT_GT(best.Sine, 0.25);
     better += best.Sine > before + 0.05 ? 1 : 0;
     // What is good enough is left alone.
-    const PlacedPoint same = BestPlace(star, best.Place, Walls::Fixed, UnitAxes, 1.0);
+    const PlacedPoint same = BestPlace(star, best.Place, Walls::Fixed, test::UnitAxes, 1.0);
     EXPECT_EQ(same.Place, best.Place);
     EXPECT_NEAR(same.Sine, best.Sine, 1e-12);
   }
@@ -254,7 +253,8 @@ TEST(BestPlace, StaysOnWalls)
     const TetrahedronMesh mesh = Octahedron(random);
     PointStar star = StarOf(mesh, 0);
     const Vector from = mesh.Positions[0];
-    const PlacedPoint best = BestPlace(star, from, static_cast<Walls::Type>(walls), UnitAxes, 1.0);
+    const PlacedPoint best =
+      BestPlace(star, from, static_cast<Walls::Type>(walls), test::UnitAxes, 1.0);
     for (int axis = 0; axis < 3; ++axis)
     {
       if (((walls >> (2 * axis)) & 3) != 0)
@@ -281,7 +281,7 @@ TEST(BestPlace, StaysWithinReach)
     const auto length = [&](const Vector& place)
     { return std::sqrt(Dot(place - from, place - from)); };
     const Reach reach{ 0.05, [&](const Vector& place) { return length(place) <= 0.1; } };
-    const PlacedPoint best = BestPlace(star, from, 0, UnitAxes, 1.0, reach);
+    const PlacedPoint best = BestPlace(star, from, 0, test::UnitAxes, 1.0, reach);
     EXPECT_LE(length(best.Place), 0.1);
     farthest = std::max(farthest, length(best.Place));
   }
@@ -472,7 +472,7 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
   std::fill(flat.OnWalls.begin() + 1, flat.OnWalls.end(), Walls::Fixed);
   flat.Surfaces[0] = 1;
   ImprovementOptions options;
-  options.Axes = UnitAxes;
+  options.Axes = test::UnitAxes;
   const auto improve = [&](double move, const CutSide& edge)
   {
     options.SurfaceMove = move;

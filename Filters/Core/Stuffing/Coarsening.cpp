@@ -20,6 +20,9 @@ constexpr double LeastAngle = 16.0;
 /** Passes over inside and surfaces; what one leaves lets the other one go on. */
 constexpr int CollapsePasses = 6;
 
+/** How often edges inside that could not collapse are tried again, where points have moved. */
+constexpr int RelaxationRounds = 2;
+
 /** See FarLeaves(). @param distance of the surfaces' part, which is measured */
 std::vector<std::uint32_t> FarLeavesOf(const MeasuredSurfaces& surfaces, PartDistance& distance,
   const std::vector<bool>& canBeFiner, const ParallelFor& parallelFor)
@@ -101,6 +104,16 @@ std::vector<std::uint32_t> Coarsen(
       distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched, parallelFor);
     isTouched = faults.Any() ? edges.Undo(faults.Triangles, faults.Points) : std::vector<bool>();
   } while (std::find(isTouched.begin(), isTouched.end(), true) != isTouched.end());
+  // All that is left changes the inside alone, and nothing has to be undone any more.
+  if (!input.KeepsInside)
+  {
+    tetrahedra.RelaxInside(input.Axes, parallelFor);
+    for (int round = 0; round < RelaxationRounds; ++round)
+    {
+      tetrahedra.CollapseInside(parallelFor);
+      tetrahedra.RelaxInside(input.Axes, parallelFor);
+    }
+  }
   mesh = tetrahedra.Take();
   return {};
 }

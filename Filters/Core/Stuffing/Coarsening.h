@@ -19,6 +19,8 @@ struct CoarseningInput
   bool KeepsInside = false; ///< whether points inside stay
   /** Of allowances, by samples; what turns out to be too much is undone. */
   double UsedPart = 0.75;
+  /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
+  std::array<Vector, 3> Axes{};
 };
 
 /** The leaves where a surface of a stuffed mesh is too far away, and which could be finer, sorted.

@@ -97,7 +97,8 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   const bool getsCoarser = !input.Allowances.empty();
   options.LeavesFewer = !getsCoarser;
   const TetrahedronMesh plain = getsCoarser ? vertices.Cut(parallelFor) : TetrahedronMesh();
-  const CoarseningInput coarsening{ plain, input.Allowances, input.CanBeFiner, input.KeepsInside };
+  CoarseningInput coarsening{ plain, input.Allowances, input.CanBeFiner, input.KeepsInside };
+  coarsening.Axes = options.Axes;
   vertices.MoveAll(parallelFor);
   StuffedMesh result;
   result.Mesh = vertices.Cut(parallelFor);

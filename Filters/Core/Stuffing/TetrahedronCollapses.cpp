@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stuffing/TetrahedronCollapses.h"
 
+#include "Stuffing/Relaxation.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,6 +20,9 @@ constexpr double MostTimesOnSurfaces = 2.0;
 
 /** The part of the volume that may come or go. */
 constexpr double MostOfVolume = 0.005;
+
+/** The angle in degrees around a point from which on it stays where it is. */
+constexpr double RelaxedAngle = 30.0;
 
 /** Vertices between two looks at whether to go on. */
 constexpr std::size_t TriesOfStep = 64;
@@ -47,11 +52,37 @@ TetrahedronCollapses::TetrahedronCollapses(TetrahedronMesh mesh, double leastAng
   }
 }
 
-/** Whether an edge would be too long. @param mostTimes as long as the longest one around was */
+/** How long an edge may get, squared. @param mostTimes as long as the longest one around was */
+double TetrahedronCollapses::MostLength(std::uint32_t a, std::uint32_t b, double mostTimes) const
+{
+  return mostTimes * mostTimes * std::max(this->Longest[a], this->Longest[b]);
+}
+
+/** Whether an edge would be too long. */
 bool TetrahedronCollapses::IsLong(std::uint32_t a, std::uint32_t b, double mostTimes) const
 {
   const Vector edge = this->Mesh.At(b) - this->Mesh.At(a);
-  return Dot(edge, edge) > mostTimes * mostTimes * std::max(this->Longest[a], this->Longest[b]);
+  return Dot(edge, edge) > this->MostLength(a, b, mostTimes);
+}
+
+/** Whether the edges of a point would not be too long at a place, or no longer than they are. */
+bool TetrahedronCollapses::IsNear(std::uint32_t point, const Vector& place) const
+{
+  const LocalMesh::Star star = this->Mesh.StarOf(point);
+  return std::all_of(star.begin(), star.end(),
+    [&](std::uint32_t tetrahedron)
+    {
+      const Corners& corners = this->Mesh.CornersOf(tetrahedron);
+      return std::all_of(corners.begin(), corners.end(),
+        [&](std::uint32_t corner)
+        {
+          const Vector now = this->Mesh.At(corner) - this->Mesh.At(point);
+          const Vector then = this->Mesh.At(corner) - place;
+          return corner == point ||
+            Dot(then, then) <=
+            std::max(Dot(now, now), this->MostLength(point, corner, MostTimesInside));
+        });
+    });
 }
 
 double TetrahedronCollapses::SineNeeded(std::uint32_t vertex) const
@@ -132,14 +163,19 @@ void TetrahedronCollapses::Collapse(std::uint32_t vertex, std::uint32_t target)
   Step step{ vertex, target, this->GainOf(vertex, target), { star.begin(), star.end() }, {} };
   this->Volume += step.Gain;
   this->Mesh.Collapse(vertex, target, step.Fresh);
-  for (const std::uint32_t tetrahedron : step.Old)
+  this->LookAgainAround({ step.Old.data(), step.Old.data() + step.Old.size() });
+  this->Steps.push_back(std::move(step));
+}
+
+void TetrahedronCollapses::LookAgainAround(const LocalMesh::Star& changed)
+{
+  for (const std::uint32_t tetrahedron : changed)
   {
     for (const std::uint32_t point : this->Mesh.CornersOf(tetrahedron))
     {
       this->IsTried[point] = false;
     }
   }
-  this->Steps.push_back(std::move(step));
 }
 
 /** What was refused for the volume of the whole may be allowed soon, whatever there is around. */
@@ -200,6 +236,18 @@ void TetrahedronCollapses::CollapseInside(const ParallelFor& parallelFor)
         this->Collapse(vertex, found->second);
       }
     });
+}
+
+void TetrahedronCollapses::RelaxInside(
+  const std::array<Vector, 3>& axes, const ParallelFor& parallelFor)
+{
+  const RelaxationOptions options{ std::sin(RelaxedAngle / DegreesOfRadian), axes,
+    [this](std::uint32_t point, const Vector& place) { return this->IsNear(point, place); } };
+  for (const std::uint32_t point : isodiamond::RelaxInside(this->Mesh, options, parallelFor))
+  {
+    this->LookAgainAround(this->Mesh.StarOf(point));
+  }
+  this->Steps.clear();
 }
 
 std::vector<std::uint32_t> TetrahedronCollapses::Undo(const std::vector<std::uint32_t>& vertices)

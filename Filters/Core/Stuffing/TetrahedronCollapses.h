@@ -31,6 +31,11 @@ public:
   /** Collapses edges whose vertices that go are on no surface. */
   void CollapseInside(const ParallelFor& parallelFor);
 
+  /** Moves points that are on no surface to where the angles around them are better (Relaxation.h):
+   *  more edges can collapse then. What was done before cannot be undone any more.
+   *  @param axes as there */
+  void RelaxInside(const std::array<Vector, 3>& axes, const ParallelFor& parallelFor);
+
   /** How many collapses there are. */
   std::size_t Count() const { return this->Steps.size(); }
 
@@ -58,8 +63,12 @@ private:
   double SineAfter(std::uint32_t vertex, std::uint32_t target, double needed) const;
   double GainOf(std::uint32_t vertex, std::uint32_t target) const;
   bool KeepsVolume(double gain) const;
+  double MostLength(std::uint32_t a, std::uint32_t b, double mostTimes) const;
+  bool IsNear(std::uint32_t point, const Vector& place) const;
   bool IsLong(std::uint32_t a, std::uint32_t b, double mostTimes) const;
   void FindTargets(std::uint32_t vertex, double needed);
+  /** What has changed makes new tries worth while. */
+  void LookAgainAround(const LocalMesh::Star& changed);
 
   LocalMesh Mesh;
   double LeastSine;
