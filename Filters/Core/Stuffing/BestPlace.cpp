@@ -42,12 +42,8 @@ PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
   PlacedPoint best{ from, star.WorstAt(from, -1.0) };
   const auto tryAt = [&](const Vector& place)
   {
-    if (reach.Allows && !reach.Allows(place))
-    {
-      return false;
-    }
-    const double sine = star.WorstAt(place, best.Sine);
-    if (sine > best.Sine)
+    const double sine = star.WorstAt(place, best.Sine); // mostly decided by one look
+    if (sine > best.Sine && (!reach.Allows || reach.Allows(place)))
     {
       best = { place, sine };
       return true;

@@ -32,7 +32,8 @@ std::vector<std::uint32_t> FarLeaves(
  * Makes a stuffed mesh coarser, within what is allowed: edges collapse, on surfaces as Simplify
  * collapses them (EdgeCollapses.h), and inside, where the tetrahedra that this makes are of good
  * shape (TetrahedronCollapses.h). All of both surfaces is measured against those of the volume's
- * mesh, both ways (PartDistance.h), and what is too far away undone.
+ * mesh, both ways (PartDistance.h), and what is too far away undone. Then points inside move to
+ * better places (Relaxation.h), and more edges inside collapse.
  *
  * @return the FarLeaves() of before. If there are any the mesh stays as it is: it is for the caller
  *         to refine and begin again. What is too far away and cannot be finer stays as it is there.
