@@ -67,8 +67,8 @@ const CellHalves& AllCellHalves()
   return all;
 }
 
-BrickTriangles::BrickTriangles(const IsodiamondHierarchy& hierarchy, int surface,
-  const HiddenCells* hidden, const Point& brick)
+BrickTriangles::BrickTriangles(
+  const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden, const Point& brick)
   : Hierarchy(hierarchy)
   , Surface(surface)
   , Hidden(hidden)

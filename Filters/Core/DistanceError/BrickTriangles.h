@@ -75,8 +75,8 @@ public:
   /** A tetrahedron with triangles. */
   struct Tetrahedron
   {
-    int Cell = 0;      ///< of the brick, x fastest
-    Point Youngest{};  ///< of its vertices, from the brick's first sample on
+    int Cell = 0;     ///< of the brick, x fastest
+    Point Youngest{}; ///< of its vertices, from the brick's first sample on
     const CellHalf* Half = nullptr;
     SurfacePatch Patch;
   };
@@ -149,8 +149,8 @@ private:
         {
           found.Cell = cell[0] + 8 * (cell[1] + 8 * cell[2]);
           found.Patch = this->Hierarchy.Region().IsVolume()
-            ? PatchOf(
-                this->Hierarchy, owner.Rank, tables::Types[type].HalfTetrahedra[half], this->Surface)
+            ? PatchOf(this->Hierarchy, owner.Rank, tables::Types[type].HalfTetrahedra[half],
+                this->Surface)
             : tables::IsosurfacePatches[(crossed >> bit) & 7U];
           if (found.Patch.TriangleCount > 0)
           {

@@ -116,8 +116,9 @@ FineSurface::SomeBricks FineSurface::MakeSome(std::vector<std::int64_t> indices)
   SomeBricks made;
   made.Indices = std::move(indices);
   const auto brickCount = static_cast<std::int64_t>(made.Indices.size());
-  const auto trianglesOf = [&](std::int64_t i) -> BrickTriangles
-  { return { this->Hierarchy, this->Surface, this->Hidden, this->PlaceOf(made.Indices[i]) }; };
+  const auto trianglesOf = [&](std::int64_t i) -> BrickTriangles {
+    return { this->Hierarchy, this->Surface, this->Hidden, this->PlaceOf(made.Indices[i]) };
+  };
 
   // Count.
   made.Bricks.resize(made.Indices.size());

@@ -122,7 +122,7 @@ private:
     static constexpr int Cells = BrickTriangles::Cells;
     static constexpr int Rows = 64; ///< of 8 cells along x
 
-    const CellTriangle* First = nullptr;        ///< its triangles
+    const CellTriangle* First = nullptr;          ///< its triangles
     std::array<std::uint16_t, Rows + 1> Before{}; ///< those of rows before a row, from there on
     std::array<std::uint8_t, Cells / 2> Counts{}; ///< those of two cells: each has 12 at the most
 
@@ -247,9 +247,9 @@ private:
   std::vector<std::int32_t> Lookup; ///< of all bricks of cells: index in Bricks, or one of these
   mutable std::vector<std::atomic<std::uint8_t>> IsNoted; ///< of these
   mutable std::vector<std::int64_t> Noted;
-  mutable std::mutex Mutex;                           ///< of what is noted
-  std::vector<std::int64_t> Here;                     ///< the bricks that are not elsewhere
-  std::vector<CellBrick> Bricks;                      ///< those of these that have triangles
+  mutable std::mutex Mutex;                         ///< of what is noted
+  std::vector<std::int64_t> Here;                   ///< the bricks that are not elsewhere
+  std::vector<CellBrick> Bricks;                    ///< those of these that have triangles
   std::vector<std::vector<CellTriangle>> Triangles; ///< of some bricks each
 };
 
