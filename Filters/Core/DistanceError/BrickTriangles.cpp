@@ -4,13 +4,14 @@
 #include "Lattice/DiamondTetrahedra.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace isodiamond
 {
 namespace
 {
 
-/** The first sample of the cell that a half lies in, from its diamond's centre on. */
+/** The first sample of the cell that a half lies in, relative to its diamond's centre. */
 Point CellOf(const TypeTable& shape, const HalfTetrahedron& half)
 {
   Point cell{};
@@ -27,6 +28,7 @@ Point CellOf(const TypeTable& shape, const HalfTetrahedron& half)
 /** Bits of a corner of the cell. */
 int BitsOf(const Point& corner)
 {
+  assert(((corner[0] | corner[1] | corner[2]) & ~1) == 0 && "a corner of the cell");
   return corner[0] | corner[1] << 1 | corner[2] << 2;
 }
 
@@ -37,6 +39,7 @@ CellHalf HalfOf(const Point& position, const HalfTetrahedron& half)
   for (int edge = 0; edge < 6; ++edge)
   {
     const auto [owner, ownerEdge] = OwnedEdgeOf({ { 0, position }, 0, &half }, edge);
+    assert(owner.Scale == 0 && "one of an edge's ends is odd on some axis");
     const Point offset = owner.Position + -1 * position;
     const Point begin = offset + -1 * made.Cell;
     const Point end = begin + tables::Parities[Parity(owner.Position)].Offsets[ownerEdge];

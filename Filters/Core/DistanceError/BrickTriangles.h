@@ -13,8 +13,8 @@
 namespace isodiamond
 {
 
-/** A corner of a triangle of full resolution, from its cell's first sample on: it lies between two
- *  of the cell's, each told by a bit an axis, at a part of the way in 256ths. */
+/** A corner of a triangle of full resolution, relative to its cell's first sample: it lies between
+ *  two samples of the cell, each given by one bit per axis, at a part of the way in 256ths. */
 struct CellCorner
 {
   std::uint8_t Ends = 0; ///< bits 0 to 2: where the edge begins; 3 to 5: where it leads to
@@ -36,22 +36,22 @@ struct CellCorner
 using CellTriangle = std::array<CellCorner, 3>;
 static_assert(sizeof(CellTriangle) == 6, "of dense surfaces there are more than of all else");
 
-/** What the type of a diamond of class 2 tells of one of its halves at full resolution. */
+/** What the type of a diamond of class 2 says about one of its halves at full resolution. */
 struct CellHalf
 {
-  /** Where the isovertex on an edge comes from; edges as of SurfacePatch. */
+  /** Where the isovertex on an edge comes from; edges are numbered as in SurfacePatch. */
   struct Corner
   {
-    Point Owner{}; ///< of the edge, from the diamond on
+    Point Owner{}; ///< of the edge, relative to the diamond
     std::uint8_t Edge = 0;
     std::uint8_t Ends = 0; ///< of CellCorner
   };
 
-  Point Cell{}; ///< that the half lies in, from the diamond on
+  Point Cell{}; ///< that the half lies in, relative to the diamond
   std::array<Corner, 6> Corners;
 };
 
-/** By type, then by half; of the types of class 2. */
+/** By type, then by half; for the types of class 2 only. */
 using CellHalves = std::array<std::array<CellHalf, MaximumHalfTetrahedra>, 64>;
 const CellHalves& AllCellHalves();
 
@@ -60,8 +60,8 @@ const CellHalves& AllCellHalves();
  * diamonds of scale 0.
  *
  * Each tetrahedron of a cell is a half of the diamond of class 2 at its youngest vertex. The type
- * of this tells all of its triangles but how far along their edges the corners are. That the owners
- * of the edges know, which are looked up once for the whole brick.
+ * of that diamond determines its triangles, except for how far along their edges the corners are.
+ * The owners of the edges have that; they are looked up once for the whole brick.
  */
 class BrickTriangles
 {
@@ -76,12 +76,12 @@ public:
   struct Tetrahedron
   {
     int Cell = 0;     ///< of the brick, x fastest
-    Point Youngest{}; ///< of its vertices, from the brick's first sample on
+    Point Youngest{}; ///< of its vertices, relative to the brick's first sample
     const CellHalf* Half = nullptr;
     SurfacePatch Patch;
   };
 
-  /** Calls body(tetrahedron) for those that there are, in the order of their youngest vertices. */
+  /** Calls body(tetrahedron) for all of them, in the order of their youngest vertices. */
   template <typename Body>
   void ForEachTetrahedron(const Body& body) const
   {
@@ -119,11 +119,11 @@ public:
 private:
   static constexpr int Width = 9; ///< samples of the brick's cells along an axis
 
-  /** A diamond that edges which the surface crosses belong to. */
+  /** A diamond that owns edges which the surface crosses. */
   struct Owner
   {
     std::uint32_t Rank = 0;
-    std::uint32_t Edges = 0; ///< these; none where there is no diamond
+    std::uint32_t Edges = 0; ///< these edges; none where there is no diamond
     std::int64_t First = 0;  ///< number of the isovertex on the first of them
   };
 
@@ -177,7 +177,7 @@ private:
   const HiddenCells* Hidden;
   const CellHalves& Halves;
   Point Origin; ///< the brick's first sample
-  Point Size{}; ///< cells that there are in the brick
+  Point Size{}; ///< the number of cells along each axis
   std::array<Owner, Width * Width * Width> Owners{};
 };
 

@@ -11,7 +11,7 @@ namespace isodiamond
 namespace
 {
 
-/** Points that places are looked for at the same time: few of them are neighbours. */
+/** Points whose best places are searched for at the same time: few of them are neighbours. */
 constexpr std::size_t PointsAtOnce = 64;
 
 class Relaxation
@@ -44,7 +44,8 @@ public:
   }
 
 private:
-  /** In an order that knows nothing of places: so points at once are mostly far from each other. */
+  /** In an order that has nothing to do with where they are, so that those searched for at the same
+   *  time are mostly far from each other. */
   std::vector<std::uint32_t> PointsInside() const
   {
     std::vector<std::uint32_t> points;
@@ -77,7 +78,7 @@ private:
       { 0.0, [&](const Vector& place) { return this->Options.Allows(point, place); } });
   }
 
-  /** Whether something around a point has moved since places were looked for. */
+  /** Whether anything around a point has moved since its best place was searched for. */
   bool IsBesideMoved(std::uint32_t point) const
   {
     const LocalMesh::Star star = this->Mesh.StarOf(point);

@@ -21,7 +21,7 @@ constexpr double MostTimesOnSurfaces = 2.0;
 /** The part of the volume that may come or go. */
 constexpr double MostOfVolume = 0.005;
 
-/** The angle in degrees around a point from which on it stays where it is. */
+/** A point stays where it is if all angles around it are at least so many degrees. */
 constexpr double RelaxedAngle = 30.0;
 
 /** Vertices between two looks at whether to go on. */
@@ -65,7 +65,7 @@ bool TetrahedronCollapses::IsLong(std::uint32_t a, std::uint32_t b, double mostT
   return Dot(edge, edge) > this->MostLength(a, b, mostTimes);
 }
 
-/** Whether the edges of a point would not be too long at a place, or no longer than they are. */
+/** Whether each edge of a point would be short enough at a place, or no longer than it is now. */
 bool TetrahedronCollapses::IsNear(std::uint32_t point, const Vector& place) const
 {
   const LocalMesh::Star star = this->Mesh.StarOf(point);

@@ -17,7 +17,7 @@ namespace isodiamond
  * good shape and the topology as it is, no edge much longer than those around were (by a quarter
  * inside, twice as long on surfaces), and the whole volume nearly the same. Inside it finds the
  * edges itself; on surfaces others do, who see to it that these stay near, and ask whether they may
- * (CollapseGuard). Whatever was done can be undone.
+ * (CollapseGuard). Collapses can be undone, until points move.
  */
 class TetrahedronCollapses : public CollapseGuard
 {
@@ -31,9 +31,9 @@ public:
   /** Collapses edges whose vertices that go are on no surface. */
   void CollapseInside(const ParallelFor& parallelFor);
 
-  /** Moves points that are on no surface to where the angles around them are better (Relaxation.h):
-   *  more edges can collapse then. What was done before cannot be undone any more.
-   *  @param axes as there */
+  /** Moves points that are on no surface to where the angles around them are better (Relaxation.h),
+   *  after which more edges can collapse. Earlier collapses can no longer be undone.
+   *  @param axes of RelaxationOptions */
   void RelaxInside(const std::array<Vector, 3>& axes, const ParallelFor& parallelFor);
 
   /** How many collapses there are. */
