@@ -3,10 +3,10 @@
  * @class   vtkDiamondMesh
  * @brief   the tetrahedra of the current diamond mesh of a query
  *
- * Input: a hierarchy; properties: those of vtkIsodiamondExtractor. Output: the tetrahedra under
- * the front at that tolerance, with the cell arrays `Level` and `Class` of the diamond that each
- * lies in (the paper's figure 14). From HD and RI they tile the domain, from MI they are only
- * those that carry the surface. Tetrahedra that stick out of the image are left out.
+ * Input: a hierarchy; properties: those of vtkIsodiamondExtractor. Output: the tetrahedra under the
+ * front at the tolerance, with the cell arrays `Level` and `Class` of the diamond that each lies in
+ * (the paper's figure 14). From HD and RI they tile the domain; from MI they are only those that
+ * carry the surface. Tetrahedra that stick out of the image are left out.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010, section 6.
  */
@@ -31,7 +31,7 @@ protected:
   void WriteMesh(const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query,
     const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task,
     vtkDataObject* output) override;
-  /** Without simplification. */
+  /** The query, without simplification. */
   vtkIsodiamond::WorldQuery GetQuery() const override;
   /** Tetrahedra need an unstructured grid. */
   bool GivesPolyData() const override { return false; }

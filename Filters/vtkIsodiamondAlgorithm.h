@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkIsodiamondAlgorithm
- * @brief   what all filters have that extract meshes: tolerances, a region of interest, a viewpoint
+ * @brief   base of all filters that extract meshes: tolerances, a region of interest, a viewpoint
  *
- * Where more than one of them is used, a place has the greatest of its tolerances: inside of the
- * region of interest ErrorTolerance, outside OutsideErrorTolerance, and from a viewpoint what
- * PixelTolerance comes to at its distance, if that is more.
+ * Where several of these are used, the greatest of a place's tolerances holds: ErrorTolerance
+ * inside the region of interest or OutsideErrorTolerance outside it, or what PixelTolerance amounts
+ * to at its distance from the viewpoint, if that is more.
  *
  * @sa vtkIsodiamondExtractor vtkIsodiamondContour vtkIsodiamondIntervalVolume vtkDiamondMesh
  */
@@ -33,11 +33,11 @@ public:
 
   ///@{
   /**
-   * The error that is tolerated, in the units of the metric. *Distance*: world units; no vertex of
-   * the full-resolution surface is farther from the mesh. *Field* (the paper's): field units; at
-   * every sample in a tetrahedron that carries the surface, field and interpolant differ by no
-   * more. 0 is full resolution; infinity the coarsest. Negative values and NaN are errors. Default:
-   * 0.
+   * The tolerated error, in the units of the metric. *Distance*: world units; no vertex of the
+   * full-resolution surface is farther than this from the mesh. *Field* (the paper's): field units;
+   * at every sample in a tetrahedron that carries the surface, the field and its interpolant differ
+   * by no more than this. 0 is full resolution, infinity the coarsest mesh. Negative values and NaN
+   * are errors. Default: 0.
    */
   vtkSetMacro(ErrorTolerance, double);
   vtkGetMacro(ErrorTolerance, double);
@@ -45,38 +45,39 @@ public:
 
   ///@{
   /**
-   * If it is not 0, ErrorTolerance does not count, but what comes of this: the least tolerance with
-   * no more triangles (tetrahedra, of an interval volume) than this, in the sum over isovalues, or
-   * the coarsest mesh and a warning. Of composite inputs each block has as many. With a region of
-   * interest or a viewpoint, and of an HD, the tolerance is found in 14 queries; with
-   * SimulationQuality by making some meshes. Default: 0.
+   * If not 0, this replaces ErrorTolerance with the smallest tolerance that gives no more triangles
+   * (tetrahedra for an interval volume) than this, over all isovalues together; if even the
+   * coarsest mesh has more, you get that mesh and a warning. With composite inputs it applies to
+   * each block. With a region of interest or a viewpoint, and for an HD, the tolerance is found by
+   * 14 queries; with SimulationQuality, by making several meshes. Default: 0.
    */
   vtkSetClampMacro(TargetNumberOfTriangles, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(TargetNumberOfTriangles, vtkIdType);
   ///@}
 
-  /** The tolerance of the last mesh: ErrorTolerance, or what TargetNumberOfTriangles led to, which
-   *  the mesh then has in its field data, too. 0 before the first one and after an error. */
+  /** The tolerance of the last mesh: ErrorTolerance, or the one that TargetNumberOfTriangles led
+   *  to, which is then in the mesh's field data, too. 0 before the first one and after an error. */
   vtkGetMacro(AchievedTolerance, double);
 
   ///@{
   /**
-   * Cells for simulations. Making them takes much longer than the mesh alone. Default: off.
+   * Cells for simulations. They take much longer to make than the mesh alone. Default: off.
    *
-   * Tetrahedra of an interval volume: vertices that are near to a surface move onto it before
-   * anything is cut, and what is still bad is improved, so that dihedral angles lie between 15 and
-   * 165 degrees wherever possible. Points on surfaces stay where they are, or go; a few, where a
-   * surface nearly touches itself, move by a quarter of their edge at most. Pieces, holes and
-   * tunnels stay, and tetrahedra positive and conforming. By the distance metric the mesh begins at
-   * 0.65 of the tolerance and is made as coarse as all of it allows, which holds, measured
-   * both ways, but for cells of full resolution, which move their part of a surface by up to a
-   * voxel; with an interior tolerance points inside stay. With spacings that differ much between
-   * the axes it takes longer.
+   * Tetrahedra of an interval volume: vertices near a surface move onto it before anything is cut,
+   * and what is still bad is improved, so that dihedral angles lie between 15 and 165 degrees
+   * wherever possible. Points on surfaces stay where they are, or vanish; a few, where a surface
+   * nearly touches itself, move by at most a quarter of their edge. Pieces, holes and tunnels stay,
+   * and tetrahedra remain positive and conforming. With the distance metric the mesh starts at 0.65
+   * of the tolerance and is then made as coarse as the full tolerance allows. The tolerance holds,
+   * measured both ways, except for cells at full resolution, which move their part of a surface by
+   * up to a voxel; with an interior tolerance, points inside stay. It takes longer if spacings
+   * differ greatly between the axes.
    *
-   * Triangles of an isosurface: it is simplified as by Simplify, with the same promise, but no new
-   * triangle has an angle below 15 degrees, unless one that it replaces had a smaller one. Where
-   * the tolerance leaves no room some of these stay. The mesh may always get a quarter of the
-   * smallest spacing away, even if the tolerance is less, or 0. Needs the distance metric.
+   * Triangles of an isosurface: the mesh is simplified as by Simplify, with the same promise, but
+   * no new triangle has an angle below 15 degrees, unless one that it replaces had a smaller one.
+   * Where the tolerance leaves no room, some such triangles stay. The mesh may always move away by
+   * a quarter of the smallest spacing, even if the tolerance is less, or 0. Needs the distance
+   * metric.
    */
   vtkSetMacro(SimulationQuality, bool);
   vtkGetMacro(SimulationQuality, bool);
@@ -85,15 +86,15 @@ public:
 
   ///@{
   /** The smallest and the largest dihedral angle of the last mesh with SimulationQuality, in
-   * degrees; of composite inputs of all blocks. Each mesh has its own in the field data, under
-   * these names. 0 without one. */
+   *  degrees; with composite inputs, of all blocks. Each mesh has its own in its field data, under
+   *  these names. 0 if there is no such mesh. */
   vtkGetMacro(SmallestDihedralAngle, double);
   vtkGetMacro(LargestDihedralAngle, double);
   ///@}
 
   ///@{
   /**
-   * Whether ErrorTolerance, and InteriorTolerance where there is one, hold in the region of
+   * Whether ErrorTolerance (and InteriorTolerance, where there is one) holds in the region of
    * interest only, and OutsideErrorTolerance elsewhere. Default: off.
    */
   vtkSetMacro(UseRegionOfInterest, bool);
@@ -103,12 +104,12 @@ public:
 
   ///@{
   /**
-   * The region of interest, a closed box along the world's axes (xmin, xmax, ymin, ymax, zmin,
-   * zmax), whatever the image's direction. In it the mesh is the uniform one of ErrorTolerance (or
-   * of OutsideErrorTolerance, should that be smaller), outside as coarse as OutsideErrorTolerance
-   * and conformity let it be. Bounds may be infinite; a box with a minimum greater than its maximum
-   * is empty. Position is its lowest corner; setting it keeps the size, setting the size keeps the
-   * position. Default: the unit cube [0, 1]^3.
+   * The region of interest: a closed box along the world's axes (xmin, xmax, ymin, ymax, zmin,
+   * zmax), whatever the image's direction. The mesh in it is the one that ErrorTolerance (or
+   * OutsideErrorTolerance, if that is smaller) gives everywhere; outside, it is as coarse as
+   * OutsideErrorTolerance and conformity allow. Bounds may be infinite; a box with a minimum
+   * greater than its maximum is empty. The position is the lowest corner; setting it keeps the
+   * size, and setting the size keeps the position. Default: the unit cube [0, 1]^3.
    */
   vtkSetVector6Macro(RegionOfInterest, double);
   vtkGetVector6Macro(RegionOfInterest, double);
@@ -126,10 +127,10 @@ public:
 
   ///@{
   /**
-   * The error that is tolerated outside of the region of interest, in the units of ErrorTolerance.
-   * 0 chooses it: four times ErrorTolerance, or one voxel (the smallest spacing; by the field
-   * metric 1 % of the extent of the values), whichever is more. Negative values and NaN are errors
-   * while the region is used. Default: VTK_DOUBLE_MAX, as good as infinity.
+   * The tolerated error outside the region of interest, in the units of ErrorTolerance. 0 means
+   * automatic: four times ErrorTolerance or one voxel (the smallest spacing; with the field metric,
+   * 1 % of the extent of the values), whichever is more. Negative values and NaN are errors while
+   * the region is used. Default: VTK_DOUBLE_MAX, which acts as infinity.
    */
   vtkSetMacro(OutsideErrorTolerance, double);
   vtkGetMacro(OutsideErrorTolerance, double);
@@ -137,12 +138,13 @@ public:
 
   ///@{
   /**
-   * Coarser with the distance from a viewpoint: no vertex of the full-resolution surface is farther
-   * from the mesh than PixelTolerance pixels, seen from ViewPosition by a camera with perspective,
-   * ViewAngle degrees high on ViewHeight pixels, or than ErrorTolerance, whichever is more. That
-   * holds in all directions, so turning the camera needs no new mesh. Needs the distance metric.
-   * Defaults: off; at (0, 0, 1), 30 degrees, 1000 pixels, 1 pixel. ViewAngle is to be more than 0
-   * and less than 180, ViewHeight more than 0, PixelTolerance at least 0.
+   * Makes the mesh coarser with the distance from a viewpoint: no vertex of the full-resolution
+   * surface is farther from the mesh than PixelTolerance pixels, seen from ViewPosition by a
+   * perspective camera with a view ViewAngle degrees and ViewHeight pixels high, or than
+   * ErrorTolerance, whichever is more. This holds in all directions, so turning the camera needs no
+   * new mesh. Needs the distance metric. Defaults: off; (0, 0, 1), 30 degrees, 1000 pixels,
+   * 1 pixel. ViewAngle must be more than 0 and less than 180, ViewHeight more than 0,
+   * PixelTolerance at least 0.
    */
   vtkSetMacro(ViewDependent, bool);
   vtkGetMacro(ViewDependent, bool);
@@ -159,9 +161,9 @@ public:
 
   ///@{
   /**
-   * Of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
-   * DEFAULT_PRECISION, which is single for triangles and double for tetrahedra: rounded to single
-   * precision, the thinnest could turn over. Default: DEFAULT_PRECISION.
+   * The precision of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
+   * DEFAULT_PRECISION, which is single for triangles and double for tetrahedra, as rounding to
+   * single precision could turn the thinnest over. Default: DEFAULT_PRECISION.
    */
   vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
   vtkGetMacro(OutputPointsPrecision, int);
@@ -170,8 +172,9 @@ public:
   ///@{
   /**
    * Whether points and cells have global ids, "GlobalPointIds" and "GlobalCellIds": their numbers
-   * in the mesh that one process would make, of all isovalues; so the shares of several processes
-   * can be put together. Of composite inputs each block counts for itself. Default: off.
+   * in the mesh that one process would make for all isovalues, so that the shares of several
+   * processes can be put together. In composite inputs each block is numbered on its own.
+   * Default: off.
    */
   vtkSetMacro(GenerateGlobalIds, bool);
   vtkGetMacro(GenerateGlobalIds, bool);
@@ -186,13 +189,13 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
-  /** Error tolerances that are worth trying: by the distance metric up to 2 % of the grid's
-   *  diagonal; by the field metric up to the extent of the field's values, beyond which a tolerance
+  /** Error tolerances worth trying: with the distance metric, up to 2 % of the grid's diagonal;
+   *  with the field metric, up to the extent of the field's values, beyond which a tolerance
    *  changes nothing. {0, 1} while there is no input. */
   virtual double* GetErrorToleranceRange() VTK_SIZEHINT(2) = 0;
 
   ///@{
-  /** An input without a pipeline. */
+  /** Sets an input without a pipeline. */
   void SetInputData(vtkDataObject* input) { this->SetInputDataObject(0, input); }
   void SetInputData(int port, vtkDataObject* input) { this->SetInputDataObject(port, input); }
   ///@}
@@ -207,9 +210,9 @@ protected:
   vtkIsodiamondAlgorithm();
   ~vtkIsodiamondAlgorithm() override = default;
 
-  /** Notes the piece of the output that is asked for. */
+  /** Notes the requested piece of the output. */
   int ModifyRequest(vtkInformation* request, int when) override;
-  /** Asks for the whole input. */
+  /** Requests the whole input. */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -218,15 +221,15 @@ protected:
   /** What the properties ask of a hierarchy. @throws std::invalid_argument if they make no sense */
   virtual vtkIsodiamond::WorldQuery GetQuery() const;
 
-  /** Puts the tolerance of a mesh where users can see it, and warns if it was a target's and has
-   *  more cells. */
+  /** Puts the tolerance of a mesh where users can see it, and warns if it was found for a target
+   *  that the mesh exceeds. */
   void NoteTolerance(
     double tolerance, const vtkIsodiamond::CountedTolerance* aimed, vtkDataObject* output);
 
   /** Puts the angles of a mesh for simulations where users can see them. */
   void NoteDihedralAngles(const vtkIsodiamond::Mesh& mesh, vtkDataObject* output);
 
-  /** The share of a mesh that is asked for. */
+  /** The requested share of a mesh. */
   vtkIsodiamond::Share GetShare() const;
 
   double ErrorTolerance = 0.0;
@@ -247,7 +250,7 @@ protected:
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
   double AchievedTolerance = 0.0;
-  int Piece[3] = { 0, 1, 0 }; ///< asked for: its number, how many, ghost levels
+  int Piece[3] = { 0, 1, 0 }; ///< requested: its number, how many, ghost levels
 
 private:
   vtkIsodiamondAlgorithm(const vtkIsodiamondAlgorithm&) = delete;

@@ -4,16 +4,17 @@
  * @brief   build a multiresolution hierarchy of an isosurface or interval volume from an image
  *
  * Input: a vtkImageData with a one-component point array of any scalar type (chosen with
- * SetInputArrayToProcess(0, port, connection, association, name); the point scalars by default)
- * and at least two samples on every axis; or a hierarchy of diamonds (HD) that another builder
- * made, from which RI and MI come without the image. Output: a vtkIsodiamondHierarchy.
+ * SetInputArrayToProcess(0, port, connection, association, name); the point scalars by default) and
+ * at least two samples on every axis; or a hierarchy of diamonds (HD) that another builder made,
+ * from which RI and MI are made without the image. Output: a vtkIsodiamondHierarchy.
  *
  * An isosurface separates samples above the isovalue from the others; an interval volume holds the
  * samples within the isorange, its ends included. NaN counts as below. Errors, and so the
  * tolerances of queries, are in the units of the error metric.
  *
- * The whole extent of the input is requested. In parallel every piece holds the whole hierarchy,
- * as extractors need it, but only the first one its outline.
+ * The whole extent of the input is requested, or slab after slab of it (NumberOfBlocks). In
+ * parallel every piece holds the whole hierarchy, as extractors need all of it, but only the first
+ * has its outline.
  *
  * @warning A sample that equals the isovalue counts as below it; surfaces that only touch samples
  * are empty.
@@ -57,13 +58,13 @@ public:
   vtkTypeMacro(vtkIsodiamondBuilder, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** Beside vtkIsodiamondHierarchy::ErrorMetrics: distance, but for an HD field. */
+  /** In addition to vtkIsodiamondHierarchy::ErrorMetrics: field for an HD, otherwise distance. */
   static constexpr int AUTOMATIC = vtkIsodiamondHierarchy::DISTANCE + 1;
 
   ///@{
   /**
-   * Which hierarchy: of diamonds (HD: any isovalue later, about 3 bytes a voxel beyond the
-   * samples), relevant (RI) or minimal (MI, the smallest). Default: minimal.
+   * Which hierarchy: of diamonds (HD: any isovalue later, about 3 bytes per voxel in addition to
+   * the samples), relevant (RI) or minimal (MI, the smallest). Default: minimal.
    */
   vtkSetClampMacro(
     Model, int, vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS, vtkIsodiamondHierarchy::MINIMAL);
@@ -78,7 +79,7 @@ public:
 
   ///@{
   /**
-   * What to build the hierarchy of; for HD the default of later queries. Default: isosurface.
+   * What the hierarchy represents; for an HD, the default of later queries. Default: isosurface.
    */
   vtkSetClampMacro(
     Shape, int, vtkIsodiamondHierarchy::ISOSURFACE, vtkIsodiamondHierarchy::INTERVAL_VOLUME);
@@ -89,7 +90,7 @@ public:
 
   ///@{
   /**
-   * The isovalue of an isosurface, in field units; for HD the default of later queries. Outside of
+   * The isovalue of an isosurface, in field units; for an HD, the default of later queries. Outside
    * the data's range the surface is empty. Default: 0.
    */
   vtkSetMacro(Isovalue, double);
@@ -98,9 +99,10 @@ public:
 
   ///@{
   /**
-   * The isorange [lower, upper] of an interval volume, in field units; for HD the default of later
-   * queries. An end may be infinite, or beyond the data's range: an open side. A range outside of
-   * the data's gives an empty volume; lower >= upper and NaN are errors. Default: [0, 1].
+   * The isorange [lower, upper] of an interval volume, in field units; for an HD, the default of
+   * later queries. An end that is infinite or beyond the data's range leaves that side open. A
+   * range outside the data's gives an empty volume; lower >= upper and NaN are errors.
+   * Default: [0, 1].
    */
   vtkSetVector2Macro(Isorange, double);
   vtkGetVector2Macro(Isorange, double);
@@ -108,11 +110,11 @@ public:
 
   ///@{
   /**
-   * How the error of a tolerance is measured. *Distance*: in world units; no point of the mesh
-   * is farther from the full-resolution surface than the tolerance, and no vertex of that from the
-   * mesh. *Field* (the paper's): in field units, between the field and its linear interpolant. An
-   * HD has the field's only: distances need an isovalue. *Automatic*: distance, but for an HD
-   * field. Default: field.
+   * What tolerances measure. *Distance*: in world units; no point of the mesh is farther from the
+   * full-resolution surface than the tolerance, and no vertex of that surface is farther from the
+   * mesh. *Field* (the paper's): in field units, between the field and its linear interpolant; the
+   * only one for an HD, as distances need an isovalue. *Automatic*: field for an HD, otherwise
+   * distance. Default: field.
    */
   vtkSetClampMacro(ErrorMetric, int, vtkIsodiamondHierarchy::FIELD, AUTOMATIC);
   vtkGetMacro(ErrorMetric, int);
@@ -123,10 +125,10 @@ public:
 
   ///@{
   /**
-   * Put every vertex on the full-resolution surface, to 1/256 of its lattice edge (2/256 where an
-   * edge carries both surfaces of an interval volume). Off, vertices lie where the field would
-   * cross the isovalue if it were linear along the edge, as in the paper; at full resolution both
-   * are the same. Default: on.
+   * Put every vertex on the full-resolution surface, to within 1/256 of its lattice edge (2/256
+   * where an edge carries both surfaces of an interval volume). When off, vertices lie where the
+   * field would cross the isovalue if it were linear along the edge, as in the paper; at full
+   * resolution both are the same. Default: on.
    */
   vtkSetMacro(ExactIsovertices, bool);
   vtkGetMacro(ExactIsovertices, bool);
@@ -136,10 +138,10 @@ public:
   ///@{
   /**
    * With the distance metric, keep the promise of the tolerance for thin things too: every vertex
-   * of the full-resolution surface has a part of the mesh to count with, so what is thinner than
-   * the tolerance stays. Matters from tolerances on that exceed a feature's size, where it leaves a
-   * floor of triangles. Off, what is thinner may vanish, and the promise with it; whole pieces do
-   * not with PreserveTopology. Default: on.
+   * of the full-resolution surface has a part of the mesh to be measured against, so what is
+   * thinner than the tolerance stays. Changes nothing at tolerances below a feature's size; above
+   * it, a minimum of triangles remains. When off, thin things may vanish, and the promise with
+   * them; no piece vanishes altogether while PreserveTopology is on. Default: on.
    */
   vtkSetMacro(PreserveFeatures, bool);
   vtkGetMacro(PreserveFeatures, bool);
@@ -148,11 +150,11 @@ public:
 
   ///@{
   /**
-   * Keep the topology of the full-resolution surface: the mesh of every tolerance, infinity
-   * included, with any region and viewpoint, has the same pieces, holes and boundary loops, by
-   * either metric. The diamonds whose subdivision changes the topology are always subdivided, which
-   * takes more triangles the larger the tolerance is. Of an
-   * HD it is a matter of the query: vtkIsodiamondExtractor's PreserveTopology. Default: off.
+   * Keep the topology of the full-resolution surface: the mesh at every tolerance, even infinity,
+   * with any region and viewpoint, has the same pieces, holes and boundary loops, with either
+   * metric. Diamonds whose subdivision changes the topology are always subdivided: the larger the
+   * tolerance, the more triangles this adds. For an HD, queries decide: see
+   * vtkIsodiamondExtractor's PreserveTopology. Default: off.
    */
   vtkSetMacro(PreserveTopology, bool);
   vtkGetMacro(PreserveTopology, bool);
@@ -161,11 +163,12 @@ public:
 
   ///@{
   /**
-   * Remove pieces of fewer samples, noise for instance, before all else: connected sets of samples
-   * above the isovalue count as below it, then holes in what is left as above; those at the
-   * volume's boundary too. Of an interval volume the same for each of its surfaces. Samples are
-   * connected as the full-resolution mesh connects them. Not for an HD, nor from one, which holds
-   * samples: with them sizes above 1 are an error. 0 and 1 keep all. Default: 0.
+   * Remove pieces of fewer samples than this, noise for instance, before anything else: such
+   * connected sets of samples above the isovalue count as below it, then such cavities in what is
+   * left count as above; those at the volume's boundary, too. For an interval volume the same is
+   * done for each of its surfaces. Samples are connected as the full-resolution mesh connects them.
+   * Sizes above 1 are an error for an HD, which holds the samples, and for what is made from one.
+   * 0 and 1 keep all. Default: 0.
    */
   vtkSetClampMacro(MinimumPieceSize, int, 0, VTK_INT_MAX);
   vtkGetMacro(MinimumPieceSize, int);
@@ -173,10 +176,9 @@ public:
 
   ///@{
   /**
-   * Whether an interval volume can be refined inside, where no surface is: keeps every diamond
-   * that has all vertices inside, with its field error, for vtkIsodiamondExtractor's
-   * InteriorTolerance. Takes memory in proportion to the volume inside. An HD can without.
-   * Default: off.
+   * Whether an interval volume can be refined inside, where no surface is: keeps every diamond with
+   * all vertices inside, and its field error, for vtkIsodiamondExtractor's InteriorTolerance. Takes
+   * memory in proportion to the volume inside. An HD does not need it. Default: off.
    */
   vtkSetMacro(RefineInterior, bool);
   vtkGetMacro(RefineInterior, bool);
@@ -185,10 +187,10 @@ public:
 
   ///@{
   /**
-   * Close every surface above the data's minimum: the volume counts as padded on all six sides by
-   * a layer of that minimum, so caps lie less than a voxel outside of the image. Off, the surface
-   * ends at the image's boundary as with any contour filter. No effect on an interval volume,
-   * which is closed by the image's faces, and on an HD input. Default: off.
+   * Close every surface whose isovalue is above the data's minimum: the volume counts as padded on
+   * all six sides by a layer of that minimum, so caps lie less than a voxel outside the image. When
+   * off, the surface ends at the image's boundary, as with any contour filter. Has no effect on an
+   * interval volume, which is closed by the image's faces, or with an HD as input. Default: off.
    */
   vtkSetMacro(CloseBoundary, bool);
   vtkGetMacro(CloseBoundary, bool);
@@ -199,8 +201,8 @@ public:
   /**
    * Other point arrays of the image that the hierarchy is to carry, so that its meshes can be
    * coloured by them: one value for every stored isovertex, and for every lattice point inside an
-   * interval volume, interpolated trilinearly. An array that the image lacks is an error. Not for
-   * an HD, nor from one: with them it warns and has no effect. Default: none.
+   * interval volume, interpolated trilinearly. An array that the image lacks is an error. For an
+   * HD, and for what is made from one, this warns and has no effect. Default: none.
    */
   void AddPointArray(const char* name);
   void ClearPointArrays();
@@ -210,8 +212,8 @@ public:
 
   ///@{
   /**
-   * Whether the hierarchy is to carry the surface's normals of the full-resolution gradient: 12
-   * bytes a point. As above not for an HD. Default: off.
+   * Whether the hierarchy is to carry surface normals, from the full-resolution gradient: 12 bytes
+   * per point. As above, not for an HD. Default: off.
    */
   vtkSetMacro(ComputeNormals, bool);
   vtkGetMacro(ComputeNormals, bool);
@@ -220,18 +222,18 @@ public:
 
   ///@{
   /**
-   * Into how many slabs of slices an image is cut, so that no more than one of them is in memory:
-   * each is asked for twice, once more if the hierarchy carries point arrays, and before for the
-   * minimum with CloseBoundary. The hierarchy is the same however it is cut. 0: one, or as many as
-   * keep the image within the memory that is free. For relevant and minimal hierarchies of
-   * images without blanked cells from sources that make parts of them; else the image comes at
-   * once, with a warning if more than one was asked for. Default: 0.
+   * Into how many slabs of slices an image is cut, so that no more than one is in memory: each is
+   * requested twice, once more if the hierarchy carries point arrays, and with CloseBoundary once
+   * beforehand, to find the minimum. The hierarchy is the same however the image is cut. 0: one, or
+   * as many as keep the image within the free memory. For relevant and minimal hierarchies of
+   * images without blanked cells, from sources that can give parts of an image; otherwise the image
+   * is read at once, with a warning if more than one was asked for. Default: 0.
    */
   vtkSetClampMacro(NumberOfBlocks, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfBlocks, int);
   ///@}
 
-  /** How many slabs the last execution asked for; 1 if the input came at once. */
+  /** How many slabs the last execution requested; 1 if the input was read at once. */
   int GetNumberOfSlabs();
 
   ///@{
@@ -242,7 +244,7 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
-  /** The output, with its type. */
+  /** The output, as a vtkIsodiamondHierarchy. */
   vtkIsodiamondHierarchy* GetHierarchy();
 
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
@@ -253,7 +255,7 @@ protected:
   ~vtkIsodiamondBuilder() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  /** Notes the piece of the output that is asked for. */
+  /** Notes the requested piece of the output. */
   int ModifyRequest(vtkInformation* request, int when) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -275,7 +277,7 @@ protected:
   bool ComputeNormals = false;
   int NumberOfBlocks = 0;
   int NumberOfThreads = 0;
-  int Piece[3] = { 0, 1, 0 }; ///< asked for: its number, how many, ghost levels
+  int Piece[3] = { 0, 1, 0 }; ///< requested: its number, how many, ghost levels
 
 private:
   vtkIsodiamondBuilder(const vtkIsodiamondBuilder&) = delete;
@@ -295,10 +297,10 @@ private:
   void Build(vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output);
 
   std::unique_ptr<vtkIsodiamond::SlabPlan> Plan;
-  /** What was built, of what, and when: in parallel extractors ask for the only piece of the
-   *  hierarchy, and whoever shows it for one of several. That is the same hierarchy. */
+  /** What was built, from what, and when: in parallel, extractors request the hierarchy as a single
+   *  piece, and whatever displays it requests one of several. Both are the same hierarchy. */
   vtkSmartPointer<vtkIsodiamondHierarchy> Built;
-  vtkDataObject* BuiltOf = nullptr; ///< to compare with, may be gone
+  vtkDataObject* BuiltOf = nullptr; ///< for comparison only, may no longer exist
   vtkTimeStamp BuiltAt;
 };
 

@@ -3,15 +3,16 @@
  * @class   vtkIsodiamondContour
  * @brief   isosurfaces of a volume at an error tolerance, in one step
  *
- * A drop-in for a contour filter: a volume in, vtkPolyData of triangles out, with an error
- * tolerance in addition. The filter keeps one minimal isodiamond hierarchy per isovalue; a new
- * tolerance, region of interest or viewpoint only extracts again. A new input, array, isovalue,
- * boundary option or error metric, other isovertices or features, and with the distance metric
- * another spacing or direction, build what is missing; see vtkIsodiamondVolumeAlgorithm.
+ * A drop-in replacement for a contour filter, with an error tolerance: a volume in, vtkPolyData of
+ * triangles out. The filter keeps one minimal isodiamond hierarchy per isovalue: for a new
+ * tolerance, region of interest or viewpoint it only extracts again. For a new input, array,
+ * isovalue, boundary option or error metric, for other isovertices or features, and with the
+ * distance metric for another spacing or direction, it builds what is missing; see
+ * vtkIsodiamondVolumeAlgorithm.
  *
  * Point data: the isovalue under the input array's name (ComputeScalars), "Normals" toward lower
- * values (ComputeNormals) and "Gradient" (ComputeGradients), both of the full-resolution field, and
- * all other point arrays of the input (InterpolateAttributes). Cell data: "Level", see
+ * values (ComputeNormals) and "Gradient" (ComputeGradients), both from the full-resolution field,
+ * and all other point arrays of the input (InterpolateAttributes). Cell data: "Level", see
  * vtkIsodiamondExtractor.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010.
@@ -38,8 +39,8 @@ public:
 
   ///@{
   /**
-   * The isovalues, in field units, as in vtkContourFilter. Default: none, so that the output is
-   * empty until one is set.
+   * The isovalues, in field units, as in vtkContourFilter. Default: none; the output is empty until
+   * one is set.
    */
   void SetValue(int i, double value) { this->ContourValues->SetValue(i, value); }
   double GetValue(int i) { return this->ContourValues->GetValue(i); }
@@ -59,7 +60,7 @@ public:
 
   ///@{
   /**
-   * Point normals from the gradient of the full-resolution field; with Simplify means of these.
+   * Point normals from the gradient of the full-resolution field; with Simplify, means of these.
    * Default: on.
    */
   vtkSetMacro(ComputeNormals, vtkTypeBool);
@@ -69,7 +70,7 @@ public:
 
   ///@{
   /**
-   * The gradient of the full-resolution field at every point, in the world. Default: off.
+   * The gradient of the full-resolution field at every point, in world space. Default: off.
    */
   vtkSetMacro(ComputeGradients, vtkTypeBool);
   vtkGetMacro(ComputeGradients, vtkTypeBool);
@@ -87,13 +88,14 @@ public:
 
   ///@{
   /**
-   * Simplify the mesh: a part of the tolerance (three tenths, less if it is below 3/4 voxel) goes
-   * to the hierarchy, the rest to collapses and flips of edges, whose result is measured, both ways
-   * and all of every triangle, and undone where it is too far away. So the tolerance stays what it
-   * is, and the topology, with a fraction of the triangles, which take longer to make. Points are
-   * some of those that the surface would have had, with their data, but for normals: these are
-   * means over what a point stands for. What ends at the grid's boundary does so, along the same
-   * face. The cell array `Level` is left out. Needs the distance metric. Default: off.
+   * Simplify the mesh: a part of the tolerance (three tenths; less if it is below 3/4 voxel) goes
+   * to the hierarchy, the rest to collapsing and flipping edges; the result is measured, both ways
+   * and over all of every triangle, and undone where it is too far away. So the tolerance still
+   * holds, and the topology is kept, with a fraction of the triangles, which take longer to make.
+   * Points are some of those that the surface would have had, with their data, except for normals,
+   * which are means over what a point stands for. What ends at the grid's boundary still does,
+   * along the same face. The cell array `Level` is left out. Needs the distance metric.
+   * Default: off.
    */
   vtkSetMacro(Simplify, bool);
   vtkGetMacro(Simplify, bool);
@@ -102,7 +104,7 @@ public:
 
   ///@{
   /**
-   * Close surfaces at the image's boundary, see vtkIsodiamondBuilder. Default: off.
+   * Close surfaces at the image's boundary; see vtkIsodiamondBuilder. Default: off.
    */
   vtkSetMacro(CloseBoundary, bool);
   vtkGetMacro(CloseBoundary, bool);

@@ -3,22 +3,22 @@
  * @class   vtkIsodiamondExtractor
  * @brief   extract a crack-free mesh from an isodiamond hierarchy at an error tolerance
  *
- * Input: a vtkIsodiamondHierarchy, or any vtkPolyData that holds one (as a reader gives back).
- * Output: of an isosurface triangles, with normals to lower values; of an interval volume
- * tetrahedra. Point data: under the name of the array that the hierarchy was built from the field's
- * value, which is the isovalue on a surface and the sample inside, the point scalars of a volume
- * only; of an interval volume also `Surface`: -1 on the lower surface, 1 on the upper one, 0
- * inside; and the other arrays that the hierarchy carries. Cell data: `Level` of the diamond that a
- * cell lies in, 0 for the coarsest.
+ * Input: a vtkIsodiamondHierarchy, or any vtkPolyData that holds one (such as a reader returns).
+ * Output: triangles for an isosurface, with normals toward lower values; tetrahedra for an interval
+ * volume. Point data: the field's value, under the name of the array that the hierarchy was built
+ * from (the isovalue on a surface, the sample inside; the point scalars for a volume only); for an
+ * interval volume also `Surface`: -1 on the lower surface, 1 on the upper one, 0 inside; and the
+ * other arrays that the hierarchy carries. Cell data: `Level` of the diamond that a cell lies in,
+ * 0 for the coarsest.
  *
- * The mesh has no cracks at any tolerance, and the three models give the same one. A coarser
- * tolerance costs less time, in proportion to what it returns. All tetrahedra have positive
- * volume; every face of one is a face of another, or lies on a surface or the image's boundary.
+ * The mesh has no cracks at any tolerance, and the three models give the same mesh. A coarser mesh
+ * takes less time, in proportion to its size. All tetrahedra have positive volume; every face of
+ * one is also a face of another, or lies on a surface or the image's boundary.
  *
  * In parallel every process needs the whole hierarchy, and makes its share of the mesh's cells: all
  * pieces together are the mesh, with each cell once.
  *
- * @warning With an open boundary, a surface's edges on the image's boundary have one triangle.
+ * @warning With an open boundary, a surface's edges on the image's boundary have only one triangle.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010, section 6.
  */
@@ -58,11 +58,12 @@ public:
 
   ///@{
   /**
-   * Of the last execution: how many stored diamonds were subdivided, and the size of the active
-   * front: diamonds that were not but have a subdivided parent, or the root alone. All diamonds of
-   * the domain count for HD and RI; of an MI stored ones with a stored parent. 0 before the first
-   * execution and after an error. They are counted on demand, since the front takes about as long
-   * as the extraction: for that the filter keeps the hierarchy alive until it executes again.
+   * How many stored diamonds the last execution subdivided, and the size of its active front: the
+   * diamonds that were not subdivided but have a subdivided parent, or the root alone. For HD and
+   * RI all diamonds of the domain count; for MI, stored ones with a stored parent. 0 before the
+   * first execution and after an error. Both are counted on demand, since counting the front takes
+   * about as long as the extraction; for this the filter keeps the hierarchy alive until it
+   * executes again.
    */
   vtkIdType GetNumberOfSubdividedDiamonds();
   vtkIdType GetNumberOfFrontDiamonds();
@@ -70,11 +71,11 @@ public:
 
   double* GetErrorToleranceRange() VTK_SIZEHINT(2) override;
 
-  /** Interior tolerances that are worth trying, in field units; the maximum, which is as good as
-   *  infinity, stays at VTK_DOUBLE_MAX while there is no hierarchy. */
+  /** Interior tolerances worth trying, in field units; the maximum, which acts as infinity, is
+   *  VTK_DOUBLE_MAX while there is no hierarchy. */
   double* GetInteriorToleranceRange() VTK_SIZEHINT(2);
 
-  /** Data sets for the output. */
+  /** Types of the output. */
   enum OutputTypes
   {
     UNSTRUCTURED_GRID = 0,
@@ -83,8 +84,8 @@ public:
 
   ///@{
   /**
-   * The type of the output: an unstructured grid, or poly data for the filters and writers that
-   * take surfaces; for an interval volume that is an error. Default: unstructured grid.
+   * The type of the output: an unstructured grid, or poly data for filters and writers that take
+   * surfaces. Poly data is an error for an interval volume. Default: unstructured grid.
    */
   vtkSetClampMacro(OutputType, int, UNSTRUCTURED_GRID, POLY_DATA);
   vtkGetMacro(OutputType, int);
@@ -94,11 +95,11 @@ public:
 
   ///@{
   /**
-   * The error that is tolerated where no surface is, inside an interval volume, in field units.
-   * In tetrahedra with all vertices inside the error is at most the greater of this and of
-   * ErrorTolerance, which holds where their diamond carries a surface. Without it the inside is as
-   * coarse as its surfaces let it be. SetInteriorTolerance turns UseInteriorTolerance on. Needs an
-   * HD or vtkIsodiamondBuilder's RefineInterior. Default: off.
+   * The tolerated error inside an interval volume, where no surface is, in field units. In
+   * tetrahedra with all vertices inside, the error is at most the greater of this and
+   * ErrorTolerance; the latter holds where their diamond carries a surface. When off, the inside is
+   * as coarse as the surfaces let it be. SetInteriorTolerance turns UseInteriorTolerance on. Needs
+   * an HD or vtkIsodiamondBuilder's RefineInterior. Default: off.
    */
   void SetInteriorTolerance(double tolerance);
   /** The same, but leaves UseInteriorTolerance as it is: for user interfaces that set both. */
@@ -111,7 +112,7 @@ public:
 
   ///@{
   /**
-   * Another shape than the hierarchy's own, for an HD. RI and MI are of one shape: with them it
+   * A shape other than the hierarchy's own, for an HD. RI and MI are of one shape: with them this
    * warns and has no effect. Default: -1, the hierarchy's own.
    */
   vtkSetClampMacro(Shape, int, -1, vtkIsodiamondHierarchy::INTERVAL_VOLUME);
@@ -122,13 +123,13 @@ public:
 
   ///@{
   /**
-   * Another isorange than the hierarchy's own, for an HD. SetIsorange turns UseIsorange on. RI and
-   * MI are of one isorange: with them it warns and has no effect. Default: off.
+   * An isorange other than the hierarchy's own, for an HD. SetIsorange turns UseIsorange on. RI and
+   * MI are of one isorange: with them this warns and has no effect. Default: off.
    */
   void SetIsorange(double lower, double upper);
   void SetIsorange(double isorange[2]) { this->SetIsorange(isorange[0], isorange[1]); }
-  /** The same, but leaves UseIsorange as it is: for user interfaces that set both, first to what
-   * they start with. */
+  /** The same, but leaves UseIsorange as it is: for user interfaces that set both, first to their
+   *  initial values. */
   void StoreIsorange(double lower, double upper);
   vtkGetVector2Macro(Isorange, double);
   vtkSetMacro(UseIsorange, bool);
@@ -138,12 +139,12 @@ public:
 
   ///@{
   /**
-   * Another isovalue than the hierarchy's own default, for an HD. SetIsovalue turns UseIsovalue
-   * on. RI and MI are of one isovalue: with them it warns and has no effect. Default: off.
+   * An isovalue other than the hierarchy's own default, for an HD. SetIsovalue turns UseIsovalue
+   * on. RI and MI are of one isovalue: with them this warns and has no effect. Default: off.
    */
   void SetIsovalue(double isovalue);
-  /** The same, but leaves UseIsovalue as it is: for user interfaces that set both, first to what
-   * they start with. */
+  /** The same, but leaves UseIsovalue as it is: for user interfaces that set both, first to their
+   *  initial values. */
   void StoreIsovalue(double isovalue);
   vtkGetMacro(Isovalue, double);
   vtkSetMacro(UseIsovalue, bool);
@@ -153,9 +154,10 @@ public:
 
   ///@{
   /**
-   * Keep the topology of the full-resolution surface at every tolerance, of an HD: the same pieces,
-   * holes and boundary loops. RI and MI are built so or not (vtkIsodiamondBuilder's
-   * PreserveTopology): with one that is not it warns and has no effect. Default: off.
+   * For an HD, keep the topology of the full-resolution surface at every tolerance: the same
+   * pieces, holes and boundary loops. RI and MI are built with it or without
+   * (vtkIsodiamondBuilder's PreserveTopology): with one built without, this warns and has no
+   * effect. Default: off.
    */
   vtkSetMacro(PreserveTopology, bool);
   vtkGetMacro(PreserveTopology, bool);
@@ -164,21 +166,21 @@ public:
 
   ///@{
   /**
-   * Simplify the mesh: a part of the tolerance (three tenths, less if it is below 3/4 voxel) goes
-   * to the hierarchy, the rest to collapses and flips of edges, whose result is measured, both ways
-   * and all of every triangle, and undone where it is too far away. So the tolerance stays what it
-   * is, and the topology, with a fraction of the triangles, which take longer to make. Points are
-   * some of those that the surface would have had, with their data, but for normals: these are
-   * means over what a point stands for. What ends at the grid's boundary does so, along the same
-   * face. The cell array `Level` is left out. Needs the distance metric, and an isosurface.
-   * Default: off.
+   * Simplify the mesh: a part of the tolerance (three tenths; less if it is below 3/4 voxel) goes
+   * to the hierarchy, the rest to collapsing and flipping edges; the result is measured, both ways
+   * and over all of every triangle, and undone where it is too far away. So the tolerance still
+   * holds, and the topology is kept, with a fraction of the triangles, which take longer to make.
+   * Points are some of those that the surface would have had, with their data, except for normals,
+   * which are means over what a point stands for. What ends at the grid's boundary still does,
+   * along the same face. The cell array `Level` is left out. Needs the distance metric, and an
+   * isosurface. Default: off.
    */
   vtkSetMacro(Simplify, bool);
   vtkGetMacro(Simplify, bool);
   vtkBooleanMacro(Simplify, bool);
   ///@}
 
-  /** The mesh as unstructured grid, and as poly data; null if OutputType is the other one. */
+  /** The mesh as an unstructured grid, or as poly data; null if OutputType is the other one. */
   vtkUnstructuredGrid* GetOutput();
   vtkPolyData* GetPolyDataOutput();
 
@@ -194,7 +196,7 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  /** Makes the output of a query: the share of it that is asked for. */
+  /** Makes the output of a query: the requested share of it. */
   virtual void WriteMesh(const vtkIsodiamond::State& state, const vtkIsodiamond::WorldQuery& query,
     const isodiamond::RefinedSet& refined, vtkIsodiamond::Task& task, vtkDataObject* output);
 

@@ -3,12 +3,12 @@
  * @class   vtkIsodiamondHierarchy
  * @brief   a multiresolution hierarchy of an isosurface or interval volume, as a vtkPolyData
  *
- * What vtkIsodiamondBuilder makes and vtkIsodiamondExtractor reads. The geometry is the outline
- * of the volume; all content sits in field-data arrays, so any pipeline moves it, any standard
- * writer (.vtp) saves it, and the plain vtkPolyData that a reader gives back is as good as this:
- * filters accept both, FromPolyData() restores the type.
+ * What vtkIsodiamondBuilder makes and vtkIsodiamondExtractor reads. The geometry is the outline of
+ * the volume; all content is in field-data arrays, so any pipeline passes it on, any standard
+ * writer (.vtp) saves it, and the plain vtkPolyData that a reader returns is just as good: filters
+ * accept both, and FromPolyData() restores the type.
  *
- * Contents are read and checked on the first use and kept; copies share them.
+ * Contents are read and checked on first use, and then kept; copies share them.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010, sections 5 to 7.
  */
@@ -57,27 +57,27 @@ public:
 
   ///@{
   /**
-   * What the hierarchy is of; the shape of an HD is the default of queries. -1 if the arrays are
-   * missing or damaged (one error says why).
+   * What the hierarchy represents; for an HD the shape is the default of queries. -1 if the arrays
+   * are missing or damaged (one error says why).
    */
   int GetModel();
   int GetShape();
   ///@}
 
-  /** The metric of its errors and so of tolerances; -1 as above. */
+  /** The metric of its errors, and so of tolerances; -1 as above. */
   int GetErrorMetric();
 
   /** Whether its distances hold both ways, from the full-resolution surface to a mesh and back. */
   bool GetTwoSidedDistances();
 
-  /** Whether its meshes all have the topology of the full-resolution surface. Not for an HD, where
-   *  queries choose. */
+  /** Whether all its meshes have the topology of the full-resolution surface. Not for an HD, where
+   *  queries decide. */
   bool GetPreservesTopology();
 
   ///@{
   /**
-   * The size in samples below which pieces were removed from what it was built of, and how many
-   * those were. 0 for an HD.
+   * The size in samples below which pieces were removed from what it was built from, and how many
+   * were removed. 0 for an HD.
    */
   vtkIdType GetMinimumPieceSize();
   vtkIdType GetNumberOfRemovedPieces();
@@ -88,7 +88,7 @@ public:
 
   ///@{
   /**
-   * The isovalue and the isorange: of RI and MI the one that belongs to their shape, of HD the
+   * The isovalue and the isorange: for RI and MI, the one that belongs to their shape; for HD, the
    * defaults of queries.
    */
   double GetIsovalue();
@@ -97,8 +97,8 @@ public:
 
   ///@{
   /**
-   * The paper's counts m_a, m_r (creation diamonds included, as in the paper; an MI knows it too,
-   * though it stores none but those) and m_c. All 0 for an HD.
+   * The paper's counts m_a, m_r (including creation diamonds, as in the paper; an MI has this count
+   * too, though it stores only the creation ones) and m_c. All 0 for an HD.
    */
   vtkIdType GetNumberOfActiveIsodiamonds();
   vtkIdType GetNumberOfRelevantIsodiamonds();
@@ -108,12 +108,12 @@ public:
   /** The number of stored isovertices, v_i. */
   vtkIdType GetNumberOfIsovertices();
 
-  /** Bytes of the encoding: the sum of the sizes of its arrays. What is derived from them for
-   *  queries and lives beside them is not counted. */
+  /** Size of the encoding in bytes: the sum over its arrays. What is derived from them for queries,
+   *  and kept besides, is not counted. */
   vtkIdType GetStorageSize();
 
   /**
-   * The hierarchy in a data set, for instance one that a reader gave back; null if it holds none.
+   * The hierarchy in a data set, for instance one that a reader returned; null if it holds none.
    * Arrays are shared, not copied.
    */
   VTK_NEWINSTANCE static vtkIsodiamondHierarchy* FromPolyData(vtkPolyData* polyData);
@@ -124,8 +124,8 @@ public:
 
 #ifndef __VTK_WRAP__
   /**
-   * The checked contents of a data set that holds a hierarchy; those of a vtkIsodiamondHierarchy
-   * are kept by it. For filters. @throws std::exception that says what is wrong.
+   * The checked contents of a data set that holds a hierarchy; a vtkIsodiamondHierarchy keeps its
+   * own. For filters. @throws std::exception that says what is wrong.
    */
   static std::shared_ptr<const vtkIsodiamond::State> ReadState(vtkPolyData* polyData);
 #endif

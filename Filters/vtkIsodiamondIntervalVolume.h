@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkIsodiamondIntervalVolume
- * @brief   the part of a volume between two values as tetrahedra, in one step
+ * @brief   the part of a volume between two values, as tetrahedra, in one step
  *
  * A volume in, vtkUnstructuredGrid of tetrahedra out: the region lower <= field <= upper, at an
- * error tolerance. Neighbours share whole faces, all volumes are positive, and every face of one
- * tetrahedron alone lies on the lower surface, the upper surface or the volume's boundary. (On a
- * structured grid, volumes are positive as far as its own cells are: tetrahedra keep straight edges
- * where cells bend.) The filter keeps its minimal isodiamond hierarchies; a new tolerance only
- * extracts again. A new input, array or isorange builds a new one, and so does the first interior
- * tolerance; see vtkIsodiamondVolumeAlgorithm.
+ * error tolerance. Neighbours share whole faces, all volumes are positive, and every face of only
+ * one tetrahedron lies on the lower surface, the upper surface or the volume's boundary. (On a
+ * structured grid, volumes are positive as far as those of its own cells are: tetrahedra keep
+ * straight edges where cells bend.) The filter keeps its minimal isodiamond hierarchies: for a new
+ * tolerance it only extracts again. For a new input, array or isorange it builds a new one, and so
+ * it does for the first interior tolerance; see vtkIsodiamondVolumeAlgorithm.
  *
  * Point data: the field's value under the input array's name, `Surface`, and all other point arrays
  * of the input (InterpolateAttributes); cell data: `Level`; see vtkIsodiamondExtractor.
@@ -36,9 +36,9 @@ public:
 
   ///@{
   /**
-   * The isorange [lower, upper], in field units, its ends included. An end may be infinite, or
-   * beyond the data's range: an open side. A range outside of the data's gives an empty volume;
-   * lower >= upper and NaN are errors. Default: [0, 1].
+   * The isorange [lower, upper], in field units, including its ends. An end that is infinite or
+   * beyond the data's range leaves that side open. A range outside the data's gives an empty
+   * volume; lower >= upper and NaN are errors. Default: [0, 1].
    */
   vtkSetVector2Macro(Isorange, double);
   vtkGetVector2Macro(Isorange, double);
@@ -46,10 +46,9 @@ public:
 
   ///@{
   /**
-   * The error that is tolerated inside, in field units; without it the inside is as coarse as its
-   * surfaces let it be, which it is, too, from the extent of the array's values on.
-   * SetInteriorTolerance turns UseInteriorTolerance on. Negative values and NaN are errors.
-   * Default: off.
+   * The tolerated error inside, in field units. When off, or not less than the extent of the
+   * array's values, the inside is as coarse as the surfaces let it be. SetInteriorTolerance turns
+   * UseInteriorTolerance on. Negative values and NaN are errors. Default: off.
    */
   void SetInteriorTolerance(double tolerance);
   /** The same, but leaves UseInteriorTolerance as it is: for user interfaces that set both. */
@@ -62,16 +61,16 @@ public:
 
   ///@{
   /**
-   * The gradient of the full-resolution field at every point, in the world. Default: off. There are
-   * no normals: where a surface meets the grid's boundary, a point would need two.
+   * The gradient of the full-resolution field at every point, in world space. Default: off. There
+   * are no normals: where a surface meets the grid's boundary, a point would need two.
    */
   vtkSetMacro(ComputeGradients, vtkTypeBool);
   vtkGetMacro(ComputeGradients, vtkTypeBool);
   vtkBooleanMacro(ComputeGradients, vtkTypeBool);
   ///@}
 
-  /** Interior tolerances that are worth trying: up to the extent of the array's values; {0,
-   *  VTK_DOUBLE_MAX} while there is no input. */
+  /** Interior tolerances worth trying: up to the extent of the array's values; {0, VTK_DOUBLE_MAX}
+   *  while there is no input. */
   double* GetInteriorToleranceRange() VTK_SIZEHINT(2);
 
   /** The tetrahedra. */

@@ -3,11 +3,11 @@
  * @class   vtkIsodiamondPoints
  * @brief   the stored isodiamonds of a hierarchy as points
  *
- * Input: an RI or MI hierarchy (an HD stores none: a clear error). Output: one vertex for each
- * stored isodiamond at its central vertex, with the point arrays `Kind` (0 active, 1 creation,
+ * Input: an RI or MI hierarchy (an HD stores no isodiamonds: a clear error). Output: one vertex for
+ * each stored isodiamond at its central vertex, with the point arrays `Kind` (0 active, 1 creation,
  * 2 relevant), `Class` (0, 1, 2), `Level` (0 for the root) and `Error` (the tolerance, in the
- * metric's units, below which the diamond is subdivided; infinite where it always is). The
- * paper's figures 11 and 16. In parallel each process has a share of the points.
+ * metric's units, below which the diamond is subdivided; infinite if it always is). See the paper's
+ * figures 11 and 16. In parallel each process has a share of the points.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010.
  */
@@ -30,14 +30,14 @@ protected:
   ~vtkIsodiamondPoints() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  /** Notes the piece of the output that is asked for. */
+  /** Notes the requested piece of the output. */
   int ModifyRequest(vtkInformation* request, int when) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Piece[3] = { 0, 1, 0 }; ///< asked for: its number, how many, ghost levels
+  int Piece[3] = { 0, 1, 0 }; ///< requested: its number, how many, ghost levels
 
 private:
   vtkIsodiamondPoints(const vtkIsodiamondPoints&) = delete;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkIsodiamondVolumeAlgorithm
- * @brief   what the filters have that go from a volume to a mesh in one step
+ * @brief   base of the filters that go from a volume to a mesh in one step
  *
  * The input is a volume: a vtkImageData (vtkUniformGrid too), a vtkRectilinearGrid or a
- * vtkStructuredGrid with two or more samples on each axis, and a point array of one component.
- * Composite inputs are worked on block by block; blocks without the array have no mesh. The filter
- * keeps the minimal isodiamond hierarchies that it builds: a new tolerance, region of interest or
- * viewpoint only extracts again, and so do blocks, time steps, isovalues and isoranges that it has
- * seen before, while they are kept (CacheSize).
+ * vtkStructuredGrid, with two or more samples on each axis and a point array of one component.
+ * Composite inputs are processed block by block; blocks without the array have no mesh. The filter
+ * keeps the minimal isodiamond hierarchies that it builds: for a new tolerance, region of interest
+ * or viewpoint it only extracts again, and also for blocks, time steps, isovalues and isoranges
+ * that it has seen before, while their hierarchies are kept (CacheSize).
  *
  * Blanked cells, cells at blanked points and ghost cells count as absent. Distances are the world's
- * on images and rectilinear grids, however these are spaced; on structured grids tolerances are by
- * the field metric. Full resolution needs no metric.
+ * on images and rectilinear grids, whatever their spacing; on structured grids only the field
+ * metric can simplify. Full resolution needs no metric.
  *
  * The whole input is requested, or slab after slab of it if memory is short (NumberOfBlocks). In
  * parallel every process makes its share of the cells of each isosurface, or of the interval
- * volume: all pieces together are the mesh, with each cell once. Where the input can come in slabs,
- * each process asks for its share of these only, and measures its share of the errors.
+ * volume: all pieces together are the mesh, with each cell once. If the input can be read in slabs,
+ * each process requests only its share of them, and measures its share of the errors.
  *
  * @sa vtkIsodiamondContour vtkIsodiamondIntervalVolume
  */
@@ -59,8 +59,8 @@ public:
 
   ///@{
   /**
-   * How the error of a tolerance is measured. *Distance*: in world units; no point of the mesh
-   * is farther from the full-resolution surface than the tolerance, and no vertex of that from the
+   * What tolerances measure. *Distance*: in world units; no point of the mesh is farther from the
+   * full-resolution surface than the tolerance, and no vertex of that surface is farther from the
    * mesh. *Field* (the paper's): in field units, between the field and its linear interpolant.
    * Default: distance.
    */
@@ -80,8 +80,8 @@ public:
 
   ///@{
   /**
-   * What 1 is in ErrorTolerance and OutsideErrorTolerance by the distance metric: a world unit, or
-   * a voxel, which is the smallest spacing of the grid. Default: world units.
+   * The unit of ErrorTolerance and OutsideErrorTolerance with the distance metric: world units, or
+   * voxels (the smallest spacing of the grid). Default: world units.
    */
   vtkSetClampMacro(ToleranceUnit, int, WORLD_UNITS, VOXELS);
   vtkGetMacro(ToleranceUnit, int);
@@ -91,13 +91,13 @@ public:
 
   ///@{
   /**
-   * Measure errors no farther than the mesh that is asked for needs: it comes in a fifth to two
-   * fifths of the time that it takes with all of them, but so does that of every other tolerance,
-   * region of interest or viewpoint, where all are there at once else. For scripts, and for time
-   * steps that are looked at once. The mesh keeps the tolerances as any does, mostly with a few
-   * cells less. The field data have no table of tolerances.
+   * Measure only the errors that the current mesh needs: the mesh takes a sixth to two fifths of
+   * the time that it takes with all of them, but so does the mesh of every other tolerance, region
+   * of interest or viewpoint, while with all errors these come at once. For scripts, and for time
+   * steps that are looked at once only. The mesh keeps the tolerances as any other does, mostly
+   * with a few cells fewer. The field data have no table of tolerances.
    *
-   * By the distance metric. Without effect with a target, an interior tolerance, of interval
+   * For the distance metric. Has no effect with a target or an interior tolerance, or for interval
    * volumes with SimulationQuality or hidden cells: these need all errors. Default: off.
    */
   vtkSetMacro(OneTolerance, bool);
@@ -107,10 +107,10 @@ public:
 
   ///@{
   /**
-   * Put every vertex on the full-resolution surface, to 1/256 of its lattice edge (2/256 where an
-   * edge carries both surfaces of an interval volume). Off, vertices lie where the field would
-   * cross the isovalue if it were linear along the edge, as in the paper; at full resolution both
-   * are the same. Default: on.
+   * Put every vertex on the full-resolution surface, to within 1/256 of its lattice edge (2/256
+   * where an edge carries both surfaces of an interval volume). When off, vertices lie where the
+   * field would cross the isovalue if it were linear along the edge, as in the paper; at full
+   * resolution both are the same. Default: on.
    */
   vtkSetMacro(ExactIsovertices, bool);
   vtkGetMacro(ExactIsovertices, bool);
@@ -120,10 +120,10 @@ public:
   ///@{
   /**
    * With the distance metric, keep the promise of the tolerance for thin things too: every vertex
-   * of the full-resolution surface has a part of the mesh to count with, so what is thinner than
-   * the tolerance stays. Matters from tolerances on that exceed a feature's size, where it leaves a
-   * floor of triangles. Off, what is thinner may vanish, and the promise with it; whole pieces do
-   * not with PreserveTopology. Default: on.
+   * of the full-resolution surface has a part of the mesh to be measured against, so what is
+   * thinner than the tolerance stays. Changes nothing at tolerances below a feature's size; above
+   * it, a minimum of triangles remains. When off, thin things may vanish, and the promise with
+   * them; no piece vanishes altogether while PreserveTopology is on. Default: on.
    */
   vtkSetMacro(PreserveFeatures, bool);
   vtkGetMacro(PreserveFeatures, bool);
@@ -132,10 +132,10 @@ public:
 
   ///@{
   /**
-   * Keep the topology of the full-resolution surface: the mesh of every tolerance, infinity
-   * included, with any region and viewpoint, has the same pieces, holes and boundary loops, by
-   * either metric. The diamonds whose subdivision changes the topology are always subdivided, which
-   * takes more triangles the larger the tolerance is. Default: on.
+   * Keep the topology of the full-resolution surface: the mesh at every tolerance, even infinity,
+   * with any region and viewpoint, has the same pieces, holes and boundary loops, with either
+   * metric. Diamonds whose subdivision changes the topology are always subdivided: the larger the
+   * tolerance, the more triangles this adds. Default: on.
    */
   vtkSetMacro(PreserveTopology, bool);
   vtkGetMacro(PreserveTopology, bool);
@@ -144,10 +144,11 @@ public:
 
   ///@{
   /**
-   * Remove pieces of fewer samples, noise for instance, before all else: connected sets of samples
-   * above the isovalue count as below it, then holes in what is left as above; those at the
-   * volume's boundary too. Of an interval volume the same for each of its surfaces. Samples are
-   * connected as the full-resolution mesh connects them. 0 and 1 keep all. Default: 0.
+   * Remove pieces of fewer samples than this, noise for instance, before anything else: such
+   * connected sets of samples above the isovalue count as below it, then such cavities in what is
+   * left count as above; those at the volume's boundary, too. For an interval volume the same is
+   * done for each of its surfaces. Samples are connected as the full-resolution mesh connects them.
+   * 0 and 1 keep all. Default: 0.
    */
   vtkSetClampMacro(MinimumPieceSize, int, 0, VTK_INT_MAX);
   vtkGetMacro(MinimumPieceSize, int);
@@ -165,8 +166,8 @@ public:
 
   ///@{
   /**
-   * Up to how many MiB of hierarchies are kept beside those that the last execution used. What was
-   * used longest ago goes first. Default: 512.
+   * Up to how many MiB of hierarchies are kept besides those that the last execution used. The
+   * least recently used go first. Default: 512.
    */
   vtkSetClampMacro(CacheSize, int, 0, VTK_INT_MAX);
   vtkGetMacro(CacheSize, int);
@@ -174,30 +175,30 @@ public:
 
   ///@{
   /**
-   * Into how many slabs of slices the input is cut, so that no more than one of them is in memory:
-   * each is asked for three times, for signs, isovertices and point data, when a hierarchy is
-   * built, and before for the minimum if the boundary is closed. The mesh is the same however it is
-   * cut. 0: one, or as many as keep the input within the memory that is free. Slabs are for images
-   * without blanked cells from sources that make parts of an image; else the input comes at once,
-   * with a warning if more than one was asked for. Hierarchies are known again by upstream's
-   * modification times then, not by content. Default: 0.
+   * Into how many slabs of slices the input is cut, so that no more than one is in memory: when a
+   * hierarchy is built, each is requested three times, for signs, isovertices and point data, and
+   * if the boundary is closed once beforehand, to find the minimum. The mesh is the same however
+   * the input is cut. 0: one, or as many as keep the input within the free memory. Slabs are for
+   * images without blanked cells, from sources that can give parts of an image; otherwise the input
+   * is read at once, with a warning if more than one was asked for. With slabs, hierarchies are
+   * recognized by upstream's modification times, not by content. Default: 0.
    */
   vtkSetClampMacro(NumberOfBlocks, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfBlocks, int);
   ///@}
 
-  /** How many slabs the last execution asked for; 1 if the input came at once. */
+  /** How many slabs the last execution requested; 1 if the input was read at once. */
   int GetNumberOfSlabs();
 
   ///@{
-  /** How many hierarchies this filter has built so far, and keeps. */
+  /** How many hierarchies this filter has built so far, and how many it keeps. */
   vtkIdType GetNumberOfBuilds();
   vtkIdType GetNumberOfCachedHierarchies();
   ///@}
 
-  /** How many pieces MinimumPieceSize removed in the last execution, from all isovalues and blocks
-   *  together. 0 before the first one and after an error. Unless that size is 0, each mesh has its
-   *  own in the field data, `NumberOfRemovedPieces`. */
+  /** How many pieces MinimumPieceSize removed in the last execution, over all isovalues and blocks
+   *  together. 0 before the first execution and after an error. Unless MinimumPieceSize is 0, each
+   *  mesh has its own number in its field data, `NumberOfRemovedPieces`. */
   vtkGetMacro(NumberOfRemovedPieces, vtkIdType);
 
   double* GetErrorToleranceRange() VTK_SIZEHINT(2) override;
@@ -207,7 +208,7 @@ protected:
   ~vtkIsodiamondVolumeAlgorithm() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  /** Blocks of one execution come after it. */
+  /** Runs before the blocks of an execution. */
   int ModifyRequest(vtkInformation* request, int when) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -217,21 +218,21 @@ protected:
   /** Whether the volume is padded. */
   virtual bool ClosesBoundary() const { return false; }
 
-  /** What meshes are to be extracted of. @throws std::invalid_argument if it makes no sense */
+  /** What meshes are to be extracted from. @throws std::invalid_argument if it makes no sense */
   virtual std::vector<isodiamond::Isoregion> GetRegions() const = 0;
 
-  /** What points are to have of the volume. */
+  /** What points are to have from the volume. */
   virtual vtkIsodiamond::VolumePointData GetPointDataWanted() const = 0;
 
   /** What the mesh consists of, in words. */
   virtual const char* GetNameOfCells() const = 0;
 
-  /** Makes the output, from hierarchies of the cache, which is ready for the volume. Runs in a
-   *  scope of vtkSMPTools. @throws std::exception that says what is wrong */
+  /** Makes the output, from hierarchies of the cache, which has been prepared for the volume. Runs
+   *  in a scope of vtkSMPTools. @throws std::exception that says what is wrong */
   virtual void Extract(const vtkIsodiamond::Volume& volume, const vtkIsodiamond::WorldQuery& query,
     vtkIsodiamond::Task& task, vtkDataObject* output) = 0;
 
-  /** The mesh of a region: its hierarchy is one of the cache, refined by a query. Its points have
+  /** The mesh of a region, from its hierarchy in the cache, refined by a query. Its points have
    *  what GetPointDataWanted() says. */
   vtkIsodiamond::Mesh ExtractMesh(const vtkIsodiamond::Volume& volume,
     const isodiamond::Isoregion& region, const vtkIsodiamond::WorldQuery& query,
@@ -270,11 +271,11 @@ private:
 
   std::unique_ptr<vtkIsodiamond::Cache> Hierarchies;
   std::unique_ptr<vtkIsodiamond::SlabPlan> Plan;
-  /** Of a composite input: whether some have it. The others then have no mesh; else nobody has it,
-   *  which is an error. */
+  /** Whether some blocks of a composite input have the array. The others then have no mesh; if no
+   *  block has it, that is an error. */
   bool HaveBlocksTheArray = false;
   vtkIdType NumberOfRemovedPieces = 0;
-  vtkIdType RemovedFromBlock = 0; ///< counts as soon as all of the block is well
+  vtkIdType RemovedFromBlock = 0; ///< counts only once the whole block has succeeded
 };
 
 #endif
