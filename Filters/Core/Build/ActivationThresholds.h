@@ -23,15 +23,15 @@ namespace isodiamond
  *   theta(root) = own(root),
  *   theta(d) = max(min(own(d), max of theta over parents), max of theta over children).
  *
- * (Paper, sections 4.2 and 7.3; theta keeps the relevant diamonds' part in closure when MI drops
+ * (Paper, sections 4.2 and 7.3; theta retains the relevant diamonds' part in closure when MI drops
  * them.)
  *
  * @param members a set that holds all ancestors of each of its diamonds (below scale N)
  * @param own by rank, the code of a diamond's own error; 0 where only closure subdivides it
- * @param portion that the members are of: thresholds of the whole hierarchy, found in rounds, by
- * all peers together. Null if these are all
- * @return by rank, the threshold's code; 0 for what is never reached (nothing, if the members are
- *         the ancestors of diamonds with an own error that counts)
+ * @param portion of the hierarchy that the members make up: all peers together find the thresholds
+ *        of the whole, in rounds. Null if the members are the whole
+ * @return by rank, the threshold's code; 0 for diamonds never reached (none, if the members
+ *         are the ancestors of diamonds with an own error that counts)
  */
 std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const DiamondSet& members,
   std::vector<ErrorCode::Type> own, const ParallelFor& parallelFor,
@@ -39,8 +39,9 @@ std::vector<ErrorCode::Type> ActivationThresholds(const Grid& grid, const Diamon
 
 /**
  * The *followers*: diamonds whose own error exceeds their threshold. No parent of such a diamond is
- * subdivided at the tolerances between the two, or it would be, too. But where something else
- * subdivides a parent, it can be a leaf with an error that nobody tolerates: it has to follow.
+ * subdivided at the tolerances between the two, or the diamond would be, too. But where something
+ * else subdivides a parent, it can become a leaf with an error that is not tolerated: it has to
+ * follow.
  *
  * @param own,thresholds by rank, before and after ActivationThresholds()
  * @return ranks, ascending
@@ -49,8 +50,8 @@ std::vector<std::uint32_t> FindFollowers(
   const std::vector<ErrorCode::Type>& own, const std::vector<ErrorCode::Type>& thresholds);
 
 /**
- * Raises codes to the greatest of their descendants', those of followers to the greatest of their
- * parents': what is subdivided where any of these is. The least solution, as above.
+ * Raises codes to the greatest of their descendants', and those of followers to the greatest of
+ * their parents': each diamond is subdivided where any of these is. The least solution, as above.
  *
  * @param members, codes, portion as above
  * @param followers ranks

@@ -9,11 +9,11 @@ namespace isodiamond
 {
 
 /**
- * Puts a hierarchy together of the portions that peers have of it: each gives what it owns, and all
- * of them have the whole in the end. By all of them.
+ * Puts a hierarchy together from the peers' portions: each gives what it owns, and in the end all
+ * have the whole. To be called by all of them.
  *
  * @param portion that this process has
- * @param own the encoding of its portion, an RI, and the hierarchy that was made of it
+ * @param own the encoding of its portion, an RI; hierarchy was made from it
  * @param kept the diamonds that are to be in the whole: all, or those of an MI
  */
 Encoding Assemble(const PeerPortion& portion, Encoding own, const IsodiamondHierarchy& hierarchy,

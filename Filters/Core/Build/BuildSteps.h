@@ -13,26 +13,26 @@
 namespace isodiamond
 {
 
-/** Tells whoever watches a build what comes next. */
+/** Reports the next phase of a build, if anyone is watching. */
 void Tell(const BuildOptions& options, const char* phase, double begin, double end);
 
-/** The steps of a build. Each metric has them in an order of its own. */
+/** The steps of a build. Each metric takes them in its own order. */
 class BuildSteps
 {
 public:
-  /** Classifies the diamonds. All but the region must outlive it, and the loops, too. */
+  /** Classifies the diamonds. All arguments but the region must outlive it, parallelFor too. */
   BuildSteps(const Source& source, const Isoregion& region, const BuildOptions& options,
     double errorScale, const ParallelFor& parallelFor);
 
-  /** The same of a volume that comes in slabs. @param signs of all of its samples, without the
-   *  pieces that are too small */
+  /** The same for a volume that comes in slabs. @param signs of all its samples, without the pieces
+   *  that are too small */
   BuildSteps(const Source& source, SignLattice signs, const Isoregion& region,
     const BuildOptions& options, double errorScale, const ParallelFor& parallelFor);
 
-  /** What is known of an RI, whose error codes are Always, before its isovertices. */
+  /** What is known of an RI whose error codes are Always, before isovertices are placed. */
   const EncodingHeader& RelevantHeader() const { return this->Header; }
   const DiamondSet& Relevant() const { return this->Members; }
-  /** That the diamonds are of; null if they are all. */
+  /** The portion that the diamonds make up; null if they are all. */
   const PeerPortion* PortionOfPeers() const { return this->Portion ? &*this->Portion : nullptr; }
   const SignLattice* SignsIfKept() const { return this->Signs ? &*this->Signs : nullptr; }
 
@@ -40,37 +40,37 @@ public:
    */
   Encoded PlaceIsovertices(double begin, double end, bool withEdges = true) const;
 
-  /** Once isovertices are placed, signs are needed for what lies inside an interval volume only. */
+  /** Once isovertices are placed, signs are needed only for what lies inside an interval volume. */
   void DropSigns();
 
-  /** What tells by which field errors the diamonds are subdivided. */
+  /** The metric that decides by which field errors the diamonds are subdivided. */
   FieldMetric ByField() const;
 
-  /** Field errors that are known already: of a volume that came in slabs. */
+  /** Sets field errors that are known already: those of a volume that came in slabs. */
   void SetFieldCodes(DiamondCodes codes) { this->FieldCodes = std::move(codes); }
 
   ///@{
-  /** Done with peers, as what follows. */
+  /** Done together with peers, as is what follows. */
   DiamondCodes MeasureField() const;
   DiamondCodes MeasureDistances(
     const IsodiamondHierarchy& relevant, const Finiteness& isFinite) const;
   ///@}
 
-  /** What one mesh subdivides, in the place of thresholds: ToleratedSet(). Not where what is inside
-   *  is refined. @param accepted the greatest code that is tolerated of a diamond */
+  /** What one mesh subdivides, instead of thresholds: ToleratedSet(). Not if the interior is
+   *  refined. @param accepted the greatest code that is tolerated of a diamond */
   std::vector<ErrorCode::Type> RefineTo(const IsodiamondHierarchy& relevant,
     const Finiteness& isFinite, const std::function<ErrorCode::Type(const Place&)>& accepted) const;
 
   /** Sets the thresholds of an RI. */
   static void SetThresholds(const std::vector<ErrorCode::Type>& thresholds, Encoding& relevant);
 
-  /** Own errors become thresholds. Of the field metric nothing follows: an HD, which is to give the
-   *  same mesh, has no thresholds to tell. */
+  /** Turns own errors into thresholds. With the field metric there are no followers: an HD, which
+   *  is to give the same mesh, has no thresholds to find them by. */
   void FindThresholds(DiamondCodes& codes) const;
 
   Encoding Complete(Model model, Encoding relevant, DiamondCodes thresholds) const;
 
-  /** The same where this process has a portion. @param hierarchy of the encoding */
+  /** The same if this process has a portion. @param hierarchy made from the encoding */
   Encoding CompleteOfPortions(Model model, Encoding relevant, const IsodiamondHierarchy& hierarchy,
     DiamondCodes thresholds) const;
 
@@ -86,7 +86,7 @@ private:
   const BuildOptions& Options;
   const ParallelFor& For;
   bool Interior;                    ///< whether it is refined
-  std::optional<SignLattice> Signs; ///< kept where samples do not say the same, or are not at hand
+  std::optional<SignLattice> Signs; ///< kept if samples do not say the same, or are not at hand
   Classification Kinds;
   std::optional<DiamondCodes> FieldCodes; ///< if they are known already
   DiamondMask ForTopology;                ///< empty if topology need not be preserved

@@ -17,31 +17,31 @@ namespace isodiamond
 struct BuildOptions
 {
   ErrorMetric Metric = ErrorMetric::Field;
-  /** Isovertices on the full-resolution surface, else the paper's linear ones; see
+  /** Isovertices on the full-resolution surface, instead of the paper's linear ones; see
    *  IsovertexPlacement.h. */
   bool ExactIsovertices = true;
   /** With the distance metric, whether every feature is kept at any tolerance. */
   bool PreserveFeatures = true;
-  /** Whether the mesh of every tolerance is homeomorphic to that of full resolution: critical
-   *  diamonds are always subdivided; CriticalDiamonds.h. */
+  /** Whether the mesh at every tolerance is homeomorphic to that of full resolution: critical
+   *  diamonds are always subdivided; see CriticalDiamonds.h. */
   bool PreserveTopology = false;
-  /** Solids and cavities of fewer connected samples are removed before all else; SmallPieces.h.
-   *  Not from an HD: it holds samples, and its errors are theirs. 0 keeps all. */
+  /** Solids and cavities of fewer connected samples are removed before anything else; see
+   *  SmallPieces.h. Not from an HD: it holds samples, and its errors are theirs. 0 keeps all. */
   std::int64_t MinimumPieceSize = 0;
-  /** Of an interval volume: keep every diamond that has all vertices inside, with its field error,
+  /** For an interval volume: keep every diamond that has all vertices inside, with its field error,
    *  so that queries can have an interior tolerance. */
   bool RefineInterior = false;
-  /** From index space to the world, where distances are measured; not of a curvilinear grid. */
+  /** From index space to the world, where distances are measured; not for a curvilinear grid. */
   GridGeometry World = AffineMap();
   /** Cells that count as absent, if there are any. What carries something and touches one is always
-   *  subdivided, so that whoever has the mesh can leave out what lies in it. */
+   *  subdivided, so that users of the mesh can leave out what lies in the cell. */
   const HiddenCells* Hidden = nullptr;
-  /** Who builds it together with this process, from a volume in slabs; null for nobody. */
+  /** Processes that build it with this one, from a volume in slabs; null if there are none. */
   Peers* Together = nullptr;
-  /** Whether each of these has a portion of the diamonds until the hierarchy is complete: less
-   * memory, but no mesh before. */
+  /** Whether each peer has only a portion of the diamonds until the hierarchy is complete: takes
+   *  less memory, but there is no mesh before that. */
   bool InPortions = false;
-  /** Is told what is being done; may throw to stop. */
+  /** Called with what is being done; may throw to stop the build. */
   Progress Report = nullptr;
 };
 

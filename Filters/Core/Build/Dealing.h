@@ -12,31 +12,30 @@ namespace isodiamond
 {
 
 /**
- * Slabs of samples and portions of the diamonds need not be cut at the same slices: portions have
- * as much of the surface as one another. What a peer finds in its slabs it deals to who has the
- * diamonds. All of them go through all diamonds, some at once: little work beside measuring
- * distances, but it does not get less with more of them.
+ * Slabs of samples and portions of the diamonds need not be cut at the same slices, as all portions
+ * have equally much of the surface. What a peer finds in its slabs, it deals to the peers that have
+ * the diamonds. All peers go through all diamonds, some at a time: little work next to measuring
+ * distances, but no less with more peers.
  */
 class Dealing
 {
 public:
-  /** Scales from this on are told of by all peers: their diamonds reach through many slabs, and are
-   *  few. */
+  /** All peers tell of the diamonds of this scale and coarser ones: these reach through many slabs,
+   *  and are few. */
   static constexpr int FirstCommonScale = 4;
 
-  /** @param members of the portion @param slabs that this process has; all but these must outlive
-   * it
-   */
+  /** All arguments but the slabs must outlive it.
+   *  @param members of the portion @param slabs that this process has */
   Dealing(const Grid& grid, const PeerPortion& portion, const DiamondSet& members,
     const std::vector<SliceRange>& slabs);
 
-  /** The diamonds that the slabs tell of: of fine scales those with their centre in them. */
+  /** The diamonds that the slabs tell of: at fine scales, those with their centre in them. */
   const DiamondSet& OfSlabs() const { return this->Told; }
 
-  /** What peers have encoded of these, as the encoding of the portion. */
+  /** Turns what peers have encoded of these into the encoding of the portion. */
   Encoded Deal(Encoded told) const;
 
-  /** Codes of these, 0 where others tell. */
+  /** The same for codes of these, 0 where other peers tell. */
   std::vector<ErrorCode::Type> Deal(const std::vector<ErrorCode::Type>& told) const;
 
 private:

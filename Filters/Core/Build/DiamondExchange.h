@@ -15,7 +15,7 @@
 namespace isodiamond
 {
 
-/** How long the lists of diamonds are, by rank.
+/** How long the diamonds' lists are, by rank.
  *  @param sizeOf DiamondEdges::IsovertexCount, or IsInside: one value or none */
 template <typename Size>
 std::vector<std::uint8_t> ListSizes(
@@ -30,17 +30,18 @@ std::vector<std::uint8_t> ListSizes(
 }
 
 /**
- * Brings what peers tell of diamonds to those who are to have it: arrays by rank in one set become
- * arrays by rank in another. All of them go through all diamonds in the same order, some at once.
+ * Brings what peers tell of diamonds to the peers that are to have it: arrays by rank in one set
+ * become arrays by rank in another. All peers go through all diamonds in the same order, some at a
+ * time.
  */
 class DiamondExchange
 {
 public:
   /** @param portion of this process
-   *  @param told the set of the arrays that it brings @param had that of those that it gets; both
-   *         of diamonds that are in some portion. All of these must outlive it
-   *  @param tells whether it tells of diamonds with their centre in a slice; peers who tell of the
-   *         same tell the same */
+   *  @param told the set of the arrays that it gives @param had that of those that it gets; both of
+   *         diamonds that are in some portion. Sets and portion must outlive it
+   *  @param tells whether it tells of diamonds with their centre in a slice; peers that tell of the
+   *         same diamond tell the same */
   DiamondExchange(const PeerPortion& portion, const DiamondSet& told, const DiamondSet& had,
     std::function<bool(int)> tells)
     : Portion(portion)
@@ -50,13 +51,13 @@ public:
   {
   }
 
-  /** One value a diamond; or none, of all peers. */
+  /** One value per diamond; or none at all, if so for all peers. */
   template <typename T>
   std::vector<T> Values(const std::vector<T>& told) const
   {
     if (told.empty())
     {
-      return {}; // else there are the corners of the base cube
+      return {}; // otherwise there are at least the corners of the base cube
     }
     std::vector<T> had;
     this->Portion.Others().Together([&] { had.resize(this->Had.Size()); });
@@ -81,8 +82,8 @@ public:
     return had;
   }
 
-  /** A list of values a diamond, one behind the other.
-   *  @param sizes of those that are told, by rank @param total size of those that are had */
+  /** A list of values per diamond, one list after the other.
+   *  @param sizes of the lists that are told, by rank @param total size of those that are had */
   template <typename T>
   std::vector<T> Lists(
     const std::vector<T>& told, const std::vector<std::uint8_t>& sizes, std::size_t total) const
@@ -129,7 +130,7 @@ public:
   }
 
 private:
-  /** A diamond: its ranks, None where it is not in the set. */
+  /** A diamond: its ranks in the two sets, None where it is not in the set. */
   struct Entry
   {
     std::int64_t Told = DiamondSet::None;
@@ -137,7 +138,7 @@ private:
     bool IsTold = false; ///< by this process
   };
 
-  /** Calls body(entries) for all diamonds, some at once: as often in all processes. */
+  /** Calls body(entries) for all diamonds, some at a time: equally often in all processes. */
   template <typename Body>
   void ForEachBlock(const Body& body) const
   {

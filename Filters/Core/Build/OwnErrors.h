@@ -14,14 +14,14 @@
 
 /**
  * @file OwnErrors.h
- * The diamonds' own errors by either metric, and what is subdivided whatever its error: what
- * thresholds are made of.
+ * The diamonds' own errors by either metric, and what is subdivided whatever its error: from these,
+ * thresholds are made.
  */
 namespace isodiamond
 {
 
 /** Where the samples, field errors and ranges of a build come from. A volume that comes in slabs
- * has only signs to offer, kept by the steps, and a view without samples. */
+ * offers only signs, kept by the steps, and a view without samples. */
 struct Source
 {
   const Grid& SampleGrid;
@@ -36,10 +36,10 @@ void CheckOptions(const BuildOptions& options);
 
 Grid GridOf(const AnySamples& samples);
 
-/** Whether a build asks for field errors; they take a pass over the samples. */
+/** Whether a build needs field errors; they take a pass over the samples. */
 bool NeedsFieldErrors(const Isoregion& region, const BuildOptions& options);
 
-/** The summary that a source gives, by field errors. @param scale of their codes */
+/** The summary that a source gives, from field errors. @param scale of their codes */
 std::pair<ErrorCode::Type, ValueRange> SummaryOf(
   const FieldErrors& errors, double scale, const Place& place);
 
@@ -48,7 +48,7 @@ std::pair<ErrorCode::Type, ValueRange> SummaryOf(
 class BuildSigns
 {
 public:
-  /** All must outlive it. @param lattice null where the samples say the same */
+  /** All arguments must outlive it. @param lattice null if the samples say the same */
   BuildSigns(const Isoregion& region, const Source& source, const SignLattice* lattice)
     : Region(region)
     , Origin(source)
@@ -56,7 +56,7 @@ public:
   {
   }
 
-  /** Whether these are others than the samples'. */
+  /** Whether these differ from the samples'. */
   bool AreChanged() const { return this->Lattice != nullptr && this->Lattice->RemovedPieces() > 0; }
 
   bool HasAllVerticesInside(const Place& place) const
@@ -76,8 +76,8 @@ private:
   const SignLattice* Lattice;
 };
 
-/** Codes by rank: of own errors where they count, else 0, or thresholds made of these. For the
- *  tolerance, and for the interior tolerance. */
+/** Codes by rank, for the tolerance and for the interior tolerance: of own errors where they count,
+ *  else 0; or of thresholds made from these. */
 struct DiamondCodes
 {
   std::vector<ErrorCode::Type> Surface;
@@ -95,9 +95,9 @@ struct DiamondCodes
 /**
  * What the field metric makes of the summaries of domains.
  *
- * Ranges are the samples', also where small pieces were removed. That subdivides what these
- * crossed, which is not needed, but never too little: where signs differ, values do. Only a domain
- * that has come to lie inside altogether can have all of its samples on one side outside.
+ * Ranges are the samples', even where small pieces were removed. So what these crossed is
+ * subdivided without need, but never too little is: where signs differ, values do. Only a domain
+ * that has come to lie entirely inside can have all of its samples outside on one side.
  */
 struct FieldMetric
 {
@@ -106,13 +106,13 @@ struct FieldMetric
   BuildSigns Signs;
   bool RefineInterior = false;
 
-  /** @param code, range of a diamond's summary @param own where its codes are set */
+  /** @param code, range from a diamond's summary @param own where its codes are set */
   void SetCodes(const Place& place, std::uint32_t rank, ErrorCode::Type code,
     const ValueRange& range, DiamondCodes& own) const;
 };
 
-/** Calls body(place, rank) for all diamonds but the corners of the base cube. Goes by words: the
- *  work of a whole brick of coarse diamonds is long for one step. */
+/** Calls body(place, rank) for all diamonds but the corners of the base cube. Goes word by word: a
+ *  whole brick of coarse diamonds would be much work for one step. */
 template <typename Body>
 void ForEachMember(const DiamondSet& members, const ParallelFor& parallelFor, const Body& body)
 {
@@ -125,39 +125,39 @@ void ForEachMember(const DiamondSet& members, const ParallelFor& parallelFor, co
   }
 }
 
-/** The field metric. */
+/** Own errors by the field metric. */
 DiamondCodes OwnFieldCodes(const Source& source, const FieldMetric& metric,
   const DiamondSet& members, const ParallelFor& parallelFor);
 
-/** The field metric inside of an interval volume. */
+/** Own errors by the field metric inside an interval volume. */
 std::vector<ErrorCode::Type> InteriorCodes(const Source& source, const BuildSigns& signs,
   const DiamondSet& members, const ParallelFor& parallelFor);
 
-/** The distance metric.
- *  @param own what is always subdivided already; what is inside stays as it is
- *  @param portion that the diamonds are of; null for all of them */
+/** Own errors by the distance metric.
+ *  @param own already has what is always subdivided; its interior codes stay as they are
+ *  @param portion that the diamonds make up; null for all of them */
 DiamondCodes OwnDistanceCodes(const Source& source, const Finiteness& isFinite,
   const IsodiamondHierarchy& relevant, const BuildSigns& signs, const BuildOptions& options,
   const DiamondPortion* portion, DiamondCodes own, MapBounds& bounds,
   const ParallelFor& parallelFor);
 
-/** Whether a diamond of an interval volume has to be subdivided as it holds volume in the grid and
- *  sticks out of that. */
+/** Whether a diamond of an interval volume has to be subdivided because it holds volume in the grid
+ *  and sticks out of the grid. */
 bool HoldsVolume(
   const Isoregion& region, const Grid& grid, const BuildSigns& signs, const Place& place);
 
 bool HasHiddenCells(const BuildOptions& options);
 
-/** Whether an interval volume is refined inside: what lies in hidden cells can be left out at full
- *  resolution only, deep inside too. */
+/** Whether an interval volume is refined inside: what lies in hidden cells can only be left out at
+ *  full resolution, even deep inside. */
 bool RefinesInterior(const Isoregion& region, const BuildOptions& options);
 
 /** Active diamonds that touch a hidden cell are always subdivided. */
 void RefineAtHiddenCells(const HiddenCells& hidden, const DiamondMask& active,
   const DiamondSet& members, const ParallelFor& parallelFor, DiamondCodes& codes);
 
-/** What is always subdivided, with all ancestors, so that every mesh has full resolution's
- * topology: critical diamonds, and what carries a surface to where hidden cells are cut out. */
+/** What is always subdivided, with all ancestors, so that every mesh has the topology of full
+ * resolution: critical diamonds, and what carries a surface to where hidden cells are cut out. */
 DiamondMask RefinedForTopology(const Grid& grid, const SignLattice& signs,
   const DiamondMask& active, const BuildOptions& options, const ParallelFor& parallelFor);
 

@@ -13,10 +13,10 @@ namespace isodiamond
 {
 
 /**
- * BuildIsodiamonds() in two steps, for who shows full resolution first: that needs no errors.
+ * BuildIsodiamonds() in two steps, for showing full resolution first, which needs no errors.
  *
- * Between the steps it keeps what it has found, but not the samples: who finishes it brings them
- * again, unless they came in slabs: then nothing more is asked of them.
+ * Between the steps it keeps what it has found, but not the samples: they have to be passed again
+ * to finish, unless they came in slabs: then they are no longer needed.
  */
 class StagedBuild
 {
@@ -30,32 +30,32 @@ public:
   StagedBuild(const StagedBuild&) = delete;
   StagedBuild& operator=(const StagedBuild&) = delete;
 
-  /** An RI whose diamonds are always subdivided, or never: at tolerance 0 full resolution, at any
-   *  other what RefineTo() was told last; before, full resolution too. Valid until the end of
-   *  Finish(). */
+  /** An RI whose diamonds are subdivided either always or never: at tolerance 0 it gives full
+   *  resolution, at any other what RefineTo() was last told; before that, full resolution too.
+   *  Valid until the end of Finish(). */
   const IsodiamondHierarchy& OneMesh() const;
 
   /**
-   * Makes OneMesh() one that keeps tolerances, in a fraction of the time of the second step, which
-   * can still follow: most diamonds have no part in it. As good as what is extracted after that,
-   * but not the same: errors are compared with tolerances before they are rounded up, and the way
-   * back is decided no closer than to 8/9 of a tolerance.
+   * Makes OneMesh() a mesh that keeps tolerances, in a fraction of the time of the second step, as
+   * most diamonds play no part; that step can still follow. The mesh is as good as those extracted
+   * after it, but not the same: errors are compared with tolerances before they are rounded up, and
+   * the way back is decided no closer than to 8/9 of a tolerance.
    *
    * @param tolerated the tolerance of a diamond
-   * @param samples, options as of Finish(); the distance metric, without refinement inside
-   * @throws std::invalid_argument for the field metric, and if what is inside is refined
+   * @param samples, options as for Finish(); the distance metric, without refinement inside
+   * @throws std::invalid_argument for the field metric, and if the interior is refined
    */
   void RefineTo(const std::function<double(const Place&)>& tolerated, const AnySamples& samples,
     const ParallelFor& parallelFor, const BuildOptions& options);
 
-  /** The second step: what BuildIsodiamonds() returns, to the bit. Once only; after an exception,
-   *  as of who stops it, again if it CanGoOn() and there were no peers.
+  /** The second step: returns what BuildIsodiamonds() does, to the bit. Only once; but again after
+   *  an exception, such as one thrown to stop it, if CanGoOn() and there were no peers.
    *  @param samples the same, wherever they are now; any if they came in slabs
-   *  @param options the same, but Hidden may be elsewhere and Report another */
+   *  @param options the same, but Hidden may be elsewhere and Report may differ */
   Encoding Finish(Model model, const AnySamples& samples, const ParallelFor& parallelFor,
     const BuildOptions& options);
 
-  /** Not after Finish(), nor if that failed in the very end, for lack of memory. */
+  /** False after Finish(), and if that failed at the very end for lack of memory. */
   bool CanGoOn() const;
 
 private:
@@ -67,18 +67,18 @@ private:
 };
 
 /**
- * The first step of a staged build from a volume that is larger than memory: it comes in slabs,
- * slices from the first to the last, twice.
+ * The first step of a staged build from a volume that is larger than memory: it comes twice, in
+ * slabs, from the first slice to the last.
  *
- * The first time signs are found, a bit for a sample; they tell which diamonds there are. The
- * second time isovertices are placed, and field errors measured, if they are asked for. Distances
- * need no more than these. Not with hidden cells. The result is that of the whole volume, to the
- * bit, however it is cut.
+ * The first time, signs are found, one bit per sample; they tell which diamonds there are. The
+ * second time, isovertices are placed, and field errors measured if they are needed. Distances need
+ * no more than these. Not with hidden cells. The result is that of the whole volume, to the bit,
+ * however it is cut.
  *
  * Peers (BuildOptions::Together) have some slabs each: they add these, and skip those of others.
- * All of them classify and finish, and have the whole hierarchy in the end; until then, if they ask
- * for that (BuildOptions::InPortions), a portion of it (PeerPortion). Then nothing can be done in
- * between: StagedBuild::Finish() has to follow.
+ * All of them classify and finish, and have the whole hierarchy in the end. Until then each has, if
+ * so requested (BuildOptions::InPortions), only a portion of it (PeerPortion); in that case nothing
+ * can be done in between: StagedBuild::Finish() has to follow.
  */
 class StreamedBuild
 {
@@ -93,8 +93,8 @@ public:
   StreamedBuild(const StreamedBuild&) = delete;
   StreamedBuild& operator=(const StreamedBuild&) = delete;
 
-  /** The slices of a slab that are its own, the end not among them, and those that it is to have:
-   *  on both sides some that it shares, where there are more. */
+  /** A slab's own slices, End not among them, and the First and Last that it is to hold: on both
+   *  sides, where there are more slices, it shares some. */
   struct Slices
   {
     int Begin = 0;
@@ -103,22 +103,22 @@ public:
     int Last = 0;
   };
 
-  /** Cuts a volume into so many slabs, or fewer if it has not as many slices. */
+  /** Cuts a volume into this many slabs, or fewer if it does not have as many slices. */
   static std::vector<Slices> Cut(const std::array<int, 3>& dimensions, int slabs);
 
-  /** The first time. What slabs share is not needed. @param slices of the cut that the slab is */
+  /** The first time. Shared slices are not needed. @param slices of the cut, which the slab is */
   void AddSigns(const SampleSlab& slab, const Slices& slices);
 
-  /** Between the times: what peers have added, and which diamonds there are. */
+  /** Between the two times: merges what peers have added, and finds which diamonds there are. */
   void Classify();
 
-  /** The second time. @param slices a cut that the slab holds; they come one after the other */
+  /** The second time. @param slices of a cut, which the slab holds; they come in order */
   void AddValues(const SampleSlab& slab, const Slices& slices);
 
-  /** In its place slices that a peer adds. */
+  /** Instead of AddValues(), for slices that a peer adds. */
   void SkipValues(const Slices& slices);
 
-  /** In the end, once only. */
+  /** At the end, once only. */
   StagedBuild Finish();
 
 private:

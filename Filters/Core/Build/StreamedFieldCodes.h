@@ -11,19 +11,20 @@ namespace isodiamond
 {
 
 /**
- * OwnFieldCodes() of a volume that comes in slabs: the same to the bit.
+ * OwnFieldCodes() for a volume that comes in slabs: the same to the bit.
  *
- * Small domains lie in the slab of their centre, with what overlaps. Large ones lead through
- * several, each of which adds what it has of them; their vertices are on a coarse lattice, whose
- * samples are gathered before.
+ * Small domains lie in the slab of their centre, including its overlap. Large ones reach through
+ * several slabs, each of which adds what it has of them; their vertices are on a coarse lattice,
+ * whose samples are gathered beforehand.
  */
 class StreamedFieldCodes
 {
 public:
-  /** The samples that are gathered while slabs come for the first time. */
+  /** The samples to be gathered while slabs come for the first time. */
   static GatheredSamples CoarseSamples(const Grid& grid);
 
-  /** @param coarse all of them @param codes of field errors; all but these must outlive it */
+  /** All arguments but coarse and codes must outlive it.
+   *  @param coarse all of these samples @param codes of field errors */
   StreamedFieldCodes(const Grid& grid, const DiamondSet& members, const FieldMetric& metric,
     const ErrorCode& codes, GatheredSamples coarse, const ParallelFor& parallelFor);
 
@@ -31,9 +32,9 @@ public:
    *  @param own slices @param centres the slices of the centres of small domains */
   void Add(const SampleSlab& slab, const SliceRange& own, const SliceRange& centres);
 
-  /** What peers have added.
-   *  @param areSetsOther whether each has members of its own, with the same large domains: of these
-   *         what all have added counts */
+  /** Merges what peers have added.
+   *  @param areSetsOther whether each has members of its own, but the same large domains: then only
+   *         these are merged */
   void Merge(Peers& peers, bool areSetsOther);
 
   /** Once all slabs have been added. */
@@ -49,7 +50,7 @@ private:
   GatheredSamples Coarse;
   const ParallelFor& For;
   DiamondCodes Codes;
-  std::vector<SummaryBuilder> LargeDomains; ///< by rank, which begin with them
+  std::vector<SummaryBuilder> LargeDomains; ///< by rank; the first ranks are theirs
 };
 
 }

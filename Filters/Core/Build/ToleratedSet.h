@@ -12,25 +12,25 @@
 namespace isodiamond
 {
 
-/** What one mesh goes by: the same for all peers, whenever it is asked. */
+/** What one mesh goes by; its answers are the same for all peers, whenever it is asked. */
 struct ToleratedBy
 {
   /** The greatest code that is tolerated of a diamond. */
   std::function<ErrorCode::Type(const Place&)> Accepted;
-  /** Whether a diamond is subdivided wherever it is met, whatever its error. */
+  /** Whether a diamond is subdivided whenever it is reached, whatever its error. */
   std::function<bool(const Place&, std::uint32_t rank)> IsAlways;
 };
 
 /**
- * The diamonds that a mesh is subdivided at: the smallest closed set such that no diamond with a
- * parent in the set, and not in it itself, exceeds what is tolerated of it.
+ * The diamonds that a mesh subdivides: the smallest closed set such that no diamond outside it, but
+ * with a parent in it, exceeds what is tolerated of that diamond.
  *
- * From coarse to fine, in rounds: those that have a subdivided parent and have not been looked at
- * are tested; who exceeds is subdivided, with all ancestors. The rest is never looked at, most of
- * all scales below the mesh's own.
+ * From coarse to fine, in rounds: diamonds that have a subdivided parent and have not been looked
+ * at are tested; those that exceed what is tolerated are subdivided, with all ancestors. The rest,
+ * above all the scales below the mesh's own, are never looked at.
  *
  * @param relevant an RI, whatever its error codes
- * @return codes by rank, as of thresholds: Always, or Least
+ * @return codes by rank, like those of thresholds: Always, or Least
  */
 std::vector<ErrorCode::Type> ToleratedSet(const IsodiamondHierarchy& relevant,
   const DistanceTests& tests, const ToleratedBy& by, const Loops& loops, Peers* peers);

@@ -17,9 +17,9 @@ namespace isodiamond
 /**
  * Raises the errors of all diamonds to the way back.
  *
- * Some slices after the others, each with the triangles in them and next to them: all of these at
- * once take more memory than all else. The few diamonds, most of them large, that need triangles
- * from elsewhere are left for the end, and measured when these have been brought.
+ * Takes a few slices at a time, with the triangles in them and next to them: all of these at once
+ * would take more memory than everything else. The few diamonds, most of them large, that need
+ * triangles from elsewhere are left for the end, and measured once these have been brought.
  */
 template <typename Lengths>
 class AllWaysBack
@@ -68,8 +68,8 @@ private:
     std::uint32_t Rank = 0;
   };
 
-  /** Cuts the slices of the centres that are measured here, so that there is about as much in each
-   *  part: an eighth, but not fewer slices than the triangles next to them have. */
+  /** Cuts the slices of the centres measured here into parts with about as much in each: an eighth,
+   *  but not fewer slices than the triangles next to them have. */
   std::vector<SliceRange> Windows() const
   {
     constexpr int layer = DiamondPortion::Step;
@@ -135,7 +135,7 @@ private:
       });
   }
 
-  /** What has been left, some at once: what they need is forgotten then. */
+  /** Measures what has been left, some at a time: what these need is then forgotten. */
   void MeasureLeft(int surface, FineSurface& fine)
   {
     const auto some = static_cast<std::size_t>(this->Known.MostAtOnce);
@@ -208,7 +208,7 @@ private:
   Loops For;
   Peers* Others;            ///< of a portion; null for none
   std::vector<Member> Left; ///< to be measured when what they need has been brought
-  std::mutex Mutex;         ///< of what is left
+  std::mutex Mutex;         ///< guards what is left
 };
 
 }

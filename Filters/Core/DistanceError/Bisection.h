@@ -14,13 +14,12 @@
 
 /**
  * @file Bisection.h
- * The tree of bisected tetrahedra, and what lies in which of them; exact.
+ * The tree of bisected tetrahedra, and what lies in which of them, exactly.
  */
 namespace isodiamond
 {
 
-/** Whether a tetrahedron's bounding box shares volume with the grid's: if it belongs to the grid.
- */
+/** Whether a tetrahedron belongs to the grid: its bounding box shares volume with the grid's. */
 inline bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
 {
   const int h = 1 << tetrahedron.Parent.Scale;
@@ -43,9 +42,9 @@ inline bool IsInGrid(const Grid& grid, const HalfPlace& tetrahedron)
   return true;
 }
 
-/** Some positions as rows of coordinates, for loops that compilers make vector instructions of.
- * From a place near them on, nearer than 2^20 units: so numbers of 32 bits are exact where a plane
- * is near, and have the right sign where it is far. */
+/** Some positions as rows of coordinates, for loops that compilers vectorize. They are relative to
+ * a place nearer to them than 2^20 units: so 32-bit numbers are exact where a plane is near, and
+ * have the right sign where it is far. */
 class PositionRows
 {
 public:
@@ -65,7 +64,7 @@ public:
 
   std::size_t Size() const { return this->Count; }
 
-  /** Lowers numbers, one a position, to how far it is on the positive side of a plane. */
+  /** Lowers numbers, one per position, to how far that is on the positive side of a plane. */
   void LowerToSide(const ExactPlane& plane, float* least) const
   {
     const float* const x = this->Rows[0].data();
@@ -89,7 +88,7 @@ private:
   std::array<std::vector<float>, 3> Rows;
 };
 
-/** A closed tetrahedron: what lies in it, exactly. */
+/** A closed tetrahedron; tells exactly what lies in it. */
 class ClosedTetrahedron
 {
 public:
@@ -121,10 +120,9 @@ public:
       [&](const ExactPlane& face) { return face.Side(position) >= 0; });
   }
 
-  /** The corners of the least face, edge or vertex of it that a position in it lies on, as a mask:
-   *  bit 0 for the centre, then the vertices. Of eight positions or fewer, in short loops that
-   *  compilers make vector instructions of. @pre it is of scale 8 at most: numbers of 32 bits are
-   *  exact then */
+  /** The corners of the tetrahedron's smallest face, edge or vertex that a position in it lies on,
+   *  as a mask: bit 0 for the centre, then the vertices. For eight positions or fewer, in short
+   *  loops that compilers vectorize. @pre the scale is 8 at most: 32-bit numbers are exact then */
   std::array<std::uint32_t, 8> CornersAround(const FinePosition* positions, int count) const
   {
     std::array<float, 8> x{};
@@ -153,7 +151,7 @@ public:
     return corners;
   }
 
-  /** Sets numbers, one a position, not negative where it holds that. */
+  /** Sets numbers, one per position: not negative where the tetrahedron holds that. */
   void FindHeld(const PositionRows& rows, std::vector<float>& sides) const
   {
     sides.assign(rows.Size(), std::numeric_limits<float>::max());
@@ -170,7 +168,7 @@ public:
       [&](const ExactPlane& face) { return face.Sides(box)[0] >= 0; });
   }
 
-  /** False only if nothing of a box lies in it. */
+  /** False only if no part of a box lies in it. */
   bool MayHold(const FineBox& box) const
   {
     return std::all_of(this->Faces.begin(), this->Faces.end(),
@@ -181,7 +179,7 @@ private:
   std::array<ExactPlane, 4> Faces; ///< positive inside
 };
 
-/** The edges of a tetrahedron between corners, two or three of them: as a mask of its edges. */
+/** The edges of a tetrahedron between two or three of its corners, as a mask. */
 inline std::uint32_t EdgesBetween(std::uint32_t corners)
 {
   // The edges by their ends, in the order of a half-tetrahedron's edges.
@@ -198,7 +196,8 @@ inline std::uint32_t EdgesBetween(std::uint32_t corners)
  * Bisects a tetrahedron: calls body(half, plane) for those of its halves that lie in the grid, with
  * the plane between them, whose positive side is the half's.
  *
- * @param diamond,rank that the tetrahedron lies in; its centre is the halves' youngest vertex
+ * @param diamond,rank the diamond that the tetrahedron lies in; its centre is the halves' youngest
+ *        vertex
  */
 template <typename Body>
 void ForEachHalf(const Grid& grid, const HalfPlace& tetrahedron, const Place& diamond,

@@ -14,7 +14,7 @@ namespace isodiamond
 {
 
 /** A corner of a triangle of full resolution, relative to its cell's first sample: it lies between
- *  two samples of the cell, each given by one bit per axis, at a part of the way in 256ths. */
+ *  two samples of the cell, each given by one bit per axis, some 256ths of the way along. */
 struct CellCorner
 {
   std::uint8_t Ends = 0; ///< bits 0 to 2: where the edge begins; 3 to 5: where it leads to
@@ -44,7 +44,7 @@ struct CellHalf
   {
     Point Owner{}; ///< of the edge, relative to the diamond
     std::uint8_t Edge = 0;
-    std::uint8_t Ends = 0; ///< of CellCorner
+    std::uint8_t Ends = 0; ///< as in CellCorner
   };
 
   Point Cell{}; ///< that the half lies in, relative to the diamond
@@ -61,7 +61,7 @@ const CellHalves& AllCellHalves();
  *
  * Each tetrahedron of a cell is a half of the diamond of class 2 at its youngest vertex. The type
  * of that diamond determines its triangles, except for how far along their edges the corners are.
- * The owners of the edges have that; they are looked up once for the whole brick.
+ * That is stored with the owners of the edges, which are looked up once for the whole brick.
  */
 class BrickTriangles
 {

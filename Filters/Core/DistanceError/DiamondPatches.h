@@ -19,7 +19,7 @@ namespace isodiamond
 /**
  * The patches that can be in a mesh around the spine of one diamond, while the diamond itself is
  * not subdivided: those of its tetrahedra, and those of the coarser ones that stand in for them.
- * Each is made when it is first asked for; the object is used for one diamond after the other.
+ * Each is made when first asked for; the object is used for one diamond after another.
  */
 template <typename Lengths>
 class DiamondPatches
@@ -75,24 +75,24 @@ public:
     return i;
   }
 
-  /** Whether the diamond has a tetrahedron of a number, with samples at all of its vertices. */
+  /** Whether the diamond has a tetrahedron of this number, with samples at all of its vertices. */
   bool IsThere(int tetrahedron) const
   {
     return tetrahedron < this->Count && this->Entries[tetrahedron].Tetrahedron.Half != nullptr;
   }
 
-  /** The tetrahedra that are there, a mask. */
+  /** The tetrahedra that are there, as a mask. */
   std::uint32_t AreThere() const { return this->There; }
 
-  /** Where the patches of all tetrahedra that share an edge or a triangle meet it: a point or a
-   *  line, or nowhere. */
+  /** Where the patches of all tetrahedra that share an edge or a triangle meet it: at a point, in a
+   *  line or nowhere. */
   struct Border
   {
     int Count = 0; ///< of its ends
     Vector Start{};
     Vector Side{}; ///< from there to the other end
 
-    /** The squared distance; infinite to nowhere. */
+    /** The squared distance of a point; infinite if they meet nowhere. */
     double Squared(const Vector& point) const
     {
       if (this->Count == 0)
@@ -107,7 +107,7 @@ public:
     }
   };
 
-  /** @param around the edge, or the triangle's, as a mask */
+  /** @param around the edge, or the triangle's edges, as a mask */
   Border BorderIn(std::uint32_t around)
   {
     Border border;
@@ -125,7 +125,7 @@ public:
     return border;
   }
 
-  /** The same of one tetrahedron, with the edges numbered as its own. */
+  /** The same, with the edges numbered as those of one tetrahedron. */
   Border BorderIn(int tetrahedron, std::uint32_t edges)
   {
     std::uint32_t around = 0;
@@ -161,8 +161,8 @@ public:
   }
 
   /**
-   * The squared distance to the nearest patch that is in every mesh that a tetrahedron is in; or to
-   * some that is near enough.
+   * The squared distance to the nearest patch that is in every mesh with a tetrahedron, or to one
+   * that is near enough.
    *
    * @param own the squared distance to the tetrahedron's own patch
    */
@@ -196,7 +196,7 @@ private:
     HalfPlace Tetrahedron;
     bool HasOwn = false;
     bool HasBound = false;
-    bool IsEmpty = false; ///< whether the bound is of no patch
+    bool IsEmpty = false; ///< whether there is no patch to bound
     HalfPlace Coarsest;   ///< the last of Coarser, at first the tetrahedron itself
     bool HasCoarsest = false;
     int CoarserCount = 0;
@@ -254,7 +254,7 @@ private:
     return ((crossed >> edge.OwnerEdge) & 1U) != 0;
   }
 
-  /** The isovertex on one of the spine's edges, which is crossed; neighbours share it. */
+  /** The isovertex on a crossed one of the spine's edges; neighbours share it. */
   const FinePosition& Corner(int index)
   {
     if (((this->KnownCorners >> index) & 1U) == 0)
@@ -268,14 +268,14 @@ private:
     return this->Corners[index];
   }
 
-  /** The isovertex on an edge of any tetrahedron, which is crossed. */
+  /** The isovertex on a crossed edge of any tetrahedron. */
   Vector Corner(const HalfPlace& tetrahedron, int edge) const
   {
     return this->InWorld(IsovertexOn(this->Hierarchy, tetrahedron, edge, this->Surface));
   }
 
-  /** To the farthest of what can be in a tetrahedron's place; or some that is not nearer than
-   *  others. */
+  /** The squared distance to the farthest patch that can be in a tetrahedron's place, or to one
+   *  that is no nearer than `others`. */
   double SquaredToFarthest(Entry& entry, const Vector& point, double others)
   {
     double farthest = SquaredTo(this->Own(entry), point);

@@ -13,9 +13,9 @@
  * Raises the distance errors of all diamonds: of scale 1 and above (DistanceWalk.h), and of scale 0
  * (ScaleZeroDistances.h).
  *
- * Those two are templates of the kind of lengths. Their time is spent in small functions, of which
- * compilers inline less the more a file has: so the kinds are in files of their own, and the
- * frequent one, affine, in one for each template.
+ * Both are templates over the kind of lengths. Their time is spent in small functions, and the more
+ * of these a file has, the fewer compilers inline: so each kind has files of its own, and the
+ * frequent one, affine, one for each template.
  */
 namespace isodiamond
 {
@@ -30,7 +30,7 @@ void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& le
 void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& lengths,
   ErrorMaxima& errors, const Loops& loops);
 
-/** Raises errors to the way back (WayBack.h), of each diamond by itself.
+/** Raises errors to the way back (WayBack.h), each diamond by itself.
  *  @param codes by rank, of the way forth */
 void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengths,
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
@@ -40,7 +40,7 @@ void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths
   const Loops& loops);
 
 /** Tells whether diamonds exceed what is tolerated of them, on one surface (ToleranceTest.h).
- *  @param exceeds one a diamond, to be set where one does */
+ *  @param exceeds one entry per diamond, to be set where it does */
 void TestTolerances(const TestedSurface& surface, const TestedHierarchy& tested,
   const AffineLengths& lengths, const std::vector<TestedDiamond>& diamonds,
   std::vector<std::uint8_t>& exceeds, const ParallelFor& parallelFor);

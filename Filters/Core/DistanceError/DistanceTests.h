@@ -28,7 +28,7 @@ struct TestedSurface
   int Number = 0;
   FineSurface Fine;
 
-  /** As of FineSurface. */
+  /** As for FineSurface. */
   TestedSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
     const ParallelFor& parallelFor)
     : Number(surface)
@@ -37,7 +37,7 @@ struct TestedSurface
   }
 };
 
-/** What the tests of all diamonds go by. */
+/** What the tests of all diamonds are based on. */
 struct TestedHierarchy
 {
   const IsodiamondHierarchy& Relevant; ///< an RI, whatever its error codes
@@ -48,8 +48,8 @@ struct TestedHierarchy
 };
 
 /**
- * Tells of diamonds whether their distance errors exceed a tolerance, without measuring what does
- * not matter for that: for meshes of one tolerance, which most diamonds have no part in.
+ * Tells whether the distance errors of diamonds exceed a tolerance, without measuring what does not
+ * matter for that: for meshes of one tolerance, in which most diamonds have no part.
  *
  * The error is that of DistanceErrors() and RaiseByWayBack(), but the way back may count as too
  * long from 8/9 of the tolerance on.
@@ -58,11 +58,11 @@ class DistanceTests
 {
 public:
   /** All of the hierarchy's parts must outlive it.
-   *  @throws std::invalid_argument without distances */
+   *  @throws std::invalid_argument if the world has no distances */
   DistanceTests(
     const TestedHierarchy& tested, const GridGeometry& world, const ParallelFor& parallelFor);
 
-  /** One a diamond: whether it exceeds what is tolerated. */
+  /** For each diamond, whether it exceeds what is tolerated. */
   std::vector<std::uint8_t> Exceed(
     const std::vector<TestedDiamond>& diamonds, const ParallelFor& parallelFor) const;
 

@@ -19,7 +19,7 @@
 namespace isodiamond
 {
 
-/** What a tetrahedron of the walk has of a cluster of isovertices. */
+/** What a tetrahedron of the walk holds of a cluster of isovertices. */
 struct ClusterPart
 {
   std::uint32_t Index = 0;
@@ -67,7 +67,7 @@ public:
   }
 
 private:
-  /** One tetrahedron, with all below. */
+  /** One tetrahedron, with all below it. */
   using Task = Generation<ClusterPart>;
   using Search = FarthestSearch<Lengths>;
 
@@ -76,7 +76,7 @@ private:
     return { this->Errors.Hierarchy(), this->InWorld, this->Clusters.Surface() };
   }
 
-  /** Whether a cluster is small beside the diamond. */
+  /** Whether a cluster is small compared with the diamond. */
   static bool IsCoarse(const Holder& holder) { return holder.Diamond.Scale >= 4; }
 
   /** The six tetrahedra of the base cube. */
@@ -110,8 +110,8 @@ private:
     this->Hold(tetrahedron, 0, task);
   }
 
-  /** Makes the items from a first one on those of a tetrahedron. Without any there is none, nor
-   *  at scale 0. */
+  /** Makes a tetrahedron the holder of the items from a first one on; of none, or at scale 0, there
+   *  is no holder. */
   template <typename Item>
   void Hold(const HalfPlace& tetrahedron, std::size_t begin, Generation<Item>& generation) const
   {
@@ -150,7 +150,7 @@ private:
       });
   }
 
-  /** The same for isovertices: one look at each. */
+  /** The same for isovertices, looking once at each. */
   void Split(const Holder& holder, const std::vector<FinePosition>& items,
     Generation<FinePosition>& halves) const
   {
@@ -201,7 +201,7 @@ private:
     return greatest >= 0;
   }
 
-  /** A tetrahedron's part, and what it leaves to its halves. */
+  /** Measures a tetrahedron. @return the tasks left to its halves */
   std::vector<Task> Bisect(Task& task)
   {
     Search search = this->MakeSearch();
@@ -219,7 +219,7 @@ private:
     return halves;
   }
 
-  /** A tetrahedron and all below. */
+  /** Measures a tetrahedron and all below it. */
   void Descend(Task task)
   {
     Search search = this->MakeSearch();
@@ -250,7 +250,7 @@ private:
     std::swap(generation, next);
   }
 
-  /** The isovertices of clusters that lie in the tetrahedra. */
+  /** Those isovertices of the clusters that lie in the tetrahedra. */
   Generation<FinePosition> Expand(const Generation<ClusterPart>& generation) const
   {
     Generation<FinePosition> expanded;
@@ -268,7 +268,7 @@ private:
     return expanded;
   }
 
-  /** Calls body(position) for what of a cluster lies in a tetrahedron. */
+  /** Calls body(position) for those isovertices of a cluster that lie in a tetrahedron. */
   template <typename Body>
   void ForEachIn(const ClusterPart& part, const ClosedTetrahedron& closed, Body&& body) const
   {
@@ -282,7 +282,7 @@ private:
       });
   }
 
-  /** Measures all diamonds of a generation: the tetrahedra of each come together. */
+  /** Measures all diamonds of a generation, taking the tetrahedra of each together. */
   template <typename Item>
   void Measure(Search& search, Generation<Item>& generation)
   {
@@ -299,8 +299,8 @@ private:
     }
   }
 
-  /** Raises the error of a diamond by the items that some of its tetrahedra hold, a range of the
-   *  order. */
+  /** Raises the error of a diamond as the items of some of its tetrahedra require; these are a
+   *  range of the order. */
   template <typename Item>
   void Measure(
     Search& search, const Generation<Item>& generation, std::size_t begin, std::size_t end)

@@ -24,12 +24,13 @@ namespace isodiamond
  * A map from the surface of full resolution in the domain of a diamond of scale 0 or 1 to the
  * diamond's patches: how far it moves any point bounds the way back.
  *
- * As of one tetrahedron (MapBounds), but isovertices inside of the domain may go to any triangle of
- * the patches around; those on its border have to stay on it. Where the ends of an edge go to
- * different triangles, some points of the edge go to the sides between these (TriangleWalk.h). So a
- * triangle of full resolution is mapped in pieces, each to one triangle of the patches, and no
- * point moves farther than the pieces' corners do. As it takes border to border, all of the patches
- * is covered: these hold no closed surface, as there is no vertex inside of the domain of a spine.
+ * Like that of one tetrahedron (MapBounds), but isovertices inside the domain may go to any
+ * triangle of the patches around; those on its border have to stay on it. Where the ends of an edge
+ * go to different triangles, some points of the edge go to the sides between these
+ * (TriangleWalk.h). So a triangle of full resolution is mapped in pieces, each to one triangle of
+ * the patches, and no point moves farther than the pieces' corners do. As the map takes border to
+ * border, all of the patches are covered: they contain no closed surface, as there is no vertex
+ * inside the domain of a spine.
  */
 template <typename Lengths>
 class DomainMap
@@ -44,12 +45,12 @@ public:
   }
 
   /**
-   * How far a point of the diamond's patches can be from the surface; infinite if nothing is found.
+   * How far a point of the diamond's patches can be from the surface; infinite if no map is found.
    *
    * @param patches of all tetrahedra around the spine
-   * @param isNear tells whether a squared distance needs no other place to go to
-   * @param mayMove tells of a place of the patches and a squared distance whether something may go
-   *        so far, to there
+   * @param isNear tells whether a squared distance is so small that no other place is looked for
+   * @param mayMove tells, given a place on the patches and a squared distance, whether something
+   *        may go that far to there
    */
   template <typename IsNear, typename MayMove>
   double Bound(const Place& diamond, const NumberedPatches& patches, const IsNear& isNear,
@@ -89,7 +90,7 @@ private:
     std::uint32_t On = 0; ///< the patches' triangles that it is taken to, a mask
   };
 
-  /** A place of the patches, and how far something is from it. */
+  /** A place on the patches, and how far something is from it. */
   struct Image
   {
     Vector Position{};
@@ -130,7 +131,7 @@ private:
     }
   }
 
-  /** Decides where the isovertices of full resolution go. @return whether all may */
+  /** Decides where the isovertices of full resolution go. @return whether all may go there */
   template <typename IsNear, typename MayMove>
   bool TakeIsovertices(const Place& diamond, const IsNear& isNear, const MayMove& mayMove)
   {
@@ -177,8 +178,8 @@ private:
     return true;
   }
 
-  /** Where an isovertex goes: to the border of the tetrahedra's patches that it lies on, if that is
-   *  near or there is no choice. */
+  /** Where an isovertex goes: to where patches meet the edge or triangle that it lies on, if that
+   *  is near or there is no choice. */
   template <typename IsNear>
   Image ImageOf(
     std::uint32_t around, std::uint32_t holders, const IsNear& isNear, Isovertex& isovertex)
@@ -241,7 +242,7 @@ private:
     return triangles;
   }
 
-  /** Decides where the edges of full resolution go whose ends go to different triangles. @return
+  /** Decides where those edges of full resolution go whose ends go to different triangles. @return
    *  whether all triangles of full resolution are mapped */
   template <typename MayMove>
   bool TakeEdges(const MayMove& mayMove)
@@ -286,7 +287,7 @@ private:
     {
       const Isovertex& from = *corners[i];
       const Isovertex& to = *corners[(i + 1) % 3];
-      const bool isForward = &from < &to; // one way for both triangles at the edge
+      const bool isForward = &from < &to; // the same way for both triangles at the edge
       TriangleWalk way;
       if (!this->Neighbours.FindWalk(
             isForward ? from.On : to.On, isForward ? to.On : from.On, way) ||
@@ -327,7 +328,7 @@ private:
     return true;
   }
 
-  /** Goes on to a triangle at a place that lies on both, by triangles that it lies on. */
+  /** Goes on to a triangle at a place on both it and the last, over triangles with that place. */
   bool GoOn(ReducedWalk& walk, std::uint8_t triangle, std::uint32_t place) const
   {
     if (!walk.HasBegun() || walk.Last() == triangle)
@@ -344,7 +345,7 @@ private:
     return isThere;
   }
 
-  /** Which of the patches' triangles share a side: two corners. */
+  /** Finds which of the patches' triangles share a side, that is, two corners. */
   void FindNeighbours()
   {
     if (this->HasNeighbours)
@@ -362,7 +363,7 @@ private:
     }
   }
 
-  /** The point of a segment that is nearest. */
+  /** The nearest point of a segment. */
   static Image OnSegment(const Vector& point, const Vector& begin, const Vector& end)
   {
     const Vector way = end - begin;
@@ -371,8 +372,8 @@ private:
     return { place, Dot(point - place, point - place) };
   }
 
-  /** The point of another segment that is nearest to some point of one: that which is nearest to
-   *  the other's line. */
+  /** The point of another segment that is nearest to a certain point of one: to that which is
+   *  nearest to the other's line. */
   static Image OnOther(
     const Vector& begin, const Vector& end, const Vector& otherBegin, const Vector& otherEnd)
   {

@@ -24,12 +24,12 @@ inline constexpr double DistanceMargin = 1.0 + 1e-12;
 /** The farthest isovertex of a diamond so far. */
 struct Farthest
 {
-  double Squared = 0.0; ///< its distance; infinite if there is nothing that it is near to
+  double Squared = 0.0; ///< its distance; infinite if there is nothing to measure it against
   bool IsAny = false;   ///< whether there is an isovertex at all
 };
 
-/** Whether a diamond that holds an isovertex must not be a leaf, wherever that lies: it sticks out
- *  of the grid, or one of its vertices is not finite. */
+/** Whether a diamond that holds an isovertex must not be a leaf, wherever the isovertex lies: the
+ *  diamond sticks out of the grid, or one of its vertices is not finite. */
 inline bool HasNoInterpolant(const Grid& grid, const Finiteness& isFinite, const Place& diamond)
 {
   bool has = grid.SticksOut(diamond.Position, diamond.Scale);
@@ -42,8 +42,8 @@ inline bool HasNoInterpolant(const Grid& grid, const Finiteness& isFinite, const
   return has;
 }
 
-/** The greatest distance between two vertices of a diamond, squared: what an isovertex without any
- *  patch to count with counts with, where features need not be preserved. */
+/** The greatest distance between two vertices of a diamond, squared: what counts for an isovertex
+ *  without any patch to be measured against, where features need not be preserved. */
 template <typename Lengths>
 double SquaredDiameter(const Grid& grid, const Lengths& lengths, const Place& diamond)
 {
@@ -70,7 +70,7 @@ public:
   /** Hierarchy, finiteness and bounds must outlive it.
    *  @param codes by rank, to start from
    *  @param bounds of the way back, to be filled if they are wanted
-   *  @throws std::invalid_argument without distances */
+   *  @throws std::invalid_argument if the world has no distances */
   ErrorMaxima(const IsodiamondHierarchy& hierarchy, const Finiteness& isFinite,
     const GridGeometry& world, double scale, bool preserveFeatures,
     const std::vector<ErrorCode::Type>& codes, MapBounds& bounds)
@@ -106,7 +106,7 @@ public:
 
   void RaiseToAlways(std::uint32_t rank) { this->Raise(rank, ErrorCode::Always); }
 
-  /** Whether a diamond that holds an isovertex must not be a leaf, wherever it lies. */
+  /** Whether a diamond that holds an isovertex must not be a leaf, wherever the isovertex lies. */
   bool HasNoInterpolant(const Place& diamond) const
   {
     return isodiamond::HasNoInterpolant(this->Source.SampleGrid(), this->Finite, diamond);
@@ -116,8 +116,8 @@ public:
   template <typename Find>
   void RaiseToFarthest(const Place& diamond, std::uint32_t rank, Find&& find)
   {
-    // Only what exceeds the error so far is of interest. What would only just not raise the code
-    // counts too, or the order of threads would.
+    // Only what exceeds the error so far is of interest. What only just fails to raise the code
+    // counts too, or else the order of threads would.
     const ErrorCode::Type code = this->Codes[rank].load(std::memory_order_relaxed);
     const double known =
       code == 0 ? 0.0 : this->Code.Decode(code) / (DistanceMargin * DistanceMargin);

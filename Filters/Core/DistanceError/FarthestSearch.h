@@ -18,8 +18,8 @@ namespace isodiamond
 
 /**
  * Finds the isovertex of a diamond that is farthest from the patches around the spine. Isovertices
- * are proposed, with the tetrahedron that holds them; few of those need to be compared with more
- * than its own patch. Used for one diamond after the other, by one thread.
+ * are proposed, with the tetrahedron that holds them; few of them need to be compared with more
+ * than its patch. Used for one diamond after another, by one thread.
  */
 template <typename Lengths>
 class FarthestSearch
@@ -76,8 +76,8 @@ public:
     return this->Patches.LengthsOfBounds().FromSquared(highest);
   }
 
-  /** The same for one isovertex, that some tetrahedra hold.
-   *  @param around the edges of a triangle between them that it lies on, or the edge; or none */
+  /** The same for one isovertex that some tetrahedra hold.
+   *  @param around the edge between them that it lies on, or the edges of the triangle; or none */
   void Propose(std::uint32_t tetrahedra, std::uint32_t around, const FinePosition& position,
     Farthest& farthest)
   {
@@ -103,7 +103,7 @@ public:
     return this->Patches.BorderIn(around).Squared(this->InWorld(position));
   }
 
-  /** The greatest of squared distances to the border of a patch, of the isovertices that lie on the
+  /** The greatest squared distance to the border of a patch from the isovertices that lie on the
    *  tetrahedron's; infinite if one lies where the patch has none. See MapBounds. */
   double SquaredToBorder(
     int tetrahedron, const HalfPlace& place, const FinePosition* positions, std::size_t count)
@@ -136,7 +136,7 @@ public:
   }
 
   /** Measures what was proposed. The isovertex that may be farthest from its own patch goes first:
-   *  few others need it then. */
+   *  few others then have to be measured. */
   void Decide(Farthest& farthest)
   {
     const auto begin = this->Candidates.begin();
@@ -160,7 +160,7 @@ public:
     }
   }
 
-  /** Whether all of a box is surely nearer than a distance: no distance changes faster than the
+  /** Whether all of a box is sure to be nearer than a distance: distances change no faster than the
    *  place does. */
   bool IsWithin(int tetrahedron, const FineBox& box, double squaredLimit)
   {
@@ -194,7 +194,7 @@ private:
     FinePosition Position{};
   };
 
-  /** Where some more candidates fit. */
+  /** Room for some more candidates. */
   Candidate* Room(std::size_t more)
   {
     if (this->Candidates.size() < this->CandidateCount + more)
@@ -204,7 +204,7 @@ private:
     return this->Candidates.data() + this->CandidateCount;
   }
 
-  /** Raises the farthest distance to a candidate's, that to the nearest patch. */
+  /** Raises the farthest distance to a candidate's distance from the nearest patch. */
   void Measure(const Candidate& candidate, Farthest& farthest)
   {
     const Vector point = this->InWorld(candidate.Position);

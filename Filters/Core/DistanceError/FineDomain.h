@@ -12,9 +12,9 @@ namespace isodiamond
 {
 
 /**
- * The edges and tetrahedra of full resolution in the closed domain of a diamond of scale 0 or 1,
- * which nearly all diamonds are: that is where the isovertices are which their error depends on. By
- * the diamonds that own the edges, all of scale 0.
+ * The edges and tetrahedra of full resolution in the closed domain of a diamond of scale 0 or 1, as
+ * nearly all diamonds are: there lie the isovertices that the error depends on. Listed by the
+ * diamonds that own the edges, all of scale 0.
  */
 struct FineDomain
 {
@@ -22,8 +22,8 @@ struct FineDomain
   struct Edge
   {
     std::uint16_t Tetrahedra = 0; ///< mask of their numbers
-    /** The edge of the tetrahedra that it lies on, or those of the triangle, as SpineEdges counts;
-     *  none if it lies inside of a tetrahedron. */
+    /** The tetrahedra's edge that it lies on, or the edges of the triangle, numbered as in
+     *  SpineEdges; none if it lies inside a tetrahedron. */
     std::uint32_t Around = 0;
   };
 
@@ -40,10 +40,10 @@ struct FineDomain
   /** A tetrahedron of full resolution. */
   struct Tetrahedron
   {
-    std::uint8_t Whole = 0; ///< the number of the diamond's that it is part of
-    std::uint8_t Owner = 0; ///< index of that at its youngest vertex
+    std::uint8_t Whole = 0; ///< the number of the diamond's tetrahedron that it is part of
+    std::uint8_t Owner = 0; ///< index of the owner at its youngest vertex
     const HalfTetrahedron* Half = nullptr;
-    /** As a half-tetrahedron's edges are numbered: the owner's index, and the owner's edge. */
+    /** By edge, numbered as a half-tetrahedron's: the owner's index, and the owner's edge. */
     std::array<std::array<std::uint8_t, 2>, 6> Edges{};
   };
 
@@ -52,7 +52,7 @@ struct FineDomain
   std::uint32_t AllTetrahedra = 0; ///< of the diamond, a mask of their numbers
 };
 
-/** The table of the type of a diamond of scale 0 or 1. */
+/** The table for the type of a diamond of scale 0 or 1. */
 const FineDomain& FineDomainOf(const Place& diamond);
 
 }

@@ -15,7 +15,7 @@
 namespace isodiamond
 {
 
-/** Cells, each of eight samples, from a first one to before a last one. */
+/** Cells, each of eight samples, from a first one to just before a last one. */
 struct CellBox
 {
   Point Low{};
@@ -42,13 +42,12 @@ struct CellBox
 };
 
 /**
- * The triangles of a surface of full resolution by cell: 6 bytes a triangle, and 0.8 for each cell
- * of bricks of 8 x 8 x 8 cells that have some.
+ * The triangles of a surface of full resolution by cell: 6 bytes per triangle, and 0.8 per cell of
+ * the bricks of 8 x 8 x 8 cells that have some.
  *
- * All of a dense surface takes more memory than its hierarchy, so it can be made for some slices
- * after the others. Who looks at other triangles learns that they are Elsewhere, and that is noted,
- * for the next Bring(): they are made, too, or, of a portion of a hierarchy, fetched from the peers
- * who own them.
+ * All of a dense surface takes more memory than its hierarchy, so it can be made a few slices at a
+ * time. Looking at other triangles throws Elsewhere, and is noted for the next Bring(): this makes
+ * them too or, for a portion of a hierarchy, fetches them from the peers that own them.
  */
 class FineSurface
 {
@@ -65,22 +64,22 @@ public:
     const ParallelFor& parallelFor);
 
   /** All of it is elsewhere.
-   *  @param portion that the hierarchy is; null for all. All but the loops must outlive it */
+   *  @param portion the hierarchy's; null for all. All but the loops must outlive it */
   FineSurface(const IsodiamondHierarchy& hierarchy, int surface, const HiddenCells* hidden,
     const ParallelFor& parallelFor, const PeerPortion* portion);
 
   ///@{
-  /** Of a portion by all peers together. Makes what it owns in some slices, in steps of bricks, and
-   * brings what is next to these; brings what has been noted. */
+  /** For a portion, called by all peers together. Make() makes what it owns in some slices, in
+   * steps of bricks, and brings what is next to these; Bring() brings what has been noted. */
   void Make(const SliceRange& slices);
   void Bring();
   ///@}
 
-  /** Forgets what is here: it is elsewhere again. And what has been noted. */
+  /** Forgets what is here, which is elsewhere again, and what has been noted. */
   void Forget();
 
-  /** Calls body(cell, triangles) for the cells of a box that have some, where `triangles` calls
-   *  what it is given with each. Stops where body returns false. @return whether it did not
+  /** Calls body(cell, triangles) for the cells of a box that have some; triangles(use) calls
+   *  use(triangle) for each. Stops when body returns false. @return whether it never did
    *  @throws Elsewhere */
   template <typename Body>
   bool ForEachCell(const CellBox& box, const Body& body) const
@@ -123,8 +122,8 @@ private:
     static constexpr int Rows = 64; ///< of 8 cells along x
 
     const CellTriangle* First = nullptr;          ///< its triangles
-    std::array<std::uint16_t, Rows + 1> Before{}; ///< those of rows before a row, from there on
-    std::array<std::uint8_t, Cells / 2> Counts{}; ///< those of two cells: each has 12 at the most
+    std::array<std::uint16_t, Rows + 1> Before{}; ///< how many of them precede a row
+    std::array<std::uint8_t, Cells / 2> Counts{}; ///< of two cells each: a cell has 12 at most
 
     int Size() const { return this->Before[Rows]; }
     int Count(int cell) const { return (this->Counts[cell / 2] >> (4 * (cell & 1))) & 15; }
@@ -132,7 +131,7 @@ private:
     {
       this->Counts[cell / 2] += static_cast<std::uint8_t>(count << (4 * (cell & 1)));
     }
-    /** Once all are counted. */
+    /** Fills Before, once all are counted. */
     void SumUp();
   };
 
@@ -204,7 +203,7 @@ private:
       static_cast<int>(index / this->Count[0] / this->Count[1]) };
   }
 
-  /** Wants what is elsewhere of the bricks of a box. By any thread. */
+  /** Notes the bricks of a box that are elsewhere. By any thread. */
   void Note(const CellBox& box) const;
 
   /** Some bricks, each with its triangles. */
@@ -214,7 +213,7 @@ private:
     std::vector<CellBrick> Bricks;
     std::vector<CellTriangle> Triangles;
 
-    /** Once triangles are counted: where they are. */
+    /** Gives the triangles their places, once they are counted. */
     void MakeRoom();
   };
 
@@ -224,14 +223,14 @@ private:
   }
   SomeBricks MakeSome(std::vector<std::int64_t> indices) const;
   ///@{
-  /** Has what peers make of bricks, of some at once: what is noted here. */
+  /** Gets bricks that peers make, some at a time: those that are noted here. */
   void FetchAll(std::vector<std::uint64_t> indices);
   SomeBricks Fetch(const std::vector<std::int64_t>& indices) const;
   SomeBricks WhatIsNoted(const SomeBricks& some) const;
   ///@}
   void Keep(SomeBricks some);
   void ForgetNotes();
-  /** Those with the other portions; null without. */
+  /** The peers with the other portions; null without a portion. */
   Peers* Others() const { return this->Portion != nullptr ? &this->Portion->Others() : nullptr; }
 
   static constexpr std::int32_t None = -1;    ///< in the lookup: there are no triangles
@@ -245,12 +244,12 @@ private:
   Grid TheGrid;
   std::array<int, 3> Count{};
   std::vector<std::int32_t> Lookup; ///< of all bricks of cells: index in Bricks, or one of these
-  mutable std::vector<std::atomic<std::uint8_t>> IsNoted; ///< of these
+  mutable std::vector<std::atomic<std::uint8_t>> IsNoted; ///< of all bricks, too
   mutable std::vector<std::int64_t> Noted;
-  mutable std::mutex Mutex;                         ///< of what is noted
+  mutable std::mutex Mutex;                         ///< guards what is noted
   std::vector<std::int64_t> Here;                   ///< the bricks that are not elsewhere
   std::vector<CellBrick> Bricks;                    ///< those of these that have triangles
-  std::vector<std::vector<CellTriangle>> Triangles; ///< of some bricks each
+  std::vector<std::vector<CellTriangle>> Triangles; ///< each of some bricks
 };
 
 }

@@ -24,7 +24,7 @@ struct FlatPiece
 {
   ConvexPolygon Polygon;
   Vector Normal{};   ///< of unit length; not a number without area
-  double Bend = 0.0; ///< how far from the polygon what it stands for can be
+  double Bend = 0.0; ///< how far what it stands for can be from the polygon
 };
 
 /** A vector of length 1 in the same direction; not a number if there is none, so no test holds. */
@@ -58,7 +58,7 @@ inline std::pair<ConvexPolygon, bool> Join(
 }
 
 /** How far two triangles and whatever else fills the border of both can be from each other, seen
- *  across both diagonals; infinite if one triangle covers the other there. */
+ *  perpendicular to both diagonals; infinite if one triangle covers the other there. */
 inline double BendOf(const SurfacePatch& patch, const std::array<Vector, 6>& corners)
 {
   const auto [polygon, isOne] = Join(patch, corners);

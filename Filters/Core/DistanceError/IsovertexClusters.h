@@ -32,14 +32,14 @@ inline FinePosition IsovertexAt(const IsodiamondHierarchy& hierarchy, const Plac
   return (1 << place.Scale) * (FineUnits * place.Position + along * offset);
 }
 
-/** Whether both ends of one of a diamond of scale 0's subdivision edges are finite. */
+/** Whether both ends of a subdivision edge of a diamond of scale 0 are finite. */
 inline bool AreEndsFinite(const Finiteness& isFinite, const Place& place, int edge)
 {
   const Point& offset = tables::Parities[Parity(place.Position)].Offsets[edge];
   return isFinite(place.Position) && isFinite(place.Position + offset);
 }
 
-/** The isovertex on an edge of any tetrahedron, which is crossed. */
+/** The isovertex on a crossed edge of any tetrahedron. */
 inline FinePosition IsovertexOn(
   const IsodiamondHierarchy& hierarchy, const HalfPlace& tetrahedron, int edge, int surface)
 {
@@ -48,7 +48,7 @@ inline FinePosition IsovertexOn(
   return IsovertexAt(hierarchy, owned.Owner, rank, owned.Edge, surface);
 }
 
-/** Isovertices of full resolution that lie near to each other: those of an eighth of a brick. */
+/** Isovertices of full resolution that lie near each other: those of an eighth of a brick. */
 struct IsovertexCluster
 {
   std::uint32_t Brick = 0; ///< index in the bricks of scale 0
@@ -63,8 +63,8 @@ struct IsovertexCluster
 class IsovertexClusters
 {
 public:
-  /** Those on edges whose ends both are finite, or the others: these always subdivide the diamonds
-   *  that hold them. */
+  /** Those on edges whose ends are both finite, or the others: diamonds that hold these are always
+   *  subdivided. */
   enum class Ends
   {
     Finite,
@@ -72,7 +72,7 @@ public:
   };
 
   /** Hierarchy and finiteness must outlive it.
-   *  @param portion whose own it has; null for all */
+   *  @param portion whose own isovertices it has; null for all */
   IsovertexClusters(const IsodiamondHierarchy& hierarchy, const Finiteness& isFinite, int surface,
     Ends ends, const ParallelFor& parallelFor, const DiamondPortion* portion = nullptr)
     : Hierarchy(hierarchy)
@@ -81,7 +81,7 @@ public:
     , Wanted(ends)
     , Portion(portion)
   {
-    // Some bricks at once: of most eighths there is nothing to keep.
+    // Some bricks at a time: most eighths have nothing to keep.
     constexpr std::size_t some = 4096;
     std::vector<std::array<IsovertexCluster, 8>> found;
     const std::size_t bricks = hierarchy.Diamonds().Level(0).Bricks.size();

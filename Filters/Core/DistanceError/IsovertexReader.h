@@ -13,11 +13,11 @@ namespace isodiamond
 {
 
 /**
- * Reads the isovertices of full resolution in the domain of a diamond off the hierarchy, where few
- * diamonds need theirs, and nobody hands them down.
+ * Reads the isovertices of full resolution in the domain of a diamond off the hierarchy, for cases
+ * where few diamonds need theirs and none are handed down.
  *
- * Isovertices never are at an end of their edge. So one that lies in a tetrahedron, a union of
- * those of full resolution, lies on an edge in it, whose owner lies in it, too.
+ * Isovertices are never at an end of their edge. So one that lies in a tetrahedron, a union of
+ * those of full resolution, lies on an edge in it, and the edge's owner lies in it too.
  */
 class IsovertexReader
 {
@@ -33,7 +33,7 @@ public:
 
   /** Calls body(eighth, its origin) for eighths of the bricks that have owners in a box of lattice
    *  points, ends included, until it returns false; eighth(use) calls use(position, whether both
-   *  ends of its edge are finite) for the isovertices of these. @return whether it never did */
+   *  ends of its edge are finite) for these owners' isovertices. @return whether it never did */
   template <typename Body>
   bool ForEachEighth(const Point& low, const Point& high, const Body& body) const
   {
@@ -60,9 +60,9 @@ public:
     return goesOn;
   }
 
-  /** Calls body(position, whether both ends are finite, edge of the domain) for those in the domain
-   *  of a diamond of scale 0 or 1, but for corners of its patches: these are where they are, and as
-   *  the centre has an edge to both ends of theirs, they never are the only ones. */
+  /** Calls body(position, whether both ends are finite, edge of the domain) for the isovertices in
+   *  the domain of a diamond of scale 0 or 1, except corners of its patches: these are at a
+   *  distance of 0 and, as the centre has an edge to both ends of theirs, never the only ones. */
   template <typename Body>
   void ForEachInDomain(const Place& diamond, const Body& body)
   {
@@ -121,7 +121,7 @@ private:
   const BrickLevel& Level;
   const Finiteness& IsFinite;
   int Surface;
-  std::optional<BrickWindow> Window; ///< that was used last
+  std::optional<BrickWindow> Window; ///< the one used last
   Point WindowAt{};
 };
 

@@ -15,34 +15,34 @@ namespace isodiamond
 
 /**
  * Bounds of the way back that the way forth finds as it goes, for each tetrahedron of each diamond
- * above scale 0: of the many of that scale a map of the whole domain tells as well (DomainMap.h).
+ * above scale 0: for the many of scale 0 a map of the whole domain tells as much (DomainMap.h).
  *
- * Let a map take every isovertex of full resolution in a tetrahedron to a point of the patch: on an
- * edge, to the patch's corner on it; on a triangle, to a point of the patch's side in it; inside,
- * to any. Linear over the triangles of full resolution, it takes the border of their surface to
- * that of the patch, each side of this covered an odd number of times. So all of a flat patch is
- * covered, and no point of it is farther from the surface than the farthest isovertex from where it
- * is taken. Of a patch of two triangles, which can be bent, any point is by the bend farther.
+ * Let a map take every isovertex of full resolution in a tetrahedron to a point of the patch: one
+ * on an edge to the patch's corner on it; one on a triangle to a point of the patch's side in it;
+ * one inside to any. Linear over the triangles of full resolution, it takes the border of their
+ * surface to that of the patch, covering each side of the latter an odd number of times. So all of
+ * a flat patch is covered, and no point of it is farther from the surface than the farthest
+ * isovertex is from its image. For a patch of two triangles, which can be bent, the bend is added.
  *
- * Without a bound where an isovertex lies on an edge that the patch does not cross, or on a
- * triangle where it has no side; or where nobody has looked at one.
+ * There is no bound where an isovertex lies on an edge that the patch does not cross, or on a
+ * triangle where it has no side; nor where nobody has looked at one.
  *
- * Peers who have some of the isovertices each find bounds of these: the greatest counts.
+ * Peers that each have some of the isovertices find bounds for these: the greatest counts.
  */
 class MapBounds
 {
 public:
-  /** Where nobody has looked. No bound has it: ErrorCode::Least. */
+  /** Where nobody has looked. No bound has this code: the least is ErrorCode::Least. */
   static constexpr ErrorCode::Type None = 0;
 
-  /** Of one diamond and one surface, by tetrahedron, as ForEachParentHalf() counts. */
+  /** Of one diamond and one surface, by tetrahedron, numbered as by ForEachParentHalf(). */
   using OfDiamond = std::array<ErrorCode::Type, 8>;
   static constexpr OfDiamond NoneOfDiamond{};
 
   /** No bounds, of no diamonds: none are wanted. */
   MapBounds() = default;
 
-  /** None yet, of the diamonds above scale 0. */
+  /** No bounds yet, for the diamonds above scale 0. */
   MapBounds(const DiamondSet& diamonds, int surfaceCount)
   {
     const std::vector<Brick>& last = diamonds.Level(0).Bricks; // in the order of ranks
@@ -68,7 +68,7 @@ public:
   }
 
   ///@{
-  /** Puts the bounds together that peers have found: of the same diamonds, or of portions. */
+  /** Puts together the bounds that peers have found, for the same diamonds or for portions. */
   void Merge(Peers& peers)
   {
     for (std::vector<OfDiamond>& codes : this->Codes)

@@ -23,10 +23,10 @@ struct NearestTriangle
   TriangleDistance Triangle;
 };
 
-/** Numbers of 32 bits of eight things: loops over them become vector instructions. */
+/** A 32-bit number for each of eight things: loops over them become vector instructions. */
 using Eight = std::array<float, 8>;
 
-/** Eight boxes along the axes. */
+/** Eight axis-aligned boxes. */
 struct EightBoxes
 {
   std::array<Eight, 3> Middle{};
@@ -44,7 +44,7 @@ struct EightBoxes
       const float dx = std::abs(this->Middle[0][i] - x) - this->Half[0][i] - slack;
       const float dy = std::abs(this->Middle[1][i] - y) - this->Half[1][i] - slack;
       const float dz = std::abs(this->Middle[2][i] - z) - this->Half[2][i] - slack;
-      // Twice what is positive, without a decision.
+      // Twice what is positive, without a branch.
       const float twiceX = dx + std::abs(dx);
       const float twiceY = dy + std::abs(dy);
       const float twiceZ = dz + std::abs(dz);
@@ -54,7 +54,7 @@ struct EightBoxes
   }
 };
 
-/** Eight triangles, each by its plane and three that stand on its sides. */
+/** Eight triangles, each given by its plane and three that stand on its sides. */
 struct EightTriangles
 {
   /** The signed distance from a plane is a dot product with a normal, less an offset. */
@@ -76,7 +76,7 @@ struct EightTriangles
   Planes Flat;
   std::array<Planes, 3> Walls; ///< outward
 
-  /** As of boxes: how far from the plane, and how far beyond a side. */
+  /** As for boxes: by how far it is from the plane, and how far beyond a side. */
   Eight Away(const std::array<float, 3>& from, float slack) const
   {
     const float x = from[0];
@@ -94,7 +94,7 @@ struct EightTriangles
       const float first = height(this->Walls[0], i);
       const float second = height(this->Walls[1], i);
       const float third = height(this->Walls[2], i);
-      // Greater ones, and what is positive, without a decision.
+      // Maxima, and what is positive, without a branch.
       const float both = 0.5F * (first + second + std::abs(first - second));
       const float beside = 0.5F * (both + third + std::abs(both - third)) - slack;
       const float twiceAbove = above + std::abs(above);
@@ -108,9 +108,8 @@ struct EightTriangles
 /**
  * The triangles of full resolution in some cells, gathered once for many searches for the nearest.
  *
- * A box around every eight tells whether these may be nearer than what was found; of those that
- * may, their planes tell. That is done in numbers of 32 bits. Few triangles are left to be
- * measured.
+ * A box around every eight tells whether these may be nearer than what was found; if so, their
+ * planes tell which. That is done in 32-bit numbers. Few triangles are left to be measured.
  */
 template <typename Lengths>
 class NearbyTriangles
@@ -196,13 +195,12 @@ private:
     const Vector& Point;
     Place From;
     float Slack;
-    float Limit; ///< what is more is farther, but not what is not a number
+    float Limit; ///< what is more is farther, except what is not a number
     double Squared;
     const TriangleDistance* Found;
   };
 
-  /** Eight triangles, or fewer. What it takes to measure them is made when they are first asked
-   *  for. */
+  /** Eight triangles, or fewer. What is needed to measure them is made when first asked for. */
   struct Group
   {
     int Count = 0;
@@ -253,7 +251,7 @@ private:
     }
   }
 
-  /** Without a direction there is no plane that anything is far from. */
+  /** Without a direction, nothing counts as far from the plane. */
   void SetPlane(
     EightTriangles::Planes& planes, int index, const Vector& across, const Vector& point) const
   {
@@ -268,7 +266,7 @@ private:
     return { static_cast<float>(offset[0]), static_cast<float>(offset[1]),
       static_cast<float>(offset[2]) };
   }
-  /** Four times a squared length, as the bounds are; and a little more. */
+  /** Four times a squared length, like the bounds, and a little more. */
   float SquaredInUnits(double squared) const
   {
     return static_cast<float>(4.00004 * squared * this->PerUnit * this->PerUnit);

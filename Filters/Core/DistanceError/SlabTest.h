@@ -12,7 +12,7 @@
 namespace isodiamond
 {
 
-/** The cells that a box of index space touches, of those in another box. */
+/** Those cells of another box that a box of index space touches. */
 inline CellBox CellsIn(const std::array<Vector, 2>& box, const CellBox& whole)
 {
   CellBox cells;
@@ -72,18 +72,17 @@ private:
 
 /**
  * Whether a surface passes a flat piece within a distance, all over it: it crosses neither of two
- * copies that are moved by the distance, up and down, but the way from one to the other.
+ * copies that are moved by the distance, up and down, but does cross the way from one to the other.
  *
- * Of the surface counts what lies over the piece. It is closed but for the
- * grid's boundary and for hidden cells: where the copies leave the grid, or come near to a hidden
- * cell, the answer is no.
+ * Only what lies over the piece counts. The surface is closed except at the grid's boundary and at
+ * hidden cells: where the copies leave the grid, or come near to a hidden cell, the answer is no.
  */
 template <typename Lengths>
 class SlabTest
 {
 public:
   /** @param normal of the piece, of unit length
-   *  @param known how near is near enough in any case @param limit and at most */
+   *  @param known what is near enough in any case @param limit the greatest distance allowed */
   SlabTest(const ConvexPolygon& piece, const Vector& normal, double known, double limit,
     const FineSurface& fine, const Lengths& lengths, const CellBalls<Lengths>& balls)
     : Piece(piece)
@@ -105,7 +104,7 @@ public:
       const Vector& to = piece.Corners[i + 1 == piece.Count ? 0 : i + 1];
       this->Inward[i] = { Cross(normal, to - from), from, lengths };
     }
-    // No corner, no line between two of them: what is symmetric has many triangles meet there.
+    // Not at a corner, nor on a line between two: in symmetric surfaces many triangles meet there.
     this->Line = 0.41 * piece.Corners[0] + 0.33 * piece.Corners[1] + 0.26 * piece.Corners[2];
     this->Heights = { normal, this->Line, lengths };
     this->IsClear = fine.ForEachCell(CellsIn(box, whole),
@@ -151,7 +150,7 @@ private:
     return all;
   }
 
-  /** The signed distance from a plane, times some length. Of fine positions it is linear where
+  /** The signed distance from a plane, times some length. For fine positions it is linear where
    *  lengths are. */
   class Plane
   {
@@ -189,7 +188,7 @@ private:
       }
     }
 
-    /** What of a ball is highest. */
+    /** At the highest point of a ball. */
     double Top(const Ball& ball) const { return (*this)(ball.Middle) + this->Length * ball.Radius; }
     double Bottom(const Ball& ball) const
     {
@@ -254,7 +253,7 @@ private:
     return false;
   }
 
-  /** What lies over the piece of a triangle that is not all within what is known. */
+  /** Looks at what lies over the piece, of a triangle that is not all within what is known. */
   void LookOver(const std::array<Vector, 3>& corners)
   {
     std::array<ConvexPolygon, 2> over;
@@ -294,7 +293,7 @@ private:
   {
     const auto side = [&](int i, int j)
     { return Dot(Cross(corners[i] - this->Line, corners[j] - this->Line), this->Upward); };
-    // What each corner counts for where the line is.
+    // The weight of each corner where the line is.
     const std::array<double, 3> weights = { side(1, 2), side(2, 0), side(0, 1) };
     const bool isFirst = weights[0] > 0.0;
     if (isFirst != (weights[1] > 0.0) || isFirst != (weights[2] > 0.0))
@@ -309,7 +308,7 @@ private:
 
   const ConvexPolygon& Piece;
   Vector Upward;
-  Plane Heights; ///< over the piece, in the direction
+  Plane Heights; ///< over the piece, along its normal
   double Known;
   double Limit;
   const Lengths& InWorld;

@@ -39,7 +39,7 @@ struct SpineEdges
   std::array<std::array<std::uint8_t, 6>, 8> OfTetrahedron{};
 };
 
-/** The table of the type of a position. */
+/** The table for the type of a position. */
 const SpineEdges& SpineEdgesOf(const Point& position);
 
 /** The place of an owner. */

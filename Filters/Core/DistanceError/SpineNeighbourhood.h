@@ -20,7 +20,7 @@ struct NumberedPatch
   SurfacePatch Patch; ///< can be empty
 };
 
-/** Those of all that are there. */
+/** The patches of all tetrahedra that are there. */
 class NumberedPatches
 {
 public:
@@ -45,9 +45,9 @@ public:
   {
   }
 
-  /** Calls body(number, tetrahedron) for the tetrahedra of a diamond, those of stored parents; the
-   *  index as ForEachParentHalf() counts.
-   *  @param onlySampled those that have samples at all of their vertices */
+  /** Calls body(number, tetrahedron) for those tetrahedra of a diamond that have stored parents,
+   *  numbered as by ForEachParentHalf().
+   *  @param onlySampled only those that have samples at all of their vertices */
   template <typename Body>
   void ForEachTetrahedron(const Place& diamond, bool onlySampled, Body&& body) const
   {

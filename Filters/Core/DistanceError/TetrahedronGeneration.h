@@ -19,7 +19,7 @@ struct Holder
   HalfPlace Tetrahedron;
   Place Diamond;
   std::uint32_t Rank = 0; ///< of the diamond
-  std::size_t Begin = 0;  ///< its items in the level's
+  std::size_t Begin = 0;  ///< its items in the generation's
   std::size_t End = 0;
 };
 
@@ -30,9 +30,9 @@ struct Generation
   std::vector<Holder> Holders;
   std::vector<Item> Items; ///< the first Count; memory that was used once is kept
   std::size_t Count = 0;
-  std::vector<std::uint64_t> Order; ///< rank of the diamond, and index of the holder in 32 bits
+  std::vector<std::uint64_t> Order; ///< rank of the diamond, then index of the holder in 32 bits
 
-  /** Brings the tetrahedra of a diamond together, in the order. */
+  /** Makes an order in which the tetrahedra of each diamond are together. */
   void SortByDiamond()
   {
     this->Order.clear();
@@ -47,7 +47,7 @@ struct Generation
     return this->Holders[this->Order[inOrder] & 0xffffffffU];
   }
 
-  /** Where some more items fit. */
+  /** Room for some more items. */
   Item* Room(std::size_t more)
   {
     if (this->Count + more > this->Items.size())

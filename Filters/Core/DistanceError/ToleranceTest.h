@@ -22,9 +22,9 @@ namespace isodiamond
 
 /**
  * Tests whether single diamonds exceed what is tolerated of them, on one surface: first the way
- * forth, then the way back. Used for one diamond after the other, by one thread.
+ * forth, then the way back. Used for one diamond after another, by one thread.
  *
- * Isovertices are read where the domain is, and one that is too far away settles it.
+ * Isovertices are read from the domain, and a single one that is too far away settles it.
  */
 template <typename Lengths>
 class ToleranceTest
@@ -98,7 +98,7 @@ private:
     }
   }
 
-  /** By a table. */
+  /** Finds isovertices by a table. */
   bool IsSmallDomainWithin()
   {
     bool isFinite = true;
@@ -133,7 +133,7 @@ private:
     return true;
   }
 
-  /** Some at a time: often the first ones settle it. */
+  /** Reads some isovertices at a time: often the first ones settle it. */
   bool IsDomainWithin()
   {
     for (Part& part : this->Parts)
@@ -218,7 +218,7 @@ private:
       return false;
     }
     part.SquaredBack = std::max(part.SquaredBack, squared);
-    // What is farther does not help. Of small domains the table tells what is on borders.
+    // A bound above the tolerance is no help. In small domains a table tells what is on borders.
     if (part.SquaredBack <= this->Tolerated && this->Diamond.Scale > 1 &&
       this->Diamond.Scale < CoarseScale)
     {
@@ -256,20 +256,20 @@ private:
   bool HasNone = false;                ///< whether the diamond has no interpolant
   Farthest Far;                        ///< the farthest isovertex, or what is tolerated
   std::array<Part, 8> Parts;           ///< by number
-  std::vector<FinePosition> Positions; ///< that were read in the domain, with finite ends
+  std::vector<FinePosition> Positions; ///< read in the domain, of edges with finite ends
   std::vector<FinePosition> NotFinite; ///< the others
   std::vector<std::pair<FinePosition, const FineDomain::Edge*>> OnBorders; ///< of tetrahedra
   PositionRows Rows;
-  std::vector<float> Sides; ///< of a tetrahedron that these are on
+  std::vector<float> Sides; ///< of these: not negative in a tetrahedron
 };
 
-/** Tests diamonds on one surface. @param exceeds one a diamond, to be set where one does */
+/** Tests diamonds on one surface. @param exceeds one entry per diamond, to be set where it does */
 template <typename Lengths>
 void TestAll(const TestedSurface& surface, const TestedHierarchy& tested, const Lengths& lengths,
   const std::vector<TestedDiamond>& diamonds, std::vector<std::uint8_t>& exceeds,
   const ParallelFor& parallelFor)
 {
-  // Those of the first rounds are few and coarse, and each is much work.
+  // Diamonds of the first rounds are few and coarse, and each is much work.
   int coarsest = 0;
   for (const TestedDiamond& tested : diamonds)
   {

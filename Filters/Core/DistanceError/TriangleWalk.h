@@ -10,7 +10,7 @@
 namespace isodiamond
 {
 
-/** The patches around a spine have no more triangles. */
+/** The patches around a spine have no more triangles than this. */
 inline constexpr int MostPatchTriangles = 16;
 
 /** Triangles, each a neighbour of the one before. */
@@ -26,9 +26,9 @@ class TriangleNeighbours
 public:
   void Set(int triangle, std::uint32_t neighbours) { this->Of[triangle] = neighbours; }
 
-  /** The shortest walk from one of some triangles to one of others, both counted; none of a step if
-   *  one is both. Depends on the sets alone.
-   *  @param within only triangles of this set are passed
+  /** The shortest walk from one of some triangles to one of others, both included; of a single
+   *  triangle if one is in both sets. Depends on the sets alone.
+   *  @param within the set of triangles that may be passed
    *  @return whether there is one */
   bool FindWalk(
     std::uint32_t some, std::uint32_t others, TriangleWalk& walk, std::uint32_t within = ~0U) const
@@ -69,11 +69,11 @@ private:
 };
 
 /**
- * A walk that takes steps back: a step to where it came from leaves nothing of the one before.
+ * A walk that undoes steps: a step back to where it came from cancels the one before.
  *
- * If the border of something walks over triangles and nothing is left of that but where it began,
- * it crosses each side as often in one direction as in the other. So it can be cut across from
- * crossing to crossing, into pieces that each lie over one triangle.
+ * If the border of something walks over triangles and nothing is left of that walk but its start,
+ * the border crosses each side as often in one direction as in the other. So what it encloses can
+ * be cut from crossing to crossing, into pieces that each lie over one triangle.
  */
 class ReducedWalk
 {
@@ -100,7 +100,7 @@ public:
 
 private:
   int Count = 0;
-  /** Of the border of a triangle: three edges, and between them three corners. */
+  /** For the border of a triangle: three edges and, between them, three corners. */
   std::array<std::uint8_t, 6 * MostPatchTriangles> Triangles;
 };
 

@@ -28,22 +28,22 @@ namespace isodiamond
  * The way back of one diamond: how far a point of its patches can be from the surface of full
  * resolution. A leaf of a mesh lies in one diamond only, so no mates and no stand-ins count.
  *
- * Only what exceeds the error so far is of interest, and most patches are settled by how far a map
- * moves the surface to them: of one tetrahedron (MapBounds), or of the domain (DomainMap).
+ * Only what exceeds the error so far is of interest, and most patches are settled by how far a map,
+ * of one tetrahedron (MapBounds) or of the domain (DomainMap), moves the surface to them.
  *
- * For the others, let two copies of a flat piece be moved away from it by a distance, up and down.
- * If the surface crosses neither of them, but the way from one to the other, it has to pass
+ * For the others, move two copies of a flat piece away from it by a distance, one up and one down.
+ * If the surface crosses neither, but does cross the way from one to the other, it has to pass
  * between, all over the piece: no point of the piece is farther. Few triangles need a look for
- * that. What it does not hold for is cut, until the nearest triangles tell.
+ * that. Pieces that this does not settle are cut, until the nearest triangles decide.
  *
- * The result is the greatest distance, but for a part of 1/4 at most unless cells are extremely
- * uneven; never less.
+ * The result is the greatest distance, or more by at most 1/4 unless cells are extremely uneven;
+ * never less.
  */
 template <typename Lengths>
 class WayBack
 {
 public:
-  /** @param fine the surface of the number. All must outlive it. */
+  /** @param fine the surface with that number. All must outlive it. */
   WayBack(const IsodiamondHierarchy& hierarchy, const Lengths& lengths, int surface,
     const FineSurface& fine, const ErrorCode& code)
     : Hierarchy(hierarchy)
@@ -59,16 +59,16 @@ public:
   {
   }
 
-  /** The greater of a diamond's error so far and of the way back.
+  /** The greater of a diamond's error so far and its way back.
    *  @param bounds of the way forth
-   *  @param isWhole whether no cell in the domain is hidden: maps know of none */
+   *  @param isWhole whether no cell in the domain is hidden: maps do not know of hidden cells */
   double Measure(
     const Place& diamond, const MapBounds::OfDiamond& bounds, double error, bool isWhole)
   {
     return std::max(error, this->BoundAbove(diamond, bounds, error, isWhole));
   }
 
-  /** Whether the way back of a diamond surely is no longer than so much. It may say no from 8/9 of
+  /** Whether the way back of a diamond is surely no longer than `most`. It may say no from 8/9 of
    *  that on, and after MostLooks. */
   bool IsWithin(const Place& diamond, const MapBounds::OfDiamond& bounds, double most, bool isWhole)
   {
@@ -80,17 +80,17 @@ public:
   }
 
 private:
-  /** How much more than what is known bounds can be: of maps; of maps that something in the way
-   *  has been compared with; of pieces. */
+  /** By what part bounds can exceed what is known: those of maps; of maps, once what was in the way
+   *  has been compared with what is nearest; of pieces. */
   static constexpr double MapPrecision = 1.0 / 16.0;
   static constexpr double ComparedPrecision = 1.0 / 4.0;
   static constexpr double Precision = 1.0 / 8.0;
   /** How often pieces of one diamond are compared with what is nearest before bounds are taken as
-   *  they are. Few diamonds need so many: where cells are a million times longer than wide. */
+   *  they are. Few diamonds need so many: those with cells a million times longer than wide. */
   static constexpr int MostLooks = 500;
-  /** How many triangles that were found are kept. */
+  /** How many of the triangles found are kept. */
   static constexpr int MostFound = 4;
-  /** How many cells are worth being gathered. */
+  /** How many cells are worth gathering. */
   static constexpr std::int64_t MostCells = 1000;
 
   /** A bound of the way back, as far as it exceeds what is known. */
@@ -124,7 +124,7 @@ private:
     return this->Bound;
   }
 
-  /** What a bound may be: by a part more than what is known, or all that may be. */
+  /** What a bound may be: more than what is known by a part of it, or all that is allowed. */
   double Limit(double part) const
   {
     return this->Most < HUGE_VAL ? this->Most : (1.0 + part) * this->Known;
@@ -170,7 +170,7 @@ private:
     return true;
   }
 
-  /** Whether a map of the domain bounds the way back. What is farther than is known is measured. */
+  /** Whether a map of the domain bounds the way back. What exceeds what is known is measured. */
   bool IsDomainMapped(const Place& diamond)
   {
     return this->BoundByMap(diamond, MapPrecision) < HUGE_VAL ||
@@ -243,7 +243,7 @@ private:
     }
   }
 
-  /** All of a piece, in smaller ones. */
+  /** Measures all of a piece, in smaller ones. */
   void MeasureFrom(const FlatPiece& whole)
   {
     if (this->IsBetween(whole))
@@ -266,7 +266,7 @@ private:
   /** Whether the surface passes a piece within what is known, all over it. */
   bool IsBetween(const FlatPiece& piece)
   {
-    // Where so much is near, other sheets pass, too, and the nearest triangles tell as soon.
+    // Within so large a distance other sheets pass too, and the nearest triangles tell as soon.
     const Vector middle = piece.Polygon.Middle();
     if (this->Known * this->Known > piece.Polygon.SquaredRadius(middle))
     {
@@ -277,7 +277,7 @@ private:
     return test.IsBetween() && this->IsAccepted(test.Greatest() + piece.Bend);
   }
 
-  /** A piece against the triangle that is nearest to its middle; what is not near enough is cut. */
+  /** Compares a piece with the triangle nearest to its middle; cuts it if it is not near enough. */
   void CompareWithNearest(const ConvexPolygon& piece)
   {
     if (this->IsNearToFound(piece))
@@ -316,8 +316,8 @@ private:
     this->CutUp(piece, nearest.Triangle);
   }
 
-  /** Whether all of a piece is within what is known of a triangle that was found: of pieces side by
-   *  side often that of another one. */
+  /** Whether all of a piece is within what is known of a triangle that was found: often one found
+   *  for a piece beside it. */
   bool IsNearToFound(const ConvexPolygon& piece)
   {
     const double enough = this->Known * this->Known;
@@ -343,8 +343,8 @@ private:
       [&](const Vector& a, const Vector& b) { return triangle.Squared(a) < triangle.Squared(b); });
   }
 
-  /** Cuts a piece into what lies over a triangle and what lies beyond its sides; in halves, if all
-   *  lies on one side but for slivers. */
+  /** Cuts a piece into what lies over a triangle and what lies beyond its sides; in halves if all
+   *  but slivers lies on one side. */
   void CutUp(const ConvexPolygon& piece, const TriangleDistance& triangle)
   {
     constexpr int many = 6;
@@ -413,7 +413,7 @@ private:
     }
   }
 
-  /** How far other cells are, about. */
+  /** About how far away other cells are. */
   double StepAt(const Vector& point) const
   {
     if constexpr (Lengths::IsLinear)
@@ -428,7 +428,7 @@ private:
     }
   }
 
-  /** Gathers what is near to the patches that are still to be measured, once for a diamond. */
+  /** Gathers what is near to the patches that are still to be measured, once per diamond. */
   void GatherNearby()
   {
     if (this->HasNearby)
@@ -463,7 +463,7 @@ private:
     }
   }
 
-  /** The nearest triangle of the surface, or some that is near enough: what is known rises to its
+  /** The nearest triangle of the surface, or one that is near enough: what is known rises to its
    *  distance. */
   NearestTriangle FindNearest(const Vector& point, double enough)
   {
@@ -489,7 +489,7 @@ private:
     {
       this->Nearby.FindNearer(point, squaredEnough, nearest);
     }
-    // Farther and farther away, and at last where something may be nearer than what was found.
+    // Look farther and farther away, at last wherever something may be nearer than what was found.
     CellBox done = this->Nearby.Cells();
     double radius = 0.5 * this->StepAt(point);
     bool isAll = false;
@@ -543,7 +543,7 @@ private:
     const double height = Dot(point - a, normal);
     if (height * height > nearest.Squared * Dot(normal, normal))
     {
-      return; // so far is its plane
+      return; // even its plane is farther
     }
     const TriangleDistance triangle(a, b, c);
     const double squared = triangle.Squared(point);
@@ -553,7 +553,7 @@ private:
     }
   }
 
-  /** Cuts across the longest way from a corner to another. */
+  /** Cuts across the longest way from one corner to another. */
   void Halve(const ConvexPolygon& piece)
   {
     Vector longest{};
@@ -583,7 +583,7 @@ private:
   NearbyTriangles<Lengths> Nearby; ///< to the diamond
   DomainMap<Lengths> Map;
   double Least;           ///< what is less is no error
-  double Known = 0.0;     ///< the error is not less: that so far, or a distance that was found
+  double Known = 0.0;     ///< the error is not less: the one so far, or a distance found
   double Bound = 0.0;     ///< nothing that was looked at is farther
   double Most = HUGE_VAL; ///< what is farther need not be measured
   int Left = 0;           ///< how many more looks are worth it

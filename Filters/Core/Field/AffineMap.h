@@ -33,7 +33,7 @@ struct AffineMap
       r[0][2] * this->Cofactor(0, 2);
   }
 
-  /** Whether the map turns orientation around; triangles then wind the other way in index space. */
+  /** Whether the map reverses orientation; triangles then wind the other way in index space. */
   bool Mirrors() const { return this->Determinant() < 0.0; }
 
   /** Cofactor of the linear part; the cofactor matrix maps normals, up to the determinant. */

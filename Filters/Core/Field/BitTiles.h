@@ -16,8 +16,9 @@ namespace isodiamond
 class Peers;
 
 /**
- * A bit for each point of a box, in tiles of 64 x 8 x 8: where all bits of a tile are equal only
- * that is kept. So signs take memory where a surface is, and four bytes for 4096 points elsewhere.
+ * One bit for each point of a box, in tiles of 64 x 8 x 8; of a tile whose bits are all equal, only
+ * their value is kept. So signs take memory where there is a surface, and four bytes for 4096
+ * points elsewhere.
  */
 class BitTiles
 {
@@ -35,7 +36,7 @@ public:
   class Row
   {
   public:
-    /** Bits 64 i and on; those beyond the row's end may be any. */
+    /** Bits 64 i and on; those beyond the row's end are arbitrary. */
     std::uint64_t operator[](std::int64_t i) const
     {
       const std::int32_t tile = this->First[i];
@@ -44,7 +45,7 @@ public:
 
   private:
     friend class BitTiles;
-    const std::int32_t* First = nullptr; ///< of the tiles that it passes through
+    const std::int32_t* First = nullptr; ///< entries of the tiles it passes through
     const std::array<std::uint64_t, 64>* Mixed = nullptr;
     int Word = 0; ///< in each tile
   };
@@ -57,7 +58,7 @@ public:
     return row;
   }
 
-  /** Whether tiles tell that all bits of a box are equal. Those of others can be, too.
+  /** Whether the tiles alone show that all bits of a box are equal; else they may still be equal.
    *  @param last included; the box may reach beyond the points */
   bool AreEqual(const Point& first, const Point& last) const
   {
@@ -80,24 +81,24 @@ public:
   }
 
   /**
-   * Sets bits of some slices. Slices that were set before are to be the same.
+   * Sets the bits of some slices. Slices that were set before must get the same bits.
    *
-   * @param rows words of the rows of these slices, one after the other; those beyond a row's end 0
+   * @param rows words of the rows of these slices, one after the other; 0 beyond a row's end
    */
   void Set(int firstSlice, int sliceCount, const std::vector<std::uint64_t>& rows,
     const ParallelFor& parallelFor);
 
-  /** Bits that peers have set. */
+  /** Adds the bits that peers have set. */
   void Or(Peers& peers);
 
-  /** Forgets what tiles hold whose bits are all equal: slices that were set one after the other may
-   *  have come to that. */
+  /** Drops the words of tiles whose bits are all equal, as they may have become after slices were
+   *  set one after the other. */
   void Compress();
 
   /** Every second bit of every second row of every second slice. @param count of these */
   BitTiles Coarser(const std::array<int, 3>& count) const;
 
-  /** The words of all rows; those beyond a row's end 0. */
+  /** The words of all rows; bits beyond a row's end are 0. */
   std::vector<std::uint64_t> AllRows() const;
 
 private:
@@ -106,7 +107,7 @@ private:
   static constexpr std::int32_t Zeros = -1;
   static constexpr std::int32_t Ones = -2;
 
-  /** Of the first tile in a row of them; and where a tile is among all. */
+  /** The index of the first tile in a row of tiles; and the coordinates of a tile by its index. */
   std::int64_t TileIndex(int y, int z) const
   {
     return (std::int64_t{ z } * this->Tiles[1] + y) * this->Tiles[0];
@@ -118,17 +119,17 @@ private:
       static_cast<int>(row / this->Tiles[1]) };
   }
 
-  /** The bits of a word of a row that are points. */
+  /** The bits of a word of a row that stand for points. */
   std::uint64_t Valid(std::int64_t word) const
   {
     const std::int64_t count = this->Points[0] - 64 * word;
     return count >= 64 ? ~std::uint64_t{ 0 } : (std::uint64_t{ 1 } << count) - 1;
   }
 
-  /** What the Lookup of a tile is to say of some words: Zeros or Ones; 0 if they are mixed. */
+  /** The Lookup entry for a tile of these words: Zeros or Ones; 0 if they are mixed. */
   std::int32_t StateOf(const Tile& tile, const Point& at) const;
 
-  /** A tile more, of bits that are 0. @return its number in Mixed */
+  /** Appends a tile of bits that are 0. @return its number in Mixed */
   std::int32_t Append()
   {
     this->Mixed.push_back(Tile{});
@@ -137,7 +138,7 @@ private:
 
   std::array<int, 3> Points{};
   std::array<int, 3> Tiles{};
-  std::vector<std::int32_t> Lookup; ///< Zeros, Ones, or where it is in Mixed
+  std::vector<std::int32_t> Lookup; ///< Zeros, Ones, or its number in Mixed
   std::vector<Tile> Mixed;
 };
 

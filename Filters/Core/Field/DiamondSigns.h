@@ -23,7 +23,7 @@ enum class Kind : int
  * The signs of a diamond's vertices, as edge masks, and of its centre; from them follow the crossed
  * edges and the kind. Vertices without a sample, beyond the grid, are on no side.
  *
- * Where kinds of many diamonds are wanted at once, Classification.h finds the same by words.
+ * Where the kinds of many diamonds are wanted at once, Classification.h finds them by words.
  */
 class DiamondSigns
 {
@@ -39,7 +39,7 @@ public:
   {
   }
 
-  /** By samples. */
+  /** Reads the signs from the samples. */
   DiamondSigns(
     const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
     : DiamondSigns(Read(region,
@@ -104,8 +104,8 @@ private:
   std::array<std::uint32_t, 2> Above; ///< by surface
 };
 
-/** The same as DiamondSigns::HasAllVerticesInside(): knows at the first vertex that is not.
- *  @param signOf a lattice point that has a sample */
+/** The same as DiamondSigns::HasAllVerticesInside(), but stops at the first vertex not inside.
+ *  @param signOf called with lattice points that have a sample */
 template <typename SignOf>
 bool HasAllVerticesInside(
   const Isoregion& region, const Grid& grid, const Place& place, const SignOf& signOf)
@@ -125,7 +125,7 @@ bool HasAllVerticesInside(
   return any && all;
 }
 
-/** By samples. */
+/** The same, by samples. */
 inline bool HasAllVerticesInside(
   const Isoregion& region, const Grid& grid, const AnySamples& samples, const Place& place)
 {

@@ -12,9 +12,9 @@ namespace isodiamond
 {
 
 /**
- * Gradients in the world of the full-resolution field: central differences at the samples,
- * one-sided on the grid's boundary and beside samples that are not finite, interpolated
- * trilinearly. Where the field is not finite they are not either.
+ * World-space gradients of the full-resolution field: central differences at the samples, one-sided
+ * on the grid's boundary and beside samples that are not finite, interpolated trilinearly. Where
+ * the field is not finite, neither are they.
  */
 class Gradients
 {
@@ -22,12 +22,12 @@ public:
   /** Both must outlive it. */
   Gradients(const AnySamples& samples, const GridGeometry& geometry);
 
-  /** At a position in index space; the nearest in the grid for one beyond it. */
+  /** The gradient at a position in index space; for one beyond the grid, at the nearest in it. */
   Vector operator()(const Vector& index) const;
 
-  /** The unit normal toward lower values, as triangles have them. Where the field is not finite:
-   *  toward what counts as below any value (NaN, too), and away from what counts as above.
-   *  @param gradient the one there */
+  /** The unit normal toward lower values, as of triangles. Where the field is not finite: toward
+   *  what counts as below any value (NaN, too), and away from what counts as above.
+   *  @param gradient the gradient there */
   Vector NormalAt(const Vector& index, const Vector& gradient) const;
 
 private:
@@ -37,7 +37,7 @@ private:
 
   const AnySamples& Samples;
   const GridGeometry& Geometry;
-  /** In the world, for steps in index space, where these are the same everywhere. */
+  /** In the world, for steps in index space, if these are the same everywhere. */
   std::optional<std::array<Vector, 3>> OfSteps;
 };
 

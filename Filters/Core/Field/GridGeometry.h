@@ -14,13 +14,13 @@
 namespace isodiamond
 {
 
-/** A coordinate for every sample on each axis: of a rectilinear grid. */
+/** The coordinates of a rectilinear grid: one for every sample on each axis. */
 using AxisCoordinates = std::array<std::vector<double>, 3>;
 
-/** A position for every sample, x fastest: of a curvilinear grid. It owns nothing. */
+/** The positions of a curvilinear grid: one for every sample, x fastest. It owns nothing. */
 struct SamplePositions
 {
-  std::variant<const float*, const double*> Coordinates; ///< three a sample
+  std::variant<const float*, const double*> Coordinates; ///< three per sample
   std::array<int, 3> Dimensions{};
 };
 
@@ -52,32 +52,32 @@ public:
   }
 
   ///@{
-  /** The affine map, or the coordinates on each axis, if it is one or these. */
+  /** The affine map, or the coordinates on each axis, if the geometry is given by these. */
   const AffineMap* Affine() const { return std::get_if<AffineMap>(&this->Map); }
   const AxisCoordinates* Axes() const { return std::get_if<AxisCoordinates>(&this->Map); }
   ///@}
 
-  /** The world position of one in index space. */
+  /** The world position of a position in index space. */
   Vector operator()(const Vector& index) const;
 
-  /** The derivatives of the position by the index on each axis, at a sample: central differences,
-   *  one-sided at the grid's ends. */
+  /** The derivatives of the position with respect to the index on each axis, at a sample: central
+   *  differences, one-sided at the grid's ends. */
   std::array<Vector, 3> DerivativesAt(const Point& sample) const;
 
   ///@{
-  /** The dimensions of the grid without padding, the position of a sample of it, and the layers of
-   *  padding before the first; not of an affine map. */
+  /** The dimensions of the grid without padding, the position of one of its samples, and the layers
+   *  of padding before the first sample; not for an affine map. */
   std::array<int, 3> Dimensions() const;
   Vector SampleAt(const Point& sample) const;
   int Padding() const { return this->Shift; }
   ///@}
 
-  /** The least distance of two samples next to each other along an axis; 0 of a curvilinear grid,
-   *  where nothing is asked of it. */
+  /** The least distance between neighbouring samples along an axis; 0 for a curvilinear grid, where
+   *  it is not needed. */
   double SmallestStep() const;
 
-  /** Whether orientation turns around from index space to the world; of a curvilinear grid that of
-   *  its middle. */
+  /** Whether orientation is reversed from index space to the world; for a curvilinear grid, at its
+   *  middle. */
   bool Mirrors() const;
 
 private:

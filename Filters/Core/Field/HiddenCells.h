@@ -16,14 +16,14 @@ namespace isodiamond
  *
  * A mesh can only leave out whole tetrahedra, so diamonds that touch a hidden cell and carry
  * something are always subdivided: at full resolution a tetrahedron lies in one cell. Whether a
- * diamond does is asked of a pyramid of blocks, 2^s cells wide at scale s.
+ * diamond touches one is looked up in a pyramid of blocks, 2^s cells wide at scale s.
  */
 class HiddenCells
 {
 public:
   HiddenCells() = default; ///< none
 
-  /** @param hidden whether it is, for each cell, x fastest @param cells of the grid on each axis */
+  /** @param hidden whether each cell is hidden, x fastest @param cells of the grid on each axis */
   HiddenCells(std::vector<std::uint8_t> hidden, const std::array<int, 3>& cells);
 
   bool Any() const { return !this->Levels.empty(); }
@@ -31,7 +31,7 @@ public:
   /** Whether a cell is hidden, by its first sample; cells beyond the grid are not. */
   bool operator()(const Point& cell) const { return this->At(0, cell); }
 
-  /** Whether a cell is hidden in the box around a diamond. */
+  /** Whether the box around a diamond holds a hidden cell. */
   bool Touch(const Place& place) const;
 
 private:

@@ -19,9 +19,9 @@ enum class Shape : int
 };
 
 /**
- * The part of a field that a hierarchy is of: the isosurface {F = k} of an isovalue, or the
- * interval volume {a <= F <= b} of an isorange. The one is bounded by one *surface*, numbered 0,
- * the other by a lower and an upper one, 0 and 1.
+ * The part of a field that a hierarchy represents: the isosurface {F = k} of an isovalue, or the
+ * interval volume {a <= F <= b} of an isorange. The former is bounded by one *surface*, numbered 0,
+ * the latter by a lower and an upper one, 0 and 1.
  *
  * The *sign* of a value is the number of surfaces that it lies above: for an isovalue 1 where
  * F > k, else 0; for an isorange 0 below a, 1 inside, 2 above b (the paper's -1, 0 and 1). NaN

@@ -35,8 +35,8 @@ void ForEachIndex(const ParallelFor& parallelFor, Count count, std::int64_t grai
     });
 }
 
-/** Runs body(i) for all i in [0, count), one after the other, with a call of the parallel-for every
- *  so many of them: for what has to be done in order, so that it can be told of, and aborted. */
+/** Runs body(i) for all i in [0, count), one after the other, calling the parallel-for once for
+ *  each step: so work that has to be done in order can report progress, and be aborted. */
 template <typename Body>
 void InSteps(const ParallelFor& parallelFor, std::size_t count, std::size_t step, const Body& body)
 {
@@ -54,7 +54,7 @@ void InSteps(const ParallelFor& parallelFor, std::size_t count, std::size_t step
   }
 }
 
-/** Told that a phase of some work begins, and which part of the whole it is, from 0 to 1. */
+/** Called when a phase of some work begins, with the part of the whole that it is, from 0 to 1. */
 using Progress = std::function<void(const char* phase, double begin, double end)>;
 
 /** The parallel-for of one thread. */

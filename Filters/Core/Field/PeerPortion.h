@@ -15,16 +15,16 @@ namespace isodiamond
 {
 
 /**
- * The portion of a hierarchy that this process has while peers build it: a set of its own, with
- * ranks of its own. Which diamonds there are in all portions is known to all of them, a bit each.
+ * The portion of a hierarchy that this process has while peers build it: a set of its own, with its
+ * own ranks. All peers know which diamonds there are in all portions, a bit each.
  *
- * What is found of a diamond that several have is put together in the order of all diamonds that
- * some have in common: the same for all of them, whichever they have.
+ * What is found for diamonds that several peers have is combined in the order of all diamonds that
+ * any have in common: the same order for all peers, whichever of the diamonds they have.
  */
 class PeerPortion
 {
 public:
-  /** Cuts so that all portions have about as many diamonds.
+  /** Cuts so that all portions have about the same number of diamonds.
    *  @param all the members of the whole hierarchy, with the corners of the base cube
    *  @param peers must outlive it */
   PeerPortion(const Grid& grid, DiamondMask all, Peers& peers);
@@ -33,14 +33,13 @@ public:
   const DiamondMask& All() const { return this->Mask; }
   Peers& Others() const { return this->With; }
 
-  /** Those of this portion. Whoever has it may keep it instead. */
+  /** The diamonds of this portion, moved out for the caller to keep. */
   DiamondSet TakeMembers() { return std::move(this->Members); }
 
   /**
-   * Raises codes to the greatest that one of the peers has of a diamond: one each, or a row of
-   * them.
+   * Raises each diamond's codes, one or a row of them, to the greatest that any peer has for it.
    *
-   * @param codes by rank @param firstScale the first that counts: of finer ones there are none
+   * @param codes by rank @param firstScale the first that counts: finer ones have no codes
    * @return whether any rose here
    */
   template <typename T>
@@ -87,7 +86,7 @@ private:
     static std::uint16_t* Data(std::array<std::uint16_t, N>& codes) { return codes.data(); }
   };
 
-  /** Calls body(ranks, count) for some of the common diamonds at once. */
+  /** Calls body(ranks, count) for the common diamonds, a block at a time. */
   template <typename Body>
   void ForEachBlock(int firstScale, const Body& body) const
   {
@@ -115,7 +114,7 @@ private:
   DiamondMask Mask;
   Peers& With;
   DiamondSet Members;
-  std::vector<std::uint32_t> Common;     ///< ranks of what is common, coarse to fine
+  std::vector<std::uint32_t> Common;     ///< ranks of the common ones, coarse to fine
   std::vector<std::size_t> EndsOfScales; ///< how many of them are of a scale or coarser, by scale
 };
 

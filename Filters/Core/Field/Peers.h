@@ -17,29 +17,29 @@ namespace isodiamond
 
 /**
  * Processes that build one hierarchy together, as seen by one of them: each has some slabs of the
- * volume, and takes its share of the work. What they find is put together, so that in the end all
- * have the same, to the bit, which is what one process alone would find.
+ * volume, and takes its share of the work. Their results are combined, so that in the end all have
+ * the same, bit for bit, as one process alone would find.
  *
- * All of them call the same functions in the same order, each of which waits for the others. So
- * what may fail at one of them alone has to be done Together().
+ * All of them call the same functions in the same order, and each call waits for the others. So
+ * anything that may fail in one of them alone has to be done Together().
  */
 class Peers
 {
 public:
   virtual ~Peers() = default;
 
-  /** Their number, and which of them this is, from 0 on. */
+  /** How many there are, and which of them this is, from 0 on. */
   virtual int Count() const = 0;
   virtual int Rank() const = 0;
 
   ///@{
-  /** Puts values together: bits that are set anywhere, the greatest. */
+  /** Combine values: the bits that are set anywhere, the greatest. */
   virtual void Or(std::uint8_t* bytes, std::int64_t count) = 0;
   virtual void Max(std::uint16_t* values, std::int64_t count) = 0;
   virtual void Max(double* values, std::int64_t count) = 0;
   ///@}
 
-  /** The bits of any values. */
+  /** The same for the bits of any values. */
   template <typename T>
   void Or(std::vector<T>& values)
   {
@@ -48,7 +48,7 @@ public:
       static_cast<std::int64_t>(values.size() * sizeof(T)));
   }
 
-  /** The lists of all of them, one behind the other. */
+  /** The lists of all peers, one after the other. */
   std::vector<std::uint64_t> Gather(const std::vector<std::uint64_t>& own)
   {
     std::vector<double> sizes(this->Count(), 0.0);
@@ -72,7 +72,7 @@ public:
     return values;
   }
 
-  /** Whether it is true of any of them. */
+  /** Whether something is true at any of them. */
   bool Any(bool here)
   {
     double any = here ? 1.0 : 0.0;
@@ -80,7 +80,8 @@ public:
     return any > 0.0;
   }
 
-  /** Does a piece of work, in which peers are asked in such pieces only, by all of them the same.
+  /** Does a piece of work, within which peers may be called only in such pieces, the same ones in
+   *  all processes.
    *  @throws if it throws at any of them */
   template <typename Work>
   void Together(Work&& work)
@@ -140,7 +141,7 @@ struct Loops
   {
   }
 
-  /** Of a loop each takes some ranges, dealt out one after the other. @param peers may be null */
+  /** Each process takes some ranges of a loop, dealt out in turn. @param peers may be null */
   Loops(const ParallelFor& whole, const Peers* peers)
     : Loops(whole)
   {

@@ -78,7 +78,7 @@ using AnyValues = std::variant<std::vector<float>, std::vector<double>, std::vec
 /** A view of owned values as a row of samples. */
 AnySamples ViewOf(const AnyValues& values);
 
-/** The number of samples, and of bytes of one. */
+/** The number of samples, and the bytes of one. */
 std::int64_t SizeOf(const AnySamples& samples);
 int BytesOfSample(const AnySamples& samples);
 
@@ -88,19 +88,19 @@ inline double SampleAt(const AnySamples& samples, const Point& point)
   return std::visit([&](const auto& view) { return view(point); }, samples);
 }
 
-/** Slices of a volume, the end not among them. */
+/** A range of slices of a volume, end excluded. */
 struct SliceRange
 {
   int Begin = 0;
   int End = 0;
 };
 
-/** Some slices of a volume, each of them whole: a volume that is larger than memory comes slab by
- *  slab. Slabs may share slices. */
+/** Some whole slices of a volume: one that is larger than memory comes slab by slab. Slabs may
+ *  share slices. */
 struct SampleSlab
 {
   AnySamples Samples; ///< as long and wide as the volume
-  int First = 0;      ///< of the volume's slices, the first one that it has
+  int First = 0;      ///< the first of the volume's slices that it has
 
   /** The slice behind its last one. */
   int End() const;
@@ -112,14 +112,14 @@ class Finiteness
 public:
   explicit Finiteness(const AnySamples& samples);
 
-  /** Of a volume that comes in slabs: all are to be added.
+  /** For a volume that comes in slabs, all of which have to be added.
    *  @param dimensions of the volume */
   explicit Finiteness(const std::array<int, 3>& dimensions)
     : Dimensions(dimensions)
   {
   }
   void Add(const SampleSlab& slab);
-  /** What peers have added. */
+  /** Adds what peers have added. */
   void Merge(Peers& peers);
 
   bool All() const { return this->NotFinite.empty(); }
@@ -146,7 +146,7 @@ struct ValueRange
 /** The range of all finite samples. */
 ValueRange FiniteRange(const AnySamples& samples, const ParallelFor& parallelFor = SerialFor);
 
-/** The same of a volume that comes in slabs. */
+/** The same for a volume that comes in slabs. */
 class FiniteRangeOfSlabs
 {
 public:

@@ -16,7 +16,7 @@ namespace isodiamond
 struct SignBlock
 {
   std::array<std::array<SignLattice::Row, 10>, 10> Rows; ///< [z + 1][y + 1]
-  /** Signs that occur, bit by sign. */
+  /** The signs that occur: bit i for sign i. */
   std::uint32_t Signs = 0;
 
   SignBlock(const SignLattice& signs, int scale, const Point& origin)
@@ -53,7 +53,7 @@ struct SignBlock
 
 /**
  * Finds something in each brick of a scale: find(index, list) appends to the list. Rows of bricks
- * are independent, each has its own list; the lists follow each other as the rows do.
+ * are independent, each with its own list; the lists are in the order of the rows.
  */
 template <typename Found, typename Find>
 std::vector<std::vector<Found>> FindInRows(

@@ -14,26 +14,27 @@ namespace isodiamond
 {
 
 /**
- * The signs of all samples, a bit for each surface, for every scale a lattice of its own: bit
- * (x, y, z) of scale s says whether the sample at (x, y, z) << s lies above the surface. It is the
- * one pass over the volume that building from samples needs for classification; all scales
- * together take 1/7 of a byte a sample and surface, where the surface is: see BitTiles.h.
+ * The signs of all samples, one bit for each surface, with a lattice of its own for every scale:
+ * bit (x, y, z) of scale s says whether the sample at (x, y, z) << s lies above the surface.
+ * Filling it is the one pass over the volume that building from samples needs for classification;
+ * all scales together take 1/7 of a byte per sample and surface, where the surface is: see
+ * BitTiles.h.
  *
- * Where small pieces are removed, these are the signs of what is left, and they can be others than
- * the samples'; SmallPieces.h.
+ * Where small pieces are removed, these are the signs of what is left, and they can differ from the
+ * samples'; SmallPieces.h.
  */
 class SignLattice
 {
 public:
-  /** @param minimumPieceSize pieces of fewer samples are removed, of each surface by itself */
+  /** @param minimumPieceSize pieces of fewer samples are removed, for each surface separately */
   SignLattice(const Grid& grid, const AnySamples& samples, const Isoregion& region,
     const ParallelFor& parallelFor, std::int64_t minimumPieceSize = 0);
 
   ///@{
-  /** Of a volume that comes in slabs: all are to be added, then it is to be completed. */
+  /** For a volume that comes in slabs: all have to be added, then it has to be completed. */
   SignLattice(const Grid& grid, const Isoregion& region);
   void Add(const SampleSlab& slab, const ParallelFor& parallelFor);
-  /** What peers have added. */
+  /** Adds what peers have added. */
   void Merge(Peers& peers);
   void Complete(const ParallelFor& parallelFor, std::int64_t minimumPieceSize = 0);
   ///@}

@@ -9,27 +9,27 @@
 
 /**
  * @file SmallPieces.h
- * What is too small to be wanted in a surface: noise has thousands of specks around the one thing
- * that is looked for.
+ * Removes what is too small to be wanted in a surface: noise has thousands of specks around the one
+ * thing that is looked for.
  *
  * A *piece* is a connected set of samples on one side of a surface: a *solid* above it, a *cavity*
- * below. Samples are connected as the edges of the mesh of full resolution connect them, so that
- * pieces are just what its surface separates: p and p + d, with d in {-1, 0, 1}^3, have an edge if
- * the coordinates of p on the axes with d != 0 are all even or all odd.
+ * below. Samples are connected as by the edges of the full-resolution mesh, so pieces are exactly
+ * what its surface separates: p and p + d, with d in {-1, 0, 1}^3, have an edge if the coordinates
+ * of p on the axes with d != 0 are all even or all odd.
  *
- * Solids of fewer samples than a minimum get the sign below, all at once; then cavities get the
- * sign above, of what is left by then: samples of removed solids count with the cavity that they
- * are in. The boundary of the grid bounds pieces, too. A grid of fewer samples than the minimum has
- * no piece that may stay, not even the last one: all of it lies above in the end.
+ * Solids of fewer samples than a minimum get the sign below, all at once; then cavities that are
+ * too small by then get the sign above: samples of removed solids count with the cavity that they
+ * are in. The boundary of the grid bounds pieces, too. In a grid of fewer samples than the minimum
+ * no piece may stay, not even the last one: all of it lies above in the end.
  *
- * Else no piece of fewer samples is left, and a second removal would find none: a cavity that
+ * Otherwise no piece of fewer samples is left, and a second removal would find none: a cavity that
  * becomes solid has a solid next to it, and joins it. Whatever lies above a second, higher surface
- * does so afterwards, if both are treated alike: both steps are increasing, as a larger set of
- * samples has larger pieces. So the surfaces of an interval volume stay nested.
+ * afterwards lies above the first one, too, if both are treated alike: both steps are increasing,
+ * as a larger set of samples has larger pieces. So the surfaces of an interval volume stay nested.
  *
- * Where an edge of full resolution joins samples of two sides afterwards, they are on these sides
- * by their values. For all neighbours of a removed solid are below with it, in one cavity, and
- * share its fate; all neighbours of a removed cavity are above.
+ * Where an edge of full resolution joins samples on two sides afterwards, their values put them on
+ * these sides: all neighbours of a removed solid are below with it, in one cavity, and share its
+ * fate; all neighbours of a removed cavity are above.
  */
 namespace isodiamond
 {
@@ -39,7 +39,7 @@ struct SignRows
 {
   std::uint64_t* Bits = nullptr;
   std::array<int, 3> Count{};
-  std::int64_t Words = 0; ///< a row
+  std::int64_t Words = 0; ///< per row
 
   std::int64_t RowCount() const { return std::int64_t{ 1 } * this->Count[1] * this->Count[2]; }
 };

@@ -9,12 +9,12 @@
 namespace isodiamond
 {
 
-/** Tells the system that all of some fresh memory is going to be used. Where it has large pages it
- *  hands out these then: zeroing memory page by page takes longer than a mesh in it. */
+/** Tells the system that all of some fresh memory is going to be used, so that it hands out large
+ *  pages if it has them: zeroing memory page by page takes longer than making a mesh in it. */
 void PreferLargePages(void* memory, std::size_t bytes);
 
-/** An array whose values are arbitrary before they are written: who writes a part of it first has
- *  the system hand out that part, each thread its own. */
+/** An array whose values are arbitrary until written: the system hands out each part when it is
+ *  first written, to each thread its own. */
 template <typename T>
 class LargeArray
 {

@@ -19,12 +19,12 @@ struct CellPosition
   Point Cell{}; ///< its first sample
   Vector Fraction{};
 
-  /** The position beyond the grid counts as in the outermost cell, outside of [0, 1]. */
+  /** A position beyond the grid counts as in the outermost cell, with fractions outside [0, 1]. */
   CellPosition(const Vector& index, const std::array<int, 3>& dimensions)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      // What is cut off is the same as rounded down, but below 0.
+      // Truncating is the same as rounding down, except below 0.
       this->Cell[axis] = std::clamp(static_cast<int>(index[axis]), 0, dimensions[axis] - 2);
       this->Fraction[axis] = index[axis] - this->Cell[axis];
     }
@@ -42,12 +42,12 @@ struct CellPosition
   }
 
   /** Calls body(corner, weight) for those of the cell's corners that have a weight: the bits of a
-   *  corner's number tell on which axes it is the farther one. */
+   *  corner's number tell on which axes it is the far one. */
   template <typename Body>
   void ForEachCornerNumber(Body&& body) const
   {
     // Most positions that come here lie on an edge of the lattice, so most corners have no weight.
-    // Which ones cannot be guessed: they are sorted out without a decision for each.
+    // Which ones is unpredictable: they are sorted out without a branch for each.
     const Vector& far = this->Fraction;
     const Vector near = { 1.0 - far[0], 1.0 - far[1], 1.0 - far[2] };
     const std::array<double, 4> square = { near[0] * near[1], far[0] * near[1], near[0] * far[1],

@@ -10,8 +10,8 @@
 namespace isodiamond
 {
 
-/** What a point may not leave: bit 2 a is set on the grid's first layer on axis a, bit 2 a + 1 on
- *  its last; Fixed points stay where they are. */
+/** The walls that a point may not leave: bit 2 a is set on the grid's first layer on axis a,
+ *  bit 2 a + 1 on its last; Fixed points stay where they are. */
 struct Walls
 {
   using Type = std::uint8_t;
@@ -19,7 +19,7 @@ struct Walls
 
   static constexpr bool OnAxis(Type walls, int axis) { return ((walls >> (2 * axis)) & 3) != 0; }
 
-  /** Those that a position in index space is on. */
+  /** The walls that a position in index space is on. */
   static Type At(const Vector& index, const Grid& grid)
   {
     int walls = 0;

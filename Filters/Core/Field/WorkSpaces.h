@@ -12,10 +12,10 @@ namespace isodiamond
 {
 
 /**
- * What the ranges of a parallel loop work with and leave behind: one for each thread that runs at
- * a time, made when there is none to spare, used by one range after the other.
+ * Spaces that the ranges of a parallel loop work in and leave behind: one for each thread that runs
+ * at a time, made when there is none to spare, used by one range after the other.
  *
- * What a range finds in it must not matter for its results: which one it gets depends on threads.
+ * What a range finds in its space must not affect its results: threads decide which one it gets.
  */
 template <typename Space>
 class WorkSpaces
@@ -26,7 +26,8 @@ public:
   {
   }
 
-  /** Calls use(space) with one that nobody else uses meanwhile. Threads may call it at once. */
+  /** Calls use(space) with a space that nobody else uses meanwhile. Threads may call it
+   *  concurrently. */
   template <typename Use>
   void Lend(Use&& use)
   {

@@ -15,8 +15,8 @@ namespace isodiamond
 struct BlockFit
 {
   ValueRange Range; ///< of the samples; infinite if one of them is not finite
-  /** A linear function of the distance from the cube's first corner, and how far from it the
-   *  samples lie at most: infinite if one of them is not finite, void if the cube reaches past the
+  /** A linear function of the offset from the cube's first corner, and the most that the samples
+   *  differ from it: infinite if one of them is not finite, void if the cube reaches past the
    *  grid. */
   float Value = 0.0F;
   std::array<float, 3> Slopes{};
@@ -31,9 +31,9 @@ struct BlockFit
 };
 
 /**
- * Linear fits to the samples in cubes of 8, 16, 32, ... lattice edges: what tells that a part of a
- * domain need not be looked at. Of a slab those of its own finest cubes, and of larger ones that
- * hold some of these: unknown, as of samples that are not finite, if it has not all of their
+ * Linear fits to the samples in cubes of 8, 16, 32, ... lattice edges: they tell that a part of a
+ * domain need not be looked at. A slab has those of its own finest cubes, and of larger ones that
+ * hold some of these: unknown, as for samples that are not finite, if it does not have all of their
  * eighths.
  */
 class BlockFits
@@ -44,14 +44,14 @@ public:
   /**
    * @param dimensions of the volume
    * @param slab with all samples of its own cubes
-   * @param own slices, the end not among them: the finest cubes that begin there
+   * @param own slices, end excluded: the slab's own finest cubes begin there
    * @param levels how many sizes of cubes
    */
   BlockFits(const std::array<int, 3>& dimensions, const SampleSlab& slab, const SliceRange& own,
     int levels, const ParallelFor& parallelFor);
 
-  /** Whether some of a cube's finest ones are the slab's own. @param z the cube's last coordinate,
-   *  divided by its edge */
+  /** Whether any of the finest cubes in a cube are the slab's own. @param z the cube's last
+   *  coordinate, divided by its edge */
   bool Has(int level, int z) const
   {
     return z >= this->Levels[level].Slices.Begin && z < this->Levels[level].Slices.End;
@@ -68,7 +68,7 @@ private:
   struct Level
   {
     Point Count{};     ///< of the volume's blocks
-    SliceRange Slices; ///< of blocks, that there are
+    SliceRange Slices; ///< slices of blocks that there are
     std::vector<BlockFit> Blocks;
 
     std::int64_t Index(const Point& block) const

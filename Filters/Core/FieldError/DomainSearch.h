@@ -17,10 +17,10 @@ namespace isodiamond
  * The summary of a large domain by branch and bound.
  *
  * Bisecting a diamond's tetrahedra down to class 0 leaves tetrahedra that lie in cubes of the
- * lattice, each along a path of three of its cube's edges, from one corner to the opposite. The
+ * lattice, each along a path of three of its cube's edges, from one corner to the opposite one. The
  * linear fit to the samples in the cube bounds the error in the tetrahedron. Only where the bound
- * or the range of the samples exceeds what was found is a tetrahedron cut into eight of half the
- * size; in the smallest cubes its samples are visited.
+ * or the range of the samples exceeds what was found so far is a tetrahedron cut into eight of half
+ * the size; in the smallest cubes its samples are visited.
  */
 template <typename T>
 class DomainSearch
@@ -29,8 +29,8 @@ public:
   /** The least scale of diamonds with tetrahedra that fill cubes of the finest fits. */
   static constexpr int LeastScale = 3;
 
-  /** @param samples of some slices, from the first one on
-   *  @param fits to those: what lies in others is not looked at
+  /** @param samples of some slices, from firstSlice on
+   *  @param fits to those: what lies in other slices is not looked at
    *  @param valueAt called with the diamond's vertices that are sampled */
   template <typename ValueAt>
   DomainSearch(const Grid& grid, const SampleView<T>& samples, int firstSlice,
@@ -61,7 +61,7 @@ public:
       });
   }
 
-  /** What it finds is added to what is known already. */
+  /** Adds what it finds to what is already known. */
   SummaryBuilder Run(const SummaryBuilder& known)
   {
     this->Sums = this->SticksOut ? SummaryBuilder(known).AddError(SummaryBuilder::Infinity) : known;
@@ -97,9 +97,9 @@ private:
 
   static bool HasGreaterBound(const Part& a, const Part& b) { return a.Bound > b.Bound; }
 
-  /** Finds a tetrahedron's cube and bound. @return whether it can hold samples of its own, and of
-   *  the slab's: cubes that begin where the grid ends share theirs, unless the domain has no other
-   *  part there. */
+  /** Finds a tetrahedron's cube and bound. @return whether it can hold samples that are its own,
+   *  and the slab's: cubes that begin where the grid ends share theirs with others, unless the
+   *  domain has no other part there. */
   bool FindBound(Part& part, int level) const
   {
     Point first{};
@@ -158,7 +158,7 @@ private:
       eighths.begin(), end, [&](const Part& eighth) { this->Search(eighth, level - 1); });
   }
 
-  /** Visits the samples of a tetrahedron in one of the smallest cubes: a first steps along the
+  /** Visits the samples of a tetrahedron in one of the smallest cubes: index a steps along the
    *  path's first edge, b along the second and c along the third, a >= b >= c. */
   void Visit(const KuhnTetrahedron<Corner>& path)
   {

@@ -19,8 +19,8 @@ struct DomainSummary
    *  infinite where the interpolant is undefined: the diamond sticks out of the grid, or a sample
    *  of the domain is not finite. Paper, section 4.2. */
   double Error = 0.0;
-  /** Range of the sampled lattice points of the domain; the minimum is NaN if one of them is.
-   *  Without any the minimum is the greater one. */
+  /** Range of the sampled lattice points of the domain; the minimum is NaN if one of them is. If
+   *  there are none, the minimum exceeds the maximum. */
   ValueRange Range;
 };
 
@@ -30,14 +30,14 @@ class SummaryBuilder
 public:
   static constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-  /** Notes what the error is at least. */
+  /** Notes a lower bound of the error. */
   SummaryBuilder& AddError(double error)
   {
     this->Error = std::max(this->Error, error);
     return *this;
   }
 
-  /** What it has found as values whose greatest, of several finders, is what all have found. */
+  /** The findings as values whose maxima over several builders are the findings of all. */
   std::array<double, 4> AsMaxima() const
   {
     return { this->Error, -this->Low, this->High, this->HasNaN ? 1.0 : 0.0 };

@@ -33,14 +33,14 @@ DomainSummary SummarizeSmallDomain(const Grid& grid, const SampleSlab& slab, con
 /**
  * The summaries of a field's diamonds of all scales.
  *
- * Of a volume that comes in slabs each slab has a part of a large domain: what begins in its own
- * slices, in cubes of BlockFits. All slabs together visit what matters, in whatever order.
+ * If a volume comes in slabs, each slab has a part of a large domain: what begins in its own
+ * slices, in cubes of BlockFits. Together the slabs visit all that matters, in any order.
  */
 class FieldErrors
 {
 public:
-  /** So many slices a slab needs on both sides of its own, where the volume has them: small domains
-   *  lie around their centre, and cubes end there. */
+  /** How many slices a slab needs on both sides of its own, where the volume has them: small
+   *  domains lie around their centre, and cubes end there. */
   static constexpr int Overlap = BlockFits::FinestEdge;
 
   /** The grid and the samples must outlive it. */
@@ -50,7 +50,7 @@ public:
   FieldErrors(const Grid& grid, const SampleSlab& slab, const SliceRange& own,
     const ParallelFor& parallelFor);
 
-  /** Of the whole volume; of a slab only small domains around a centre in its own slices. */
+  /** For the whole volume; for a slab, only small domains around a centre in its own slices. */
   DomainSummary Summarize(const Place& place) const;
 
   /** Adds what the slab has of a large domain. @param valueAt called with its sampled vertices */

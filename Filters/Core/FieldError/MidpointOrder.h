@@ -10,11 +10,11 @@ namespace isodiamond
 {
 
 /**
- * The lattice points of a small diamond's domain, each after two others in whose middle it lies.
+ * The lattice points of a small diamond's domain, each after the two others it lies midway between.
  *
- * Bisecting the diamond's tetrahedra again and again meets all of them, each as the middle of an
- * edge inside of one tetrahedron. There the diamond's interpolant is the mean of its values at the
- * edge's ends: along the list, all its values cost an addition each.
+ * Bisecting the diamond's tetrahedra repeatedly reaches all of them, each as the middle of an edge
+ * inside one tetrahedron. There the diamond's interpolant is the mean of its values at the edge's
+ * ends: along the list, each of its values costs one addition.
  */
 class MidpointOrder
 {

@@ -10,8 +10,8 @@
 namespace isodiamond
 {
 
-/** What the signs of vertices say of the diamonds of a hierarchy, by rank. No encoding has it: who
- *  encodes finds it on the way, else it is derived. */
+/** What the signs of vertices say about the diamonds of a hierarchy, by rank. No encoding holds it:
+ *  encoding finds it on the way, otherwise it is derived. */
 struct DiamondEdges
 {
   /** Mask of the subdivision edges that the isosurface, or the lower surface, crosses; from bit 12
@@ -39,7 +39,7 @@ struct DiamondEdges
   }
 
   std::uint32_t LowerOf(std::int64_t rank) const { return this->LowerAndKinds[rank] & AllEdges; }
-  /** None of an isosurface. */
+  /** None for an isosurface. */
   std::uint32_t UpperOf(std::int64_t rank) const
   {
     return this->Upper.empty() ? 0 : this->Upper[rank];

@@ -28,7 +28,8 @@ public:
     return this->Region.SignOf(static_cast<double>(this->Samples.Pointer()[index]));
   }
 
-  /** An edge with these signs along it; by its centre and what is between the ends of a step. */
+  /** An edge with these signs along it, given the diamond's centre and the offset between the ends
+   *  of a step. */
   EdgeSamples<T> Along(EdgeSamples<T> edge, const Point& /*centre*/, const Point& /*step*/) const
   {
     return edge;
@@ -64,15 +65,15 @@ private:
   const SignLattice& Signs;
 };
 
-/** Reads signs, inside values and the samples along edges of diamonds off the samples, or off those
- * of a slab: of diamonds all of whose vertices it has. */
+/** Reads the signs, inside values and samples along the edges of diamonds from the samples of a
+ *  volume, or of a slab that has all vertices of the diamonds. */
 template <typename T, typename Signs>
 class DiamondReader
 {
 public:
   using Value = T;
 
-  /** All but the header must outlive it. @param first slice that the samples have */
+  /** All but the header must outlive it. @param first the first slice that the samples have */
   DiamondReader(const EncodingHeader& header, const Grid& grid, const SampleView<T>& samples,
     const Signs& signs, int first = 0)
     : Region(header.Region)
@@ -124,7 +125,7 @@ public:
       });
   }
 
-  /** An edge in unit steps, or for linear isovertices in one. */
+  /** An edge in unit steps, or in a single step for linear isovertices. */
   auto Edge(const Place& place, int vertex) const
   {
     const Point centre = Centre(place);

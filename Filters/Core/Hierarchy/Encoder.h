@@ -10,12 +10,12 @@ namespace isodiamond
 
 /**
  * Writes the encoding of a set of isodiamonds, all with the same error code: signs, isovertices and
- * values inside come from the samples.
+ * inside values come from the samples.
  *
  * @param set the isodiamonds and the corners of the base cube
- * @param signs those to go by where small pieces were removed; null for the samples'. Values inside
- *        are samples all the same
- * @param withEdges whether the edges are wanted that it finds on the way; else less memory is used
+ * @param signs those to use where small pieces were removed; null for the samples'. Inside values
+ *        are samples in either case
+ * @param withEdges whether to keep the edges it finds on the way; otherwise less memory is used
  */
 Encoded Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
   const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor,

@@ -17,11 +17,11 @@ namespace isodiamond
 void WriteBricks(const DiamondSet& set, EncodingArrays<OwnedArray>& arrays);
 
 /**
- * The passes of an encoding: every brick counts what its diamonds have, sums tell where it writes
- * that, and it writes, diamond by diamond.
+ * The passes of an encoding: every brick counts what its diamonds have, sums tell where to write
+ * this, and it is written, diamond by diamond.
  *
- * What reads the diamonds is a DiamondReader. A volume that comes in slabs is written slab by slab:
- * the diamonds of a brick are ordered by slice, so those of the next slab follow.
+ * Diamonds are read by a DiamondReader. A volume that comes in slabs is written slab by slab: the
+ * diamonds of a brick are ordered by slice, so those of the next slab follow.
  */
 class EncodingPasses
 {
@@ -47,8 +47,8 @@ public:
 
   static constexpr SliceRange AllSlices{ 0, 2 << Grid::MaximumDepth };
 
-  /** Writes isovertices of some scales.
-   *  @param edgeOf called with a place and one of its vertices, the samples along that edge */
+  /** Writes the isovertices of some scales.
+   *  @param edgeOf called with a place and one of its vertices; returns that edge's samples */
   template <typename EdgeOf>
   void WriteIsovertices(
     int firstScale, int endScale, const SliceRange& slices, const EdgeOf& edgeOf)
@@ -65,10 +65,10 @@ public:
       });
   }
 
-  /** Passes over what peers write: places are kept free. */
+  /** Skips what peers write, leaving room for it. */
   void Skip(int endScale, const SliceRange& slices);
 
-  /** Puts together what peers have written. */
+  /** Combines what peers have written. */
   void Merge(Peers& peers);
 
   /** Makes room for the values inside an interval volume, of the samples' type. */
@@ -78,7 +78,7 @@ public:
     this->Result.InsideValues = std::vector<Value>(this->Next.back().InsideValues);
   }
 
-  /** Writes these, of all scales. */
+  /** Writes these values, of all scales. */
   template <typename Reader>
   void WriteInsideValues(const SliceRange& slices, const Reader& reader)
   {
@@ -97,8 +97,8 @@ public:
       });
   }
 
-  /** Calls body(place, mask of the edges with isovertices) for diamonds from a scale on that are
-   *  counted, one after the other. */
+  /** Calls body(place, mask of the edges with isovertices) for the counted diamonds of scales from
+   *  firstScale up, one after the other. */
   template <typename Body>
   void ForEachCounted(int firstScale, const Body& body) const
   {
@@ -113,12 +113,12 @@ public:
     }
   }
 
-  /** In the end: writes the records, all with one code. @param withEdges without, records take
-   *  their place in memory */
+  /** Finishes: writes the records, all with one code. @param withEdges whether to keep the edges;
+   *  if not, the records take over their memory */
   Encoded Take(ErrorCode::Type code, bool withEdges);
 
 private:
-  /** What the bricks before a brick hold; while writing, also what it has written. */
+  /** What the bricks before a brick hold; while writing, also what the brick has written. */
   struct Offset
   {
     std::int64_t Isovertices = 0;
@@ -127,7 +127,7 @@ private:
 
   void MakeRoom();
 
-  /** Calls body(number of the brick, place, rank) for the diamonds of some scales with their centre
+  /** Calls body(number of the brick, place, rank) for the diamonds of some scales that are centred
    *  in some slices; those of a brick in order. */
   template <typename Body>
   void ForEach(int firstScale, int endScale, const SliceRange& slices, const Body& body) const
@@ -158,7 +158,7 @@ private:
   const DiamondSet& Set;
   const ParallelFor& For;
   std::vector<BrickPlace> Bricks;
-  std::vector<Offset> Next; ///< by brick, and the sums
+  std::vector<Offset> Next; ///< by brick, and the totals
   Encoding Result;
   DiamondEdges Edges;
 };

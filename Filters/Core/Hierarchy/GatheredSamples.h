@@ -13,8 +13,7 @@
 namespace isodiamond
 {
 
-/** Some samples, gathered from the slabs of a volume: those that are wanted together and lie in
- *  several. */
+/** Samples that are wanted together but lie in several slabs of a volume, gathered from these. */
 class GatheredSamples
 {
 public:
@@ -22,7 +21,7 @@ public:
   GatheredSamples(const std::array<int, 3>& dimensions, std::vector<std::int64_t> indices);
 
   void Add(const SampleSlab& slab);
-  /** What peers have added. */
+  /** Adds what peers have added. */
   void Merge(Peers& peers) { peers.Or(this->Values); }
 
   /** A sample that was wanted, once its slab has been added. */
@@ -34,8 +33,8 @@ private:
   std::vector<double> Values;
 };
 
-/** The samples along an edge as IsovertexPlacement.h wants them: values where they are needed, at
- *  its ends and those of the steps that cross a surface, and signs everywhere. */
+/** The samples along an edge as IsovertexPlacement.h needs them: values only at the edge's ends and
+ *  at those of the steps that cross a surface, and signs everywhere. */
 class GatheredEdge : public EdgeSigns
 {
 public:
@@ -55,7 +54,7 @@ private:
   int Count;
 };
 
-/** Calls body(point) for those whose samples the placement of isovertices asks for. */
+/** Calls body(point) for the points whose samples the placement of isovertices needs. */
 template <typename Body>
 void ForEachNeeded(const GatheredEdge& edge, const Body& body)
 {

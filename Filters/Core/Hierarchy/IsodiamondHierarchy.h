@@ -16,10 +16,10 @@
  * The relevant (RI) and the minimal (MI) isodiamond hierarchy of an isosurface or interval volume.
  *
  * There are two forms. The *encoding* is what is kept and saved: flat arrays of bricks, 2-byte
- * records and 1-byte isovertices. The *hierarchy* is a view of an encoding with what queries want
- * at hand, derived from it and checked: the rank of every brick and, for each isodiamond, the
- * mask of its active subdivision edges. Coordinates, edges, vertex signs and kinds are nowhere
- * stored: bits and records imply them.
+ * records and 1-byte isovertices. The *hierarchy* is a view of an encoding, with what queries need
+ * at hand derived from it and checked: the rank of every brick and, for each isodiamond, the mask
+ * of its active subdivision edges. Coordinates, edges, vertex signs and kinds are not stored: bits
+ * and records imply them.
  *
  * Weiss & De Floriani, TVCG 2010, sections 5 to 7.
  */
@@ -95,26 +95,26 @@ struct EncodingHeader
   bool TwoSided = false;
   /** Whether every mesh is homeomorphic to that of full resolution. */
   bool PreservesTopology = false;
-  /** Solids and cavities of fewer samples were removed: so many. */
+  /** The size, in samples, below which solids and cavities were removed, and how many were. */
   std::int64_t MinimumPieceSize = 0;
   std::int64_t RemovedPieces = 0;
   /** Whether it holds the subdivided diamonds of one query only, not all that lead to the surface;
    *  never so in files. */
   bool IsAnswer = false;
-  /** m_r: the relevant isodiamonds that there are, creation ones included, stored or not. */
+  /** m_r: the number of relevant isodiamonds, creation ones included, stored or not. */
   std::int64_t RelevantCount = 0;
-  /** m_a and m_c, known to whoever builds; a hierarchy counts what it stores. */
+  /** m_a and m_c, as known from building; a hierarchy counts what it stores. */
   std::int64_t ActiveCount = 0;
   std::int64_t CreationCount = 0;
 };
 
-/** A diamond by its centre. */
+/** A diamond's centre as a number. */
 inline std::uint64_t CentreCode(const Place& place)
 {
   return PackedPoint(Centre(place));
 }
 
-/** The diamond of such a code, which is not 0. */
+/** The diamond of such a code, which must not be 0. */
 inline Place PlaceOfCentre(std::uint64_t code)
 {
   const auto coordinate = [&](int axis)
@@ -134,17 +134,17 @@ template <template <typename> class Array>
 struct EncodingArrays
 {
   Array<std::uint32_t> BrickCounts;  ///< N + 1: bricks of each scale, from N to 0
-  Array<std::uint32_t> BrickIndices; ///< one a brick: its index in its scale's box
-  Array<std::uint64_t> BrickMasks;   ///< eight a brick
-  Array<std::uint16_t> Records;      ///< one a diamond: error code and sign of the centre
+  Array<std::uint32_t> BrickIndices; ///< one per brick: its index in its scale's box
+  Array<std::uint64_t> BrickMasks;   ///< eight per brick
+  Array<std::uint16_t> Records;      ///< one per diamond: error code and sign of the centre
   /** Coefficients, by diamond: those of its edges that cross surface 0, then surface 1. */
   Array<std::uint8_t> Isovertices;
-  /** Of an interval volume that is to be refined inside: one a diamond, the code of the interior
-   *  tolerance below which it is subdivided, 0 for never. Else empty. */
+  /** For an interval volume that is to be refined inside: one per diamond, the code of the interior
+   *  tolerance below which it is subdivided, 0 for never. Otherwise empty. */
   Array<ErrorCode::Type> InteriorCodes;
   /** The CentreCode(), ascending, of the diamonds whose own error exceeds their threshold: wherever
-   *  something else than this subdivides a parent, they have to follow, stored or not. None of
-   *  errors in the field. */
+   *  something other than a threshold subdivides a parent, they have to follow, stored or not. None
+   *  for field errors. */
   Array<std::uint64_t> Followers;
 };
 
@@ -160,7 +160,7 @@ struct Encoding
   AnyValues InsideValues;
 };
 
-/** What encoding comes to; without edges if nobody wants them. */
+/** The result of encoding; without edges if they are not wanted. */
 struct Encoded
 {
   isodiamond::Encoding Encoding;
@@ -195,7 +195,7 @@ public:
    *  @throws std::invalid_argument naming what is wrong with the encoding. */
   IsodiamondHierarchy(const EncodingView& encoding, const ParallelFor& parallelFor);
 
-  /** The same, by who has just encoded it. */
+  /** The same, for an encoding that was just made with these edges. */
   IsodiamondHierarchy(const EncodingView& encoding, DiamondEdges edges);
 
   const EncodingHeader& Header() const { return this->View.Header; }
@@ -223,12 +223,12 @@ public:
   /** The diamonds that are to be subdivided wherever a parent is, by CentreCode(). */
   const ArrayView<std::uint64_t>& Followers() const { return this->View.Arrays.Followers; }
 
-  /** The highest thresholds of a brick's diamonds: queries pass over a brick that they are too low
-   *  for. @param brick numbered as AllBricks() does */
+  /** The highest thresholds of a brick's diamonds: queries skip a brick where these are too low.
+   *  @param brick numbered as by AllBricks() */
   struct Thresholds
   {
     ErrorCode::Type Surface = 0;
-    ErrorCode::Type Interior = 0; ///< 0 without any
+    ErrorCode::Type Interior = 0; ///< 0 if there are none
   };
   const Thresholds& HighestOfBrick(std::int64_t brick) const { return this->Highest[brick]; }
 
@@ -238,8 +238,8 @@ public:
   /** Mask of the subdivision edges that the upper surface crosses; interval volumes only. */
   std::uint32_t UpperEdges(std::int64_t rank) const { return this->DerivedEdges.Upper[rank]; }
 
-  /** The subdivision edges that make a half-tetrahedron carry something: it does if it has one of
-   *  them. All if the centre lies inside the interval volume. */
+  /** The subdivision edges that make a half-tetrahedron carry something if it has any of them. All
+   *  if the centre lies inside the interval volume. */
   std::uint32_t CarryingEdges(std::int64_t rank) const
   {
     if (!this->Region().IsVolume())
@@ -248,7 +248,7 @@ public:
     }
     return this->Sign(rank) == InsideSign ? AllEdges : this->Edges(rank) | this->UpperEdges(rank);
   }
-  /** All of these, by rank. */
+  /** The edges of all diamonds, by rank. */
   const DiamondEdges& EdgesByRank() const { return this->DerivedEdges; }
   Kind KindOf(std::int64_t rank) const { return this->DerivedEdges.KindOf(rank); }
 
@@ -260,8 +260,8 @@ public:
     return this->View.Arrays.Isovertices.Data + this->FirstIsovertex[rank];
   }
 
-  /** The number of isovertices of diamonds before that of a rank, and the coefficient of one by
-   *  its number. */
+  /** The number of isovertices before those of the diamond of a rank, and the coefficient of an
+   *  isovertex by its number. */
   std::int64_t FirstIsovertexOf(std::int64_t rank) const { return this->FirstIsovertex[rank]; }
   std::uint8_t Isovertex(std::int64_t number) const
   {
@@ -271,7 +271,7 @@ public:
   /** The samples inside the interval volume, by rank of the centres, as a row. */
   const AnySamples& InsideValues() const { return this->View.InsideValues; }
 
-  /** The number of those in bricks before a brick, numbered as AllBricks() does. */
+  /** The number of those in the bricks before a brick, numbered as by AllBricks(). */
   std::int64_t FirstInsideValue(std::int64_t brick) const { return this->FirstInside[brick]; }
 
   /** Counts of the isodiamonds by kind; corners of the base cube do not count. */

@@ -19,18 +19,19 @@
  * A *linear* isovertex (the paper's) lies where the field would cross the isovalue if it were
  * linear along the whole edge. An *exact* one lies on the surface of full resolution: an edge of
  * the hierarchy is a row of edges of the full-resolution mesh, unit steps, on each of which the
- * field is linear; of their crossings it takes the one nearest to the linear guess, of two equally
- * near ones that nearer to the centre. So every vertex of every level of detail is on the
- * full-resolution surface, to one step of its edge's coefficient (two where an edge carries both
- * surfaces of an interval volume). On edges of one unit step both are the same.
+ * field is linear; the isovertex is the crossing on these that is nearest to the linear guess or,
+ * of two equally near ones, the one nearer to the centre. So every vertex of every level of detail
+ * is on the full-resolution surface, to within one step of its edge's coefficient (two where an
+ * edge carries both surfaces of an interval volume). On edges of one unit step both are the same.
  *
- * Coefficients are kept in 1..255, so that isovertices never coincide with lattice vertices; they
- * are 128 where an end of the edge is not finite.
+ * Coefficients are kept in 1..255, so isovertices never coincide with lattice vertices; they are
+ * 128 where an end of the edge is not finite.
  *
- * The signs along an edge are the values' unless small pieces were removed (SmallPieces.h). Then an
- * end can be on the other side than its value: it says nothing about the way to the surface, and
- * the guess is the middle of the edge. Steps of an exact edge are edges of full resolution, so
- * where their signs differ their values do as well, and each crossing is where it was.
+ * The signs along an edge are those of the values unless small pieces were removed (SmallPieces.h).
+ * Then an end can be on the other side from its value: the value says nothing about the way to the
+ * surface, and the guess is the middle of the edge. Steps of an exact edge are edges of full
+ * resolution, so where their signs differ, those of their values do as well, and each crossing is
+ * where it was.
  */
 namespace isodiamond
 {
@@ -61,7 +62,7 @@ private:
   int Count;
 };
 
-/** The signs along an edge, as a lattice of them has it. */
+/** The signs along an edge, from a lattice of signs. */
 class EdgeSigns
 {
 public:
@@ -86,8 +87,8 @@ private:
   Point Step;
 };
 
-/** The samples along an edge with the signs of a lattice, from which small pieces may be removed.
- */
+/** The samples along an edge with the signs of a lattice, from which small pieces may have been
+ *  removed. */
 template <typename T>
 class SignedEdgeSamples
   : public EdgeSamples<T>
@@ -107,8 +108,7 @@ public:
 namespace placement
 {
 
-/** Whether the values at the ends of a step, or a row of steps, are on the sides that they are to
- *  be on. */
+/** Whether the values at the ends of a step, or a row of steps, are on the sides the signs say. */
 template <typename Edge>
 bool IsBracketed(const Edge& edge, const Isoregion& region, int surface, int begin, int end)
 {
@@ -116,7 +116,7 @@ bool IsBracketed(const Edge& edge, const Isoregion& region, int surface, int beg
     region.IsAbove(surface, edge(end)) == edge.IsAbove(region, surface, end);
 }
 
-/** Signs that are the values' need no look at them. */
+/** Where the signs are those of the values, there is nothing to check. */
 template <typename T>
 constexpr bool IsBracketed(const EdgeSamples<T>& /*edge*/, const Isoregion& /*region*/,
   int /*surface*/, int /*begin*/, int /*end*/)
@@ -135,10 +135,10 @@ double Crossing(const Edge& edge, int i, double isovalue)
   return i + (std::isfinite(begin) && std::isfinite(end) && along == along ? along : 0.5);
 }
 
-/** A position on an edge, in steps, as coefficient. */
+/** A position on an edge, in steps, as a coefficient. */
 inline std::uint8_t Code(double position, int steps)
 {
-  const double code = 256.0 * position / steps + 0.5; // what is positive is rounded by being cut
+  const double code = 256.0 * position / steps + 0.5; // truncating rounds positive values
   return static_cast<std::uint8_t>(std::clamp(code, 1.0, 255.0));
 }
 
@@ -181,7 +181,7 @@ std::uint8_t CoefficientOfLongEdge(const Edge& edge, const Isoregion& region, in
 
 }
 
-/** The coefficient of the isovertex on an edge whose ends lie on both sides of one surface. */
+/** The coefficient of the isovertex on an edge whose ends lie on opposite sides of one surface. */
 template <typename Edge>
 std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int surface = 0)
 {
@@ -200,8 +200,8 @@ std::uint8_t IsovertexCoefficient(const Edge& edge, const Isoregion& region, int
 
 /**
  * The coefficients of both isovertices of an edge that leads from below an interval volume to above
- * it, for the lower and the upper surface: from the lower end the first crossing of the upper
- * surface, then the last one of the lower surface before it. They are different, and in that order.
+ * it, for the lower and the upper surface: seen from the lower end, the first crossing of the upper
+ * surface, and the last one of the lower surface before it. They are different, and in that order.
  */
 template <typename Edge>
 std::array<std::uint8_t, 2> IsovertexCoefficients(const Edge& edge, const Isoregion& region)
@@ -244,8 +244,8 @@ std::array<std::uint8_t, 2> IsovertexCoefficients(const Edge& edge, const Isoreg
 }
 
 /** Writes the coefficients of a diamond's isovertices: those on surface 0, then 1.
- *  @param lower, upper masks of the edges that these cross
- *  @param edgeOf called with a vertex: that edge @return the end */
+ *  @param lower, upper masks of the edges that these surfaces cross
+ *  @param edgeOf called with a vertex; returns the edge to it @return the end */
 template <typename EdgeOf>
 std::uint8_t* WriteCoefficients(const Isoregion& region, std::uint32_t lower, std::uint32_t upper,
   const EdgeOf& edgeOf, std::uint8_t* next)

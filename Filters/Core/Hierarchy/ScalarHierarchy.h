@@ -14,8 +14,8 @@
  * HD, the hierarchy of diamonds over a scalar field, for any isovalue or isorange at query time.
  *
  * Every diamond has a sample (that of its central vertex), a field error and a value range. The
- * arrays are dense, x fastest, one box of positions a scale, scales from N - 1 down to 0. Ranges
- * are kept from scale 1 up only: those of scale 0, 7/8 of all, are read off the samples.
+ * arrays are dense, x fastest, one box of positions per scale, scales from N - 1 down to 0. Ranges
+ * are kept from scale 1 up only: those of scale 0, 7/8 of all, are read from the samples.
  *
  * Weiss & De Floriani, TVCG 2010, section 4.
  */
@@ -58,11 +58,11 @@ public:
   /**
    * The paper's selective refinement: the smallest closed set of diamonds that holds every diamond
    * of the front whose own error code exceeds `accepted` and whose domain a surface crosses. The
-   * cost falls with the tolerance: only the front is visited.
+   * cost falls as the tolerance grows: only the front is visited.
    *
-   * @param acceptedInside with less than Always - 1, the set holds the diamonds too, on the front
-   *        or not, that have all vertices inside the interval volume and a greater code; then
-   *        every diamond is visited
+   * @param acceptedInside if less than Always - 1, the set also holds the diamonds, on the front or
+   *        not, that have all vertices inside the interval volume and a greater code; then every
+   *        diamond is visited
    * @param always what the set holds in any case, with all ancestors; null for nothing
    */
   WalkResult Refine(const Isoregion& region, ErrorCode::Type accepted,
@@ -81,7 +81,7 @@ private:
   std::vector<std::int64_t> FirstOfScale;
 };
 
-/** The arrays of an HD but the samples. */
+/** The arrays of an HD except the samples. */
 struct ScalarEncoding
 {
   double ErrorScale = 1.0;

@@ -10,16 +10,16 @@ namespace isodiamond
 {
 
 /**
- * Encode() of a volume that comes in slabs: the same to the bit.
+ * Encode() for a volume that comes in slabs: the same result, bit for bit.
  *
- * Isovertices of short edges are placed when their slab comes, which has all of the edge. Long
- * edges lead through several: of these the few samples that count, at their ends and where they
- * cross a surface, which signs tell, are gathered, and their isovertices are placed in the end.
+ * Isovertices of short edges are placed when their slab comes, as it has all of the edge. Long
+ * edges pass through several slabs: the few samples of these that count, at their ends and where
+ * they cross a surface, as the signs tell, are gathered, and their isovertices are placed last.
  */
 class StreamedEncoder
 {
 public:
-  /** So many slices a slab needs on both sides of those whose diamonds it writes, where the volume
+  /** How many slices a slab needs on both sides of those whose diamonds it writes, where the volume
    *  has them: the length of the longest short edge. */
   static constexpr int Overlap = 8;
 
@@ -30,19 +30,19 @@ public:
   StreamedEncoder(const EncodingHeader& header, const Grid& grid, const DiamondSet& set,
     ErrorCode::Type code, const SignLattice& signs, const ParallelFor& parallelFor);
 
-  /** Writes what has its centre in some slices, which come from the first to the last.
-   *  @param slab with these and those that overlap */
+  /** Writes the diamonds centred in some slices, which come from the first to the last.
+   *  @param slab with these slices and those that overlap */
   void Add(const SampleSlab& slab, const SliceRange& slices);
 
-  /** Slices that a peer adds. */
+  /** Skips slices that a peer adds. */
   void Skip(const SliceRange& slices);
 
-  /** What peers have added, each at least one slab; together all slices.
-   *  @param areSetsOther whether each has a set of its own, with the same long edges: what it has
-   *         written is its own then */
+  /** Adds what peers have added, at least one slab each; together all slices.
+   *  @param areSetsOther whether each has a set of its own, with the same long edges: then each
+   *         keeps what it has written */
   void Merge(Peers& peers, bool areSetsOther);
 
-  /** Once all slices have come. */
+  /** To be called once all slices have come. */
   Encoded Finish();
 
 private:
@@ -56,7 +56,7 @@ private:
   const SignLattice& Signs;
   EncodingPasses Passes;
   GatheredSamples Gathered;
-  bool HasValues = false; ///< room for the values inside
+  bool HasValues = false; ///< whether there is room for inside values
 };
 
 }

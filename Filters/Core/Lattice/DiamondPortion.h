@@ -16,7 +16,7 @@
 namespace isodiamond
 {
 
-/** Cuts things in a row into parts of about the same size. @return the first thing of each part */
+/** Cuts a row of things into parts of about the same size. @return the first thing of each part */
 inline std::vector<int> EvenCuts(const std::vector<std::int64_t>& sizes, int parts)
 {
   std::vector<std::int64_t> before(sizes.size() + 1, 0);
@@ -34,21 +34,21 @@ inline std::vector<int> EvenCuts(const std::vector<std::int64_t>& sizes, int par
 }
 
 /**
- * Which diamonds one of several has who build a hierarchy together, each of them a portion.
+ * The diamonds of one of several processes that build a hierarchy together: its portion.
  *
- * The slices of the lattice are cut into portions, behind one another. A diamond is *owned* by who
- * has the slice of its centre. Beyond its own a portion *has* those that are near, of each scale as
- * many slices of that scale: all whose domain touches its slices, and of each of these all
- * ancestors. So the diamonds of a portion are a closed set, as those of a whole hierarchy are; what
- * is missing looks as if it did not lead to the surface.
+ * The slices of the lattice are cut into consecutive portions. A diamond is *owned* by the portion
+ * that has the slice of its centre. Beyond its own, a portion *has* the diamonds nearby, at each
+ * scale within the same number of slices of that scale: all whose domain touches its slices, and
+ * all ancestors of these. So the diamonds of a portion are a closed set, as those of a whole
+ * hierarchy are; missing ones look as if they did not lead to the surface.
  */
 class DiamondPortion
 {
 public:
-  /** Bricks of scale 0 have one owner each: portions begin with one. */
+  /** Every brick of scale 0 has one owner: portions begin where a brick does. */
   static constexpr int Step = 8;
 
-  /** @param begins the slices that portions begin with, ascending, in steps, the first 0
+  /** @param begins the first slice of each portion, ascending, in multiples of Step, the first 0
    *  @param number of the portion */
   DiamondPortion(std::vector<int> begins, int number)
     : Begins(std::move(begins))
@@ -59,17 +59,17 @@ public:
 
   int Begin() const { return this->Begins[this->Number]; }
 
-  /** The last portion has all behind it, too. */
+  /** The last portion also has everything behind it. */
   int End() const
   {
     const auto next = static_cast<std::size_t>(this->Number) + 1;
     return next < this->Begins.size() ? this->Begins[next] : std::numeric_limits<int>::max();
   }
 
-  /** Whether it owns the diamonds with their centre in a slice. */
+  /** Whether it owns the diamonds centred in a slice. */
   bool Owns(int slice) const { return slice >= this->Begin() && slice < this->End(); }
 
-  /** The diamonds that it has of a brick's word. @param z position of the word */
+  /** The diamonds of a brick's word that it has. @param z position of the word */
   std::uint64_t Has(int scale, int z) const
   {
     return BitsWhere(z,
@@ -81,7 +81,7 @@ public:
       });
   }
 
-  /** Those that some portions have in common. */
+  /** Those that several portions have in common. */
   std::uint64_t AreCommon(int scale, int z) const
   {
     return BitsWhere(z,
@@ -96,9 +96,9 @@ public:
   }
 
 private:
-  /** So many slices around its own a portion has diamonds of. A domain reaches one step of its
-   * scale from its centre. Parents are of the next older class and at most a step away: after three
-   *  classes that is no more than the youngest of the next scale has. */
+  /** How many slices around its own a portion has diamonds of. A domain reaches one step of its
+   *  scale from its centre. Parents are of the next older class and at most a step away: after
+   *  three classes that is no more than the youngest class of the next scale has. */
   static std::int64_t Reach(int scale, int diamondClass)
   {
     constexpr int youngest = 3;

@@ -193,7 +193,7 @@ public:
     }
   }
 
-  /** The same with what bitsOf(scale, z) leaves of the words z, where it leaves any. */
+  /** The same for the bits of words z that are in bitsOf(scale, z); skips bricks without any. */
   template <typename BitsOf, typename Body>
   void ForEachBrick(const BitsOf& bitsOf, const Body& body) const
   {
@@ -251,7 +251,7 @@ private:
   void AddParentsOfScale(const Grid& grid, int scale, int diamondClass);
   void AddParentsOfCoarserScale(const Grid& grid, int scale);
 
-  /** @param bits those of a word that count, by parity of z */
+  /** @param bits the bits of a word that count, by parity of z */
   template <typename Body>
   void ForEachWithBits(int scale, const std::array<std::uint64_t, 2>& bits, const Body& body) const
   {
@@ -308,7 +308,7 @@ struct BrickLevel
   BrickBox Box;
   std::vector<std::int32_t> Lookup; ///< box index -> index in Bricks, -1 where there is none
   std::vector<Brick> Bricks;        ///< in the order of their box indices
-  std::int64_t FirstNumber = 0;     ///< of its bricks, in the order of AllBricks()
+  std::int64_t FirstNumber = 0;     ///< of its first brick, in the order of AllBricks()
 
   const Brick* Find(const Point& position) const
   {
@@ -322,8 +322,7 @@ struct BrickLevel
                                                       : &this->Bricks[this->Lookup[boxIndex]];
   }
 
-  /** Calls body(index of a brick, its origin) for those that hold positions of a box, ends
-   *  included. */
+  /** Calls body(index, origin) for the bricks that hold positions of a box, ends included. */
   template <typename Body>
   void ForEachBrickBetween(const Point& first, const Point& last, Body&& body) const
   {
@@ -349,8 +348,8 @@ struct BrickLevel
   }
 };
 
-/** Calls body(z, bits of word z) for those of a brick's words that hold positions of a box, ends
- *  included. @param origin of the brick */
+/** Calls body(z, bits of word z) for a brick's words that hold positions of a box, ends included.
+ *  @param origin of the brick */
 template <typename Body>
 void ForEachWordBetween(
   const BrickMask& mask, const Point& origin, const Point& first, const Point& last, Body&& body)
@@ -382,7 +381,7 @@ public:
   explicit DiamondSet(const Grid& grid);
   DiamondSet(const Grid& grid, const DiamondMask& mask);
 
-  /** What bitsOf(scale, z) leaves of the words of a mask. */
+  /** Only the bits of each word z of a mask that are in bitsOf(scale, z). */
   template <typename BitsOf>
   DiamondSet(const Grid& grid, const DiamondMask& mask, const BitsOf& bitsOf)
     : DiamondSet(grid)
@@ -458,12 +457,12 @@ private:
   std::int64_t BrickCount = 0;
 };
 
-/** A brick and its 26 neighbours: where passes look from diamonds of one brick to others near
- *  them, without a search. */
+/** A brick and its 26 neighbours: passes look up in it, without a search, the diamonds near those
+ *  of one brick. */
 class BrickWindow
 {
 public:
-  /** @param position any of the middle brick, which need not be there */
+  /** @param position any in the middle brick, which need not exist */
   BrickWindow(const BrickLevel& level, const Point& position)
     : Origin(8 * BrickOf(position))
   {

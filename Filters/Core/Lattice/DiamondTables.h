@@ -46,7 +46,7 @@
 namespace isodiamond
 {
 
-/** Most vertices, half-tetrahedra and children that any diamond has. */
+/** The most vertices, half-tetrahedra and children that any diamond has. */
 inline constexpr int MaximumVertices = 10;
 inline constexpr int MaximumHalfTetrahedra = 16;
 inline constexpr int MaximumChildren = 8;
@@ -85,7 +85,7 @@ struct HalfTetrahedron
   bool OddByAge = false; ///< whether that is an odd permutation
 };
 
-/** All that is known of a diamond from its type. */
+/** All that follows from a diamond's type. */
 struct TypeTable
 {
   bool Valid = false;
@@ -99,7 +99,7 @@ struct TypeTable
   int ChildCount = 0;
   int ChildStep = 0; ///< 0, or 1 when the children are of the next finer scale
   std::array<Point, MaximumChildren> ChildOffsets{};
-  std::array<std::uint16_t, MaximumChildren> ChildMasks{}; ///< vertices of the duet, edge mask
+  std::array<std::uint16_t, MaximumChildren> ChildMasks{}; ///< vertices of the duet as edge mask
   /** Half-tetrahedra come sorted by child, the same number for every child. */
   int HalfTetrahedraPerChild = 0;
   int HalfTetrahedronCount = 0;
@@ -387,8 +387,9 @@ inline constexpr void AddHalfTetrahedra(TypeTable& table, int parity, int highBi
   table.HalfTetrahedraPerChild = table.HalfTetrahedronCount / table.ChildCount;
 }
 
-/** Parents are the vertices from which this diamond's tetrahedra were made: by the rules of the
- *  lattice the ends of +-h on the even axes (class 1 and 2), or the class 2 corners (class 0). */
+/** Parents are centred at the vertices whose diamonds made this diamond's tetrahedra: by the rules
+ *  of the lattice those at +-h on the even axes (class 1 and 2), or the class 2 corners (class
+ *  0). */
 inline constexpr void AddParents(TypeTable& table, int parity, int highBits)
 {
   table.ParentStep = table.DiamondClass == 0 ? 1 : 0;
@@ -423,7 +424,7 @@ inline constexpr TypeTable MakeType(int parity, int highBits)
   return table;
 }
 
-/** One constant a type: compilers limit the work that goes into a single one. */
+/** One constant per type: compilers limit the work that goes into a single one. */
 template <std::size_t Type>
 inline constexpr TypeTable TableOfType = MakeType(Type & 7, Type >> 3);
 
@@ -456,7 +457,7 @@ inline constexpr const TypeTable& ShapeOf(const Point& position)
   return tables::Types[TypeOf(position)];
 }
 
-/** What make(position) finds for the diamonds of each type, by TypeOf. */
+/** The result of make(position) for a diamond of each type, indexed by TypeOf. */
 template <typename Make>
 auto MakeByType(const Make& make)
 {
@@ -472,7 +473,7 @@ auto MakeByType(const Make& make)
   return all;
 }
 
-/** The index of the vertex of a diamond at an offset that a vertex has. */
+/** The index of a diamond's vertex at an offset, where there must be one. */
 inline constexpr int VertexIndex(const Point& position, const Point& offset)
 {
   return tables::OffsetIndices[Parity(position)][9 * offset[2] + 3 * offset[1] + offset[0] + 13];
@@ -497,7 +498,7 @@ inline constexpr Point VertexAt(const Place& place, const Point& offset)
   return (1 << place.Scale) * (place.Position + offset);
 }
 
-/** The place of a child; Scale -1 for those below full resolution. */
+/** The place of a child; Scale -1 for children below full resolution. */
 inline constexpr Place ChildPlace(const TypeTable& shape, const Place& parent, int child)
 {
   return { parent.Scale - shape.ChildStep,

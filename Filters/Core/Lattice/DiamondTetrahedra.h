@@ -83,7 +83,7 @@ void ForEachParentHalf(const Place& diamond, Body&& body)
   }
 }
 
-/** The number of the tetrahedron of a diamond that a half of the diamond comes from. */
+/** The number of the diamond's tetrahedron that one of its halves comes from. */
 int NumberOfWhole(const Point& position, const HalfTetrahedron& half);
 
 /** A tetrahedron of a diamond by its number; without the parent's rank. */

@@ -11,11 +11,11 @@
 
 /**
  * @file HalfTetrahedronMasks.h
- * All half-tetrahedra of a diamond at once, in a word of four bits for each.
+ * All half-tetrahedra of a diamond at once, in a word with four bits for each.
  *
- * Bits 0 to 2 of the four stand for the outer vertices of a half-tetrahedron; a set of vertices of
- * the diamond, given as an edge mask, becomes the three bits that tell the case of each. A set of
- * half-tetrahedra has bit 0 of the four.
+ * Bits 0 to 2 of the four stand for the half-tetrahedron's outer vertices: a set of vertices of the
+ * diamond, given as an edge mask, becomes the three bits that tell the case of each
+ * half-tetrahedron. A set of half-tetrahedra uses bit 0 of the four.
  */
 namespace isodiamond
 {
@@ -25,7 +25,7 @@ using HalfTetrahedronMask = std::uint64_t;
 /** Bit 0 of every half-tetrahedron. */
 inline constexpr HalfTetrahedronMask EveryHalf = 0x1111111111111111U;
 
-/** Words of the sets of vertices, from tables for the lower and the upper half of the edge mask. */
+/** The words of sets of vertices, from tables for the lower and the upper half of the edge mask. */
 class VertexMasks
 {
 public:
@@ -60,8 +60,8 @@ private:
 namespace tables
 {
 
-/** @param byAge whether a half-tetrahedron's vertices count from the youngest to the oldest, or as
- *         they are listed */
+/** @param byAge whether a half-tetrahedron's vertices are ordered from youngest to oldest, or as
+ *         listed */
 inline constexpr VertexMasks MakeVertexMasks(const TypeTable& shape, bool byAge)
 {
   std::array<HalfTetrahedronMask, MaximumVertices> words{};
@@ -77,7 +77,7 @@ inline constexpr VertexMasks MakeVertexMasks(const TypeTable& shape, bool byAge)
   return VertexMasks(words);
 }
 
-/** One constant a type: compilers limit the work that goes into a single one. */
+/** One constant per type: compilers limit the work that goes into a single one. */
 template <std::size_t Type, bool ByAge>
 inline constexpr VertexMasks VertexMasksOfType = MakeVertexMasks(Types[Type], ByAge);
 
@@ -108,7 +108,7 @@ static_assert(ChildrenHaveTwoHalves(), "every child has a byte");
 
 }
 
-/** The half-tetrahedra that have one of the vertices. */
+/** The half-tetrahedra that have any of the vertices. */
 inline constexpr HalfTetrahedronMask HalvesWithAny(HalfTetrahedronMask vertices)
 {
   return (vertices | (vertices >> 1) | (vertices >> 2)) & EveryHalf;
@@ -127,14 +127,14 @@ inline constexpr HalfTetrahedronMask HalvesWithTwo(HalfTetrahedronMask vertices)
 /** The half-tetrahedra of children, given as a mask of up to eight. */
 inline constexpr HalfTetrahedronMask HalvesOfChildren(std::uint32_t children)
 {
-  // Bit i of a copy in every byte i, moved to the byte's top, and down.
+  // Bit i of the copy in byte i, moved to the byte's top, then down.
   const std::uint64_t copies = children * std::uint64_t{ 0x0101010101010101 };
   const std::uint64_t tops =
     ((copies & 0x8040201008040201U) + 0x7f7f7f7f7f7f7f7fU) & 0x8080808080808080U;
   return (tops >> 7) * 0x11U;
 }
 
-/** The children that have one of some half-tetrahedra. */
+/** The children that have any of the half-tetrahedra. */
 inline constexpr std::uint32_t ChildrenOfHalves(HalfTetrahedronMask halves)
 {
   // Bit 0 of every byte i becomes bit i of the topmost byte.

@@ -12,14 +12,16 @@ namespace isodiamond
 
 /**
  * A tetrahedron of class 0 by its corners, in the order of a path along three edges of the cube
- * that it lies in, from one of the cube's corners to the opposite. A Corner has a Position, and
- * what the caller wants to know there; middle(a, b) makes the corner between two others.
+ * that it lies in, from one corner of the cube to the opposite one. A Corner has a Position and
+ * whatever the caller wants to know there; middle(a, b) makes the corner halfway between two
+ * others.
  */
 template <typename Corner>
 using KuhnTetrahedron = std::array<Corner, 4>;
 
-/** Bisects the edge between the first and another corner. For the last corner of a path, then the
- *  second last and the second, that gives eight paths in cubes of half the size (Maubach). */
+/** Bisects the edge between the first and another corner. Done for the last corner of a path, then
+ *  the second to last and the second, this gives eight paths in cubes of half the size
+ *  (Maubach). */
 template <typename Corner, typename Middle>
 std::array<KuhnTetrahedron<Corner>, 2> Bisect(
   const KuhnTetrahedron<Corner>& whole, int last, const Middle& middle)
@@ -31,7 +33,7 @@ std::array<KuhnTetrahedron<Corner>, 2> Bisect(
   return halves;
 }
 
-/** Calls body(eighth) for the eight. */
+/** Calls body(eighth) for the eight paths. */
 template <typename Corner, typename Middle, typename Body>
 void ForEachEighth(const KuhnTetrahedron<Corner>& whole, const Middle& middle, const Body& body)
 {
@@ -92,8 +94,8 @@ void CutIntoPaths(
   body(whole);
 }
 
-/** Cuts a diamond's tetrahedra into paths along edges of 2^scale. @param vertices of the diamond
- *  as corners, in the order of its shape */
+/** Cuts a diamond's tetrahedra into paths along edges of length 2^scale. @param vertices of the
+ *  diamond as corners, in the order of its shape */
 template <typename Corner, typename Middle, typename Body>
 void CutIntoPaths(const TypeTable& shape, const std::array<Corner, MaximumVertices>& vertices,
   const Middle& middle, const Body& body)
@@ -107,7 +109,7 @@ void CutIntoPaths(const TypeTable& shape, const std::array<Corner, MaximumVertic
   }
 }
 
-/** The point between two others of the lattice. */
+/** The lattice point halfway between two others. */
 inline Point MiddleOf(const Point& a, const Point& b)
 {
   const Point sum = a + b;

@@ -13,7 +13,7 @@
  * [0, 2^N]^3; every one of them but the cube's 8 corners is the central vertex of exactly one
  * diamond, so a diamond needs no other name than its point. The *grid* is the box of samples
  * [0, X] x [0, Y] x [0, Z] that the cube covers; it is all the data there is. Tetrahedra without
- * a point strictly inside the grid's box do not exist for us, just as those outside of the cube.
+ * a point strictly inside the grid's box do not exist here, just like those outside the cube.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", TVCG 2010, section 3.
  */

@@ -13,16 +13,16 @@ namespace isodiamond
 {
 
 /**
- * Which lattice points of a cube are centres of a scale's diamonds, a byte each.
+ * Which lattice points of a cube are centres of a scale's diamonds, one byte each.
  *
- * A pass that asks for many neighbours of all diamonds of a brick finds them at fixed distances in
- * the array, without a search and without a branch.
+ * A pass that needs many neighbours of every diamond of a brick finds them at fixed distances in
+ * the array, without a search or a branch.
  */
 template <int Width>
 class OccupancyWindow
 {
 public:
-  /** Nothing is there. */
+  /** An empty window. */
   OccupancyWindow() = default;
 
   OccupancyWindow(const BrickLevel& level, const Point& first) { this->Fill(level, first); }
@@ -50,7 +50,7 @@ public:
       });
   }
 
-  /** Of the lattice points at distances from a position, those with a diamond, as a mask. */
+  /** Which of the lattice points at given distances from a position have a diamond, as a mask. */
   template <std::size_t Count>
   std::uint32_t Around(
     const Point& position, const std::array<std::int16_t, Count>& distances) const
@@ -73,7 +73,7 @@ public:
   }
 
 private:
-  /** Also of the start of a row, which may lie before the window. */
+  /** Also for the start of a row, which may lie before the window. */
   int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
 
   static bool Holds(int index) { return index >= 0 && index < Width * Width * Width; }
@@ -82,7 +82,7 @@ private:
   std::array<std::uint8_t, std::size_t{ Width } * Width * Width> Bytes{};
 };
 
-/** In a cube of a width, by parity: from a diamond to its vertices. */
+/** Distances from a diamond to its vertices in a cube of this width, by parity. */
 template <int Width>
 constexpr std::array<std::array<std::int16_t, MaximumVertices>, 8> MakeVertexDistances()
 {

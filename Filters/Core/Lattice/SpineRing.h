@@ -12,12 +12,12 @@
 namespace isodiamond
 {
 
-/** The vertices of a diamond that are no ends of its spine: the *ring* around it, in cyclic order.
- *  Two that follow each other span a tetrahedron with the spine. */
+/** The vertices of a diamond that are not ends of its spine: the *ring* around it, in cyclic order.
+ *  Two consecutive ones span a tetrahedron with the spine. */
 struct SpineRing
 {
   int Count = 0;
-  std::array<std::uint8_t, 8> Vertices{}; ///< indices as the shape's
+  std::array<std::uint8_t, 8> Vertices{}; ///< indices as in the shape
 };
 
 namespace tables

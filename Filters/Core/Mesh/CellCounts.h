@@ -19,8 +19,8 @@ std::int64_t CountCells(const RefinedSet& refined, const ParallelFor& parallelFo
  * one pass over the stored diamonds.
  *
  * A half-tetrahedron is in the mesh while the diamond that it halves is refined and its child is
- * not: for all tolerances from the child's threshold on that are below the parent's. So each one
- * adds its cells to an interval of codes, and there are only 2^14 of these.
+ * not: at all tolerances from the child's threshold up to, but not including, the parent's. So each
+ * one adds its cells to an interval of codes, and there are only 2^14 codes.
  */
 class CellCounts
 {
@@ -29,10 +29,10 @@ public:
   CellCounts(const IsodiamondHierarchy& hierarchy, const ParallelFor& parallelFor,
     double interiorTolerance = HUGE_VAL);
 
-  /** The number of cells at a tolerance, cells in hidden ones of the grid included. */
+  /** The number of cells at a tolerance, including those in hidden cells of the grid. */
   std::int64_t At(double tolerance) const { return this->Counts[this->Code.Accepted(tolerance)]; }
 
-  /** The codes of the tolerances: from one to the next the number may change. */
+  /** The codes of the tolerances; the number may change from one to the next. */
   const ErrorCode& Codes() const { return this->Code; }
 
 private:

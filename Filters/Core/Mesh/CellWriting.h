@@ -10,19 +10,19 @@
 
 /**
  * @file CellWriting.h
- * Some cells of a mesh, written as if there were no others: a process that gives a share of a mesh
- * makes that share only.
+ * Writes some cells of a mesh as if there were no others: a process that provides a share of a mesh
+ * makes only that share.
  */
 namespace isodiamond
 {
 
 /**
- * Has the bricks write their cells where these belong, in parallel. Bricks without cells in the
- * range are left out.
+ * Has each brick write its cells where they belong, in parallel. Bricks without cells in the range
+ * are left out.
  *
  * @param range of the mesh's cells
- * @param connectivity receives the point ids, Size a cell of the range
- * @param levels receives one a cell of the range
+ * @param connectivity receives the point ids, Size for each cell of the range
+ * @param levels receives one for each cell of the range
  * @param writeBrick (brick, ids, levels): writes all cells of a brick
  */
 template <int Size, typename Id, typename WriteBrick>
@@ -40,7 +40,7 @@ void WriteCellsOf(const ExtractionPasses& passes, const CellRange& range, Id* co
         writeBrick(brick, ids, ownLevels);
         return;
       }
-      // The range begins or ends within the brick, which can only write all of its cells.
+      // The range begins or ends within the brick, which can only write all its cells at once.
       std::vector<Id> allIds(Size * own.Count());
       std::vector<std::int8_t> allLevels(own.Count());
       writeBrick(brick, allIds.data(), allLevels.data());

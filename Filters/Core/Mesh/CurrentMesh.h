@@ -19,11 +19,11 @@
 namespace isodiamond
 {
 
-/** The diamonds of a brick's scale in the brick and behind it: a child of the same scale is even
- *  where it differs from its parent, which is odd there. */
+/** The diamonds of a brick's scale in the brick and just after it: the position of a child of the
+ *  same scale is even on the axes where it differs from its parent's, which is odd there. */
 using SameScaleWindow = OccupancyWindow<9>;
 
-/** Those of the next finer scale around the doubled positions. */
+/** The diamonds of the next finer scale, around the doubled positions. */
 inline constexpr int FinerWidth = 17;
 using FinerWindow = OccupancyWindow<FinerWidth>;
 
@@ -54,7 +54,7 @@ inline constexpr auto ChildDistances = MakeChildDistances();
 
 }
 
-/** Tells what belongs to the current mesh of the diamonds of one brick. */
+/** Finds what belongs to the current mesh among the edges and children of a brick's diamonds. */
 class LeafFinder
 {
 public:
@@ -96,7 +96,7 @@ public:
 private:
   /** Children of classes 0 and 1. */
   SameScaleWindow Same;
-  /** What is centred on edges, and children of class 2: at scale 0 there is no such. */
+  /** Diamonds centred on edges, and the children of class 2; scale 0 has none of these. */
   bool HasFiner;
   FinerWindow Finer;
 };
@@ -122,7 +122,7 @@ struct LeafParent
   }
 };
 
-/** The parent of leaves at a place, where no child is refined.
+/** The parent of leaves at a place, if none of its children is refined.
  *  @param wanted edge mask: leaves with none of these edges do not count */
 inline LeafParent MakeLeafParent(
   const RefinedBrick& brick, const Place& place, std::uint32_t rank, std::uint32_t wanted)
@@ -139,9 +139,9 @@ inline LeafParent MakeLeafParent(
 }
 
 /**
- * The same where some are.
+ * The same if some of its children are refined.
  *
- * @param children that are not refined
+ * @param children those that are not refined
  * @param wanted edge mask: leaves with none of these edges do not count
  */
 inline LeafParent MakeLeafParent(const RefinedBrick& brick, const Place& place, std::uint32_t rank,
@@ -166,8 +166,8 @@ struct Leaf
  * Calls body(leaf) for the leaves of one brick's refined diamonds.
  *
  * @param place of a brick of refined.Diamonds()
- * @param crossed (rank) -> mask of the subdivision edges that make a half-tetrahedron wanted: it is
- *        visited if it has one of them
+ * @param crossed (rank) -> mask of subdivision edges: a half-tetrahedron is visited if it has one
+ *        of them
  */
 template <typename Crossed, typename Body>
 void ForEachLeaf(const RefinedSet& refined, const BrickPlace& place, Crossed&& crossed, Body&& body)

@@ -15,10 +15,10 @@ namespace isodiamond
 {
 
 /**
- * The leaves of an interval volume before they are cut: for whoever cuts them otherwise.
+ * The leaves of an interval volume before they are cut, for code that cuts them differently.
  *
- * Points are those of the interval volume's mesh (see IntervalExtraction): its vertices inside, and
- * its isovertices, where surfaces cut edges.
+ * Points are those of the interval volume's mesh (see IntervalExtraction): the vertices inside, and
+ * the isovertices, where surfaces cut edges.
  */
 struct CutMesh
 {
@@ -29,16 +29,16 @@ struct CutMesh
     Point Position{};             ///< in index space
     std::uint8_t Sign = 0;        ///< 0, 1, 2: below, inside, above
     bool IsHidden = false;        ///< whether it is a corner of a hidden cell
-    std::uint32_t PointId = None; ///< in the mesh; only of vertices inside
+    std::uint32_t PointId = None; ///< in the mesh; only for vertices inside
   };
 
   struct Tetrahedron
   {
     std::array<std::uint32_t, 4> Vertices{}; ///< from the youngest to the oldest
-    /** On the edges in the order of EdgeByAge(): the isovertices on the lower and the upper
-     *  surface, points of the mesh or None. */
+    /** For each edge, in the order of EdgeByAge(): the isovertices on the lower and the upper
+     *  surface, as points of the mesh, or None. */
     std::array<std::array<std::uint32_t, 2>, 6> Cuts{};
-    bool IsOdd = false; ///< whether it is negative in index space, in the order of its vertices
+    bool IsOdd = false; ///< whether this order is negatively oriented in index space
     std::int8_t Level = 0;
   };
 
@@ -52,13 +52,13 @@ inline constexpr int CutEdge(int younger, int older)
   return younger + older - (younger == 0 ? 1 : 0);
 }
 
-/** Where the vertices are in the world. */
+/** The world positions of the vertices. */
 std::vector<Vector> VerticesInWorld(const CutMesh& mesh, const GridGeometry& world);
 
 /** The diamond that a leaf lies in, around its longest edge; none at full resolution. */
 std::optional<Place> DiamondOf(const CutMesh& mesh, std::size_t leaf, const Grid& grid);
 
-/** Collects the leaves of a volume's passes that carry something and are not hidden. */
+/** Collects the leaves that carry something and are not hidden. @param passes of a volume */
 CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden);
 
 }

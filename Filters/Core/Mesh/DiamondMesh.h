@@ -12,8 +12,8 @@ namespace isodiamond
 /**
  * The current diamond mesh of a query: the tetrahedra under the front (the paper's figure 14).
  *
- * From an RI, or an HD query, these tile the whole grid (but for tetrahedra that stick out of it);
- * from an MI they are those that carry the surface.
+ * From an RI or an HD query, these tile the whole grid (but for tetrahedra that stick out of it);
+ * from an MI, they are those that carry the surface.
  */
 struct DiamondMesh
 {
@@ -23,7 +23,7 @@ struct DiamondMesh
   std::vector<std::int8_t> Classes; ///< class of that diamond
 };
 
-/** Collects the mesh. Serial: it is for looking at, not for speed. */
+/** Collects the mesh. Serial: meant for looking at, not for speed. */
 DiamondMesh ExtractDiamondMesh(const RefinedSet& refined);
 
 }

@@ -17,8 +17,8 @@ namespace isodiamond
 
 /**
  * The points of a mesh that belong to one refined diamond, as bits in the order of their ids: its
- * centre if that lies inside an interval volume, the isovertices on those of its edges that are in
- * the current mesh, first on surface 0, then on surface 1.
+ * centre if that lies inside an interval volume, then the isovertices on those of its edges that
+ * are in the current mesh, first on surface 0, then on surface 1.
  */
 struct DiamondPoints
 {
@@ -39,7 +39,7 @@ struct DiamondPoints
     return (this->Bits >> Isovertex(surface, 0)) & AllEdges;
   }
 
-  /** The id of a point that there is not, which only a damaged file asks for, is 0. */
+  /** The id of a point; 0 if there is none, which is asked for only if a file is damaged. */
   std::uint32_t Id(int bit) const
   {
     const std::uint32_t before = this->Bits & ((1U << bit) - 1U);
@@ -49,7 +49,7 @@ struct DiamondPoints
   }
 };
 
-/** Cells of a mesh that follow each other. */
+/** Consecutive cells of a mesh. */
 struct CellRange
 {
   std::int64_t First = 0;
@@ -58,11 +58,11 @@ struct CellRange
   std::int64_t Count() const { return this->Last - this->First; }
 };
 
-/** Cells of a mesh that are dealt out to shares one after the other. */
+/** Cells of a mesh that are dealt out to shares in order. */
 struct DealtCells
 {
   CellRange All;
-  CellRange Own; ///< of a share: shares before have those before, shares after those after
+  CellRange Own; ///< those of one share: earlier shares have those before, later ones those after
 };
 
 /** The number of cells in ranges. */
@@ -72,18 +72,18 @@ inline std::int64_t TotalOf(const std::vector<CellRange>& ranges)
     [](std::int64_t sum, const CellRange& cells) { return sum + cells.Count(); });
 }
 
-/** A share's cells, those that follow each other as one range. */
+/** A share's cells; consecutive ones are one range. */
 std::vector<CellRange> OwnCells(const std::vector<DealtCells>& dealt);
 
 /**
- * A share of a mesh: of each scale the cells of some bricks that follow each other. Shares 0 to
- * Count - 1 together have each cell once. As bricks of a scale follow each other in z, a share is
- * about a slab. All have as many refined diamonds of a scale, but for a brick's, which is known
- * without counting; so, where there are many bricks for each, about as many cells.
+ * A share of a mesh: at each scale, the cells of some consecutive bricks. Shares 0 to Count - 1
+ * together have each cell once. As the bricks of a scale are in the order of z, a share is about a
+ * slab. All have equally many refined diamonds of a scale, to within a brick's: a number known
+ * without counting. So, if each has many bricks, they have about equally many cells.
  */
 struct MeshShare
 {
-  int Number = 0; ///< Count is none
+  int Number = 0; ///< if this is Count, the share is empty
   int Count = 1;
   /** Whether cells and points of the others are counted, too: ids are those of the whole mesh. */
   bool WithIdsOfAll = false;
@@ -94,18 +94,18 @@ struct MeshShare
  *
  * Only bricks with refined diamonds are visited. They are independent: every brick has a range of
  * point ids and of cells of its own, and within it everything is in the order of the diamonds, so
- * order and values of the output do not depend on threads. Counting notes a diamond's points and
- * those of its children that are leaves; writing asks no more what is refined. Of a surface of full
- * resolution the hierarchy tells both.
+ * the order and values of the output do not depend on threads. Counting notes each diamond's points
+ * and which of its children are leaves; writing need not ask what is refined. For a surface at full
+ * resolution the hierarchy itself gives both.
  *
- * Of a share, its bricks' cells are counted, and the points of the layers of bricks in which
- * vertices of theirs can be. Of some cells only, those are written, and then the points that they
- * use: KeepPointsOf() has ids and points of these alone.
+ * For a share, its bricks' cells are counted, and the points of the layers of bricks in which these
+ * can have vertices. If only some cells are wanted, these are written, then the points that they
+ * use: after KeepPointsOf() there are ids and points of these alone.
  */
 class ExtractionPasses
 {
 public:
-  /** What bricks contribute. */
+  /** What a brick contributes. */
   struct Counts
   {
     std::int64_t Points = 0;
@@ -115,8 +115,8 @@ public:
   /**
    * Counts. The refined set must outlive the passes.
    *
-   * @param maximumStep how much coarser than a leaf's parent the diamonds can be whose points its
-   *        cells have
+   * @param maximumStep by how many scales the diamonds that own the points of a leaf's cells can be
+   *        coarser than its parent
    * @param cellsOf (leafParent) -> the number of cells in a diamond's leaves
    * @throws std::length_error beyond 2^32 - 1 points
    */
@@ -147,7 +147,7 @@ public:
   const RefinedSet& Refined() const { return this->Set; }
   const IsodiamondHierarchy& Hierarchy() const { return this->Set.Hierarchy(); }
 
-  /** How much coarser diamonds can be whose points a brick's cells have. */
+  /** By how many scales the diamonds that own the points of a brick's cells can be coarser. */
   int MaximumStep() const { return this->Step; }
 
   /** Points and cells of all bricks that were counted. */
@@ -155,10 +155,10 @@ public:
 
   CellRange AllCells() const { return { 0, this->Total().Cells }; }
 
-  /** How they are dealt out, scale by scale, from coarse to fine. */
+  /** How cells are dealt out, scale by scale, from coarse to fine. */
   std::vector<DealtCells> Dealt() const;
 
-  /** Leaves the points that some cells use, whose ids become those among these. */
+  /** Leaves only the points that some cells use; ids become those among these points. */
   template <typename Id>
   void KeepPointsOf(Id* ids, std::int64_t size)
   {
@@ -166,7 +166,7 @@ public:
     this->Kept->Rename(ids, size, this->Parallel);
   }
 
-  /** Those that are left; null if all are. */
+  /** The points that are left; null if all are. */
   const KeptPoints* PointsKept() const { return this->Kept ? &*this->Kept : nullptr; }
 
   /** The number of points that are left. */
@@ -184,7 +184,7 @@ public:
 
   RefinedBrick BrickAt(std::int64_t brick) const { return { this->Set, this->Bricks[brick] }; }
 
-  /** The points of a diamond. @param rank among the refined diamonds @param brick that it is in */
+  /** The points of a diamond. @param rank among the refined diamonds @param brick its brick */
   DiamondPoints PointsOf(std::int64_t brick, std::uint32_t rank) const
   {
     if (this->IsFinest)
@@ -227,7 +227,7 @@ public:
       });
   }
 
-  /** Calls body(brick, its cells) for every brick with cells of a range, in parallel. */
+  /** Calls body(brick, its cells) for every brick with cells in a range, in parallel. */
   template <typename Body>
   void ForEachBrickWithCells(const CellRange& range, Body&& body) const
   {
@@ -242,14 +242,14 @@ public:
       });
   }
 
-  /** Calls body(leafParent) for every parent of leaves that carry something in a brick. */
+  /** Calls body(leafParent) for every parent, in a brick, of leaves that carry something. */
   template <typename Body>
   void ForEachLeafParent(std::int64_t number, Body&& body) const
   {
     const RefinedBrick brick = this->BrickAt(number);
     if (this->IsFinest)
     {
-      brick.ForEachDiamondOfClass(2, // whose children would be finer
+      brick.ForEachDiamondOfClass(2, // class 2: its children would be finer
         [&](const Place& place, std::uint32_t rank)
         {
           if (const std::uint32_t crossed = this->Hierarchy().Edges(rank))
@@ -274,11 +274,11 @@ private:
   struct Slot
   {
     std::uint32_t Points; ///< bits of DiamondPoints
-    std::uint16_t First;  ///< of them among the points of the brick
+    std::uint16_t First;  ///< number of the first among the brick's points
     std::uint8_t LeafChildren;
   };
 
-  /** Bricks, or bricks of a level, that follow each other. */
+  /** Consecutive bricks, of all or of a level. */
   struct BrickRange
   {
     std::int64_t First = 0;
@@ -286,7 +286,7 @@ private:
 
     bool Contains(std::int64_t brick) const { return this->First <= brick && brick < this->Last; }
 
-    /** Adds others, and what is between. */
+    /** Adds others, and what is in between. */
     void Include(const BrickRange& others)
     {
       const bool isEmpty = this->First == this->Last;
@@ -298,13 +298,13 @@ private:
   ExtractionPasses(const RefinedSet& refined, const MeshShare& share, int maximumStep,
     const ParallelFor& parallelFor);
 
-  /** A share's bricks of each scale that has anything to do with the mesh. */
+  /** A share's bricks, for each scale that has anything to do with the mesh. */
   std::vector<BrickRange> BricksOf(const MeshShare& share) const;
 
-  /** Bricks of a level, from one layer in z to another. */
+  /** The bricks of a level from one layer in z to another. */
   static BrickRange BricksBetween(const BrickLevel& level, int first, int last);
 
-  /** By scale: whole layers of bricks that have all points of some bricks' cells. */
+  /** By scale: whole layers of bricks that together have all points of some bricks' cells. */
   std::vector<BrickRange> BricksAround(const std::vector<BrickRange>& bricks) const;
 
   /** Calls body(brick) for every brick, in parallel. */
@@ -321,7 +321,7 @@ private:
 
   const RefinedSet& Set;
   ParallelFor Parallel;
-  /** Whether all that carries something is of scale 0: an interval volume has its inside at all. */
+  /** Whether all that carries something is of scale 0; the inside of a volume is of all scales. */
   bool IsFinest;
   int Step;
   std::vector<BrickPlace> Bricks;

@@ -18,7 +18,7 @@ int CountTetrahedra(const IsodiamondHierarchy& hierarchy, const LeafParent& pare
  * Points are the centres of refined diamonds that lie inside, and the alive isovertices of refined
  * diamonds, each belonging to one diamond; their ids are a prefix sum, as for surfaces (see
  * SurfaceExtraction.h). All tetrahedra have positive volume in index space and share whole faces.
- * Order and values of the output do not depend on threads. Paper, section 6.
+ * The order and values of the output do not depend on threads. Paper, section 6.
  */
 class IntervalExtraction : public MeshExtraction
 {
@@ -31,10 +31,10 @@ public:
   std::int64_t TetrahedronCount() const { return this->Passes.Total().Cells; }
 
   /**
-   * Writes what is known of the points.
+   * Writes what is known about the points.
    *
-   * @param values receives the field's value: the isovalue on a surface, the sample inside; NaN on
-   *        a surface without an isovalue, where an open side meets NaN; float or double
+   * @param values receives field values: the isovalue on a surface, the sample inside; NaN on a
+   *        surface without an isovalue, where an open side meets NaN; float or double
    * @param surfaces receives -1 on the lower surface, 1 on the upper one, else 0
    */
   template <typename Value>
@@ -43,8 +43,8 @@ public:
   /**
    * Writes the tetrahedra.
    *
-   * @param mirrored of the map that places the points; their volumes are positive then
-   * @param connectivity receives 4 point ids a tetrahedron (32 bits, or long long)
+   * @param mirrored whether the map that places the points mirrors; after it, volumes are positive
+   * @param connectivity receives 4 point ids per tetrahedron (32 bits, or long long)
    * @param levels receives the level of the diamond that each lies in: 0 for the root, N at full
    *        resolution
    */
@@ -54,12 +54,12 @@ public:
     this->WriteTetrahedra(this->Passes.AllCells(), mirrored, connectivity, levels);
   }
 
-  /** Writes a range of the tetrahedra, and nothing of the others. */
+  /** Writes only a range of the tetrahedra. */
   template <typename Id>
   void WriteTetrahedra(
     const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const;
 
-  /** The leaves before they are cut. @param hidden cells, or null */
+  /** The leaves before they are cut. @param hidden the hidden cells, or null */
   CutMesh Leaves(const HiddenCells* hidden) const { return MakeCutMesh(this->Passes, hidden); }
 };
 

@@ -14,20 +14,20 @@ namespace isodiamond
 {
 
 /**
- * The points of a mesh that some of its cells use: one bit a point of the whole mesh, and their
- * number before every 64 of them, so that each has an id among those that are kept, in the same
- * order. While these are found it takes a byte a point.
+ * The points of a mesh that some of its cells use: one bit per point of the whole mesh, and for
+ * every 64 of them the number kept before, so that each kept point has an id among the kept ones,
+ * in the same order. While they are being found, this takes a byte per point.
  */
 class KeptPoints
 {
 public:
-  /** @param pointCount of the whole mesh @param ids that the cells use @param size of ids */
+  /** @param pointCount of the whole mesh @param ids used by the cells @param size of ids */
   template <typename Id>
   KeptPoints(
     std::int64_t pointCount, const Id* ids, std::int64_t size, const ParallelFor& parallelFor)
     : Words(pointCount / 64 + 1)
   {
-    // A byte each is written sooner than a bit: most points are used more than once.
+    // Bytes are faster to write than bits: most points are used more than once.
     std::vector<std::atomic<std::uint8_t>> isUsed(64 * this->Words.size());
     parallelFor(size, Grain,
       [&](std::int64_t begin, std::int64_t end)
@@ -81,7 +81,7 @@ public:
     return this->NewId(last) > this->NewId(first);
   }
 
-  /** The number of kept points before one of the whole mesh: its own new id, if it is kept. */
+  /** The number of kept points before a point of the whole mesh: its new id, if it is kept. */
   std::int64_t NewId(std::int64_t id) const
   {
     const Word& word = this->Words[id / 64];
@@ -104,7 +104,7 @@ public:
 private:
   static constexpr std::int64_t Grain = 65536;
 
-  /** 64 points: which are kept, and how many before them. */
+  /** 64 points: which of them are kept, and how many before them are. */
   struct Word
   {
     std::uint64_t Bits = 0;

@@ -19,11 +19,11 @@ class MeshExtraction
 public:
   std::int64_t PointCount() const { return this->Passes.PointCount(); }
 
-  /** How the cells that were counted are dealt out to shares: ranges of cells are among these, and
-   *  all are the share's own if only those were counted. */
+  /** How the cells that were counted are dealt out to shares. Ranges number the counted cells; if
+   *  only the share's own were counted, all are its own. */
   std::vector<DealtCells> Dealt() const { return this->Passes.Dealt(); }
 
-  /** Writes 3 coordinates a point; float or double. */
+  /** Writes 3 coordinates per point; float or double. */
   template <typename Coordinate>
   void WritePoints(const AffineMap& world, Coordinate* points) const
   {
@@ -40,7 +40,7 @@ public:
   /**
    * From here on the mesh has only the points that some cells use.
    *
-   * @param ids of points, as a range of cells was written: they become those that points have then
+   * @param ids of points, as written for a range of cells; they become the points' new ids
    * @param size of ids
    */
   template <typename Id>
@@ -49,7 +49,7 @@ public:
     this->Passes.KeepPointsOf(ids, size);
   }
 
-  /** The ids of the points that there are among all that were counted. */
+  /** The ids that the points left have among all that were counted. */
   template <typename Id>
   std::vector<Id> PointIds() const
   {

@@ -11,8 +11,8 @@
 
 /**
  * @file MeshPoints.h
- * The points of an extracted mesh one by one, for whoever wants to know more of them than where
- * they are.
+ * The points of an extracted mesh one by one, for code that needs to know more about them than
+ * their positions.
  */
 namespace isodiamond
 {
@@ -39,8 +39,8 @@ struct MeshPoint
 /**
  * Calls body(point) for the points of one diamond.
  *
- * @param rank among the stored diamonds @param insideValue the number of its inside value, if it
- * has one
+ * @param rank among the stored diamonds @param insideValue number of the diamond's inside value, if
+ * it has one
  */
 template <typename Body>
 void ForEachPointOf(const IsodiamondHierarchy& hierarchy, const Place& place, std::uint32_t rank,
@@ -79,8 +79,8 @@ void ForEachPointOf(const IsodiamondHierarchy& hierarchy, const Place& place, st
   }
 }
 
-/** Calls body(point) for all points of a whole mesh in bricks where some are left, in parallel: by
- *  brick, and there in the order of their ids. */
+/** Calls body(point) for all points of the whole mesh, in those bricks where some are left; bricks
+ *  in parallel, the points of each in the order of their ids. */
 template <typename Body>
 void ForEachPointOfBricks(const ExtractionPasses& passes, Body&& body)
 {
@@ -104,7 +104,7 @@ void ForEachPointOfBricks(const ExtractionPasses& passes, Body&& body)
     });
 }
 
-/** Calls body(point) for all points of a mesh that are left, in the same way. */
+/** Calls body(point) for those points of a mesh that are left, in the same way. */
 template <typename Body>
 void ForEachPoint(const ExtractionPasses& passes, Body&& body)
 {
@@ -125,21 +125,21 @@ void ForEachPoint(const ExtractionPasses& passes, Body&& body)
     });
 }
 
-/** The points that a hierarchy stores: its isovertices, then its inside values. */
+/** The number of points that a hierarchy stores: its isovertices, then its inside values. */
 inline std::int64_t StoredPointCount(const IsodiamondHierarchy& hierarchy)
 {
   return hierarchy.IsovertexCount() +
     (hierarchy.Region().IsVolume() ? SizeOf(hierarchy.InsideValues()) : 0);
 }
 
-/** Which of them a point is. */
+/** The number of a point among these. */
 inline std::int64_t StoredNumber(const IsodiamondHierarchy& hierarchy, const MeshPoint& point)
 {
   return point.Surface == 0 ? hierarchy.IsovertexCount() + point.Stored : point.Stored;
 }
 
-/** Calls body(point) for points that a hierarchy stores, in parallel; ids are their numbers. Those
- *  between two slices are among them, ends included. */
+/** Calls body(point) for points that a hierarchy stores, in parallel; their ids are their numbers.
+ *  Visits at least all those between two slices, both included. */
 template <typename Body>
 void ForEachStoredPointNear(const IsodiamondHierarchy& hierarchy, int firstSlice, int lastSlice,
   const ParallelFor& parallelFor, Body&& body)
@@ -185,7 +185,7 @@ void ForEachStoredPoint(
     hierarchy, 0, hierarchy.SampleGrid().Last(2), parallelFor, std::forward<Body>(body));
 }
 
-/** Writes 3 coordinates a point. */
+/** Writes 3 coordinates per point. */
 template <typename Coordinate>
 void WritePoints(const ExtractionPasses& passes, const AffineMap& world, Coordinate* points)
 {

@@ -9,8 +9,8 @@
 
 /**
  * @file PatchPoints.h
- * Where the points of a half-tetrahedron's patch are: which diamond they belong to, and which of
- * its points they are.
+ * Where to find the points of a half-tetrahedron's patch: which diamond each belongs to, and which
+ * of its points it is.
  */
 namespace isodiamond
 {
@@ -22,11 +22,11 @@ struct PatchPointPlace
   std::int8_t Bit = 0;      ///< in DiamondPoints; on an edge, of the isovertex on surface 0
 };
 
-/** At the corners of the triangles of an isosurface's patch, by the mask of the vertices that lie
- * on the other side than the centre. */
+/** At the corners of the triangles of an isosurface's patch, by the mask of the vertices that do
+ * not lie on the centre's side. */
 using TrianglePointPlaces = std::array<std::array<std::array<PatchPointPlace, 3>, 2>, 8>;
 
-/** By age, the centre is 0 (see IntervalPatches.h): at the vertices, then on the edges (0, 1),
+/** By age; the centre is 0 (see IntervalPatches.h): at the vertices, then on the edges (0, 1),
  *  (0, 2), (0, 3), (1, 2), (1, 3), (2, 3). */
 using AgePointPlaces = std::array<PatchPointPlace, 10>;
 

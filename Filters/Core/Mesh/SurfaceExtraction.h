@@ -13,10 +13,10 @@ int CountTriangles(const IsodiamondHierarchy& hierarchy, const LeafParent& paren
 /**
  * The isosurface of a refined set: marching tetrahedra over the leaves of the current mesh.
  *
- * Point ids need no locator: an isovertex belongs to the diamond that owns its edge, is alive
+ * Point ids need no locator: an isovertex belongs to the diamond that owns its edge, it is alive
  * while that diamond is refined and the one centred at the edge's midpoint is not, and ids are a
- * prefix sum over owners. The constructor counts; the caller allocates and has the arrays
- * written. Order and values of the output do not depend on threads. Paper, section 6.
+ * prefix sum over owners. The constructor counts; the caller allocates the arrays and has them
+ * written. The order and values of the output do not depend on threads. Paper, section 6.
  */
 class SurfaceExtraction : public MeshExtraction
 {
@@ -31,8 +31,9 @@ public:
   /**
    * Writes the triangles.
    *
-   * @param mirrored of the map that places the points; normals then point to lower values
-   * @param connectivity receives 3 point ids a triangle (32 bits, or long long)
+   * @param mirrored whether the map that places the points mirrors; after it, normals point to
+   *        lower values
+   * @param connectivity receives 3 point ids per triangle (32 bits, or long long)
    * @param levels receives the level of the diamond that each triangle lies in: 0 for the root, N
    *        at full resolution
    */
@@ -42,13 +43,13 @@ public:
     this->WriteTriangles(this->Passes.AllCells(), mirrored, connectivity, levels);
   }
 
-  /** Writes a range of the triangles, and nothing of the others. */
+  /** Writes only a range of the triangles. */
   template <typename Id>
   void WriteTriangles(
     const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const;
 
-  /** Writes the code of the threshold of the diamond that each triangle lies in: a bound of its own
-   *  error, since it is not subdivided. 0 at full resolution. */
+  /** Writes for each triangle the code of the threshold of the diamond that it lies in: a bound of
+   *  that diamond's own error, as it is not subdivided. 0 at full resolution. */
   void WriteThresholds(ErrorCode::Type* codes) const;
 };
 

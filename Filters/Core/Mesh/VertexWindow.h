@@ -11,14 +11,14 @@ namespace isodiamond
 {
 
 /**
- * The points of all vertices of a brick's diamonds: a dense array of the 10 x 10 x 10 lattice
- * points in and next to the brick.
+ * The points that belong to all vertices of a brick's diamonds: a dense array of the 10 x 10 x 10
+ * lattice points in and next to the brick.
  *
- * Every lattice point is the centre of one diamond; where the position is even on all axes that is
- * one of a coarser scale. So the points on any edge, or at any vertex, of the brick's leaves are
- * found at a fixed distance in the array from the leaf's parent, whatever their owner's scale.
- * Where a lattice point has no refined diamond, which a leaf only asks for if a file is damaged,
- * there are no points.
+ * Every lattice point is the centre of one diamond; where its position is even on all axes, of one
+ * of a coarser scale. So the points on any edge, or at any vertex, of the brick's leaves are found
+ * at a fixed distance in the array from the leaf's parent, whatever their owner's scale. Where a
+ * lattice point has no refined diamond, there are no points; leaves ask for such points only if a
+ * file is damaged.
  */
 class VertexWindow
 {
@@ -43,7 +43,7 @@ public:
 private:
   static constexpr int Width = 10;
 
-  /** Also of the start of a row, which may lie before the window. */
+  /** Valid for the start of a row, too, which may lie before the window. */
   int IndexAt(const Point& position) const { return Distance(position) - Distance(this->First); }
   static bool Holds(int index) { return index >= 0 && index < Width * Width * Width; }
   void Fill(const ExtractionPasses& passes, int scale, int step);

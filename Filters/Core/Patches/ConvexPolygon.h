@@ -14,7 +14,7 @@ namespace isodiamond
 /** A flat convex polygon: a triangle of a patch, or a piece of one that planes have cut off. */
 struct ConvexPolygon
 {
-  /** Each cut adds a corner; what has so many already is not cut any more. */
+  /** Each cut adds a corner; a polygon that has this many is not cut any more. */
   static constexpr int MostCorners = 8;
 
   int Count = 0;
@@ -33,7 +33,7 @@ struct ConvexPolygon
     return (1.0 / this->Count) * sum;
   }
 
-  /** The squared distance of a point to the farthest corner: nothing is farther. */
+  /** The squared distance from a point to the farthest corner: nothing is farther. */
   double SquaredRadius(const Vector& point) const
   {
     double largest = 0.0;
@@ -45,7 +45,7 @@ struct ConvexPolygon
     return largest;
   }
 
-  /** The least and the greatest of the corners' dot products with a normal, from a point on. */
+  /** The least and greatest dot products of a normal with the corners, relative to a point. */
   std::array<double, 2> Sides(const Vector& point, const Vector& normal) const
   {
     std::array<double, 2> sides = { HUGE_VAL, -HUGE_VAL };
@@ -58,14 +58,14 @@ struct ConvexPolygon
   }
 };
 
-/** What of a polygon lies above the plane through a point. */
+/** The part of a polygon above the plane through a point. */
 inline void KeepAbove(
   const ConvexPolygon& whole, const Vector& point, const Vector& normal, ConvexPolygon& above)
 {
   above.Count = 0;
   if (whole.Count == ConvexPolygon::MostCorners)
   {
-    above = whole; // more is on the safe side
+    above = whole; // keeping more is on the safe side
     return;
   }
   const double offset = Dot(point, normal);

@@ -15,7 +15,7 @@ namespace isodiamond
 using FinePosition = std::array<std::int32_t, 3>;
 inline constexpr std::int32_t FineUnits = 256;
 
-/** A box of fine positions; empty until one is added. */
+/** A box around fine positions; empty until one is added. */
 struct FineBox
 {
   FinePosition Low = { INT32_MAX, INT32_MAX, INT32_MAX };
@@ -35,8 +35,8 @@ struct FineBox
 /**
  * A plane between lattice points, for exact tests of which side a position is on.
  *
- * Numbers of 32 bits suffice: coordinates are at most 2^28 (a grid's depth is 20 at most), and of a
- * normal, the product of two offsets of lattice steps, no more than 4 in sum.
+ * Numbers of 32 bits suffice: coordinates are at most 2^28 (a grid's depth is at most 20), those of
+ * a normal, the product of two offsets of lattice steps, no more than 4 in sum.
  */
 class ExactPlane
 {
@@ -60,7 +60,7 @@ public:
     }
   }
 
-  /** A point on it, and its normal, of any length. */
+  /** A point on it, and its normal, which may have any length. */
   const FinePosition& Start() const { return this->Origin; }
   const std::array<std::int32_t, 3>& Across() const { return this->Normal; }
 

@@ -12,11 +12,11 @@
 namespace isodiamond
 {
 
-/** The case of an interval volume in a half-tetrahedron of the diamond of a rank. */
+/** The case of an interval volume in a half-tetrahedron of the diamond with a given rank. */
 inline int IntervalCase(
   const IsodiamondHierarchy& hierarchy, std::uint32_t rank, const HalfTetrahedron& half)
 {
-  // The signs of the outer vertices follow from the centre's and the crossings on the way there.
+  // The outer vertices' signs follow from the centre's and the crossings on the way to them.
   const int centre = hierarchy.Sign(rank);
   const std::uint32_t lower = hierarchy.Edges(rank);
   const std::uint32_t upper = hierarchy.UpperEdges(rank);
@@ -41,7 +41,7 @@ public:
   IntervalCases(const IsodiamondHierarchy& hierarchy, std::uint32_t rank, int type)
     : Centre(hierarchy.Sign(rank))
   {
-    // Signs of vertices follow from the centre's and the crossings on the way there.
+    // Vertices' signs follow from the centre's and the crossings on the way to them.
     const std::uint32_t lower = hierarchy.Edges(rank);
     const std::uint32_t upper = hierarchy.UpperEdges(rank);
     const VertexMasks& masks = tables::MasksByAge[type];
@@ -57,7 +57,7 @@ public:
   }
 
 private:
-  /** What a set of outer vertices above one surface, by age, adds to the case. */
+  /** What the outer vertices above one surface, as a mask by age, add to the case. */
   static constexpr std::array<std::int8_t, 8> CaseOfVertices = { 0, PatchCase({ 0, 1, 0, 0 }),
     PatchCase({ 0, 0, 1, 0 }), PatchCase({ 0, 1, 1, 0 }), PatchCase({ 0, 0, 0, 1 }),
     PatchCase({ 0, 1, 0, 1 }), PatchCase({ 0, 0, 1, 1 }), PatchCase({ 0, 1, 1, 1 }) };

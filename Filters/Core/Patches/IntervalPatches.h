@@ -16,20 +16,20 @@
  * two on each. They are ordered: vertices by age, then isovertices by younger end, older end,
  * lower surface before upper. On every face of the tetrahedron the part in range is a polygon,
  * triangulated as a fan from its smallest point. Ages, and so the order of the points of a face,
- * look the same from both of its sides: neighbours agree by construction.
+ * are the same seen from both of its sides: neighbours agree by construction.
  *
  * Isovertices can be anywhere on their edges, as long as the lower and the upper one of an edge
- * keep their order. A tetrahedron of points is *safe* if its orientation is the same wherever they
+ * keep their order. A tetrahedron of points is *safe* if its orientation is the same wherever these
  * are. For every case a search finds a triangulation that consists of safe tetrahedra only and
  * meets the fans; so every tetrahedron of an interval volume has positive volume, a guarantee that
  * ends only where coordinates are rounded. The diagonals of quadrilaterals on the surfaces are
- * free, the search picks them.
+ * free: the search picks them.
  */
 namespace isodiamond
 {
 
-/** The faces of a positive tetrahedron by the vertices opposite to them, each anticlockwise from
- *  outside. */
+/** The faces of a positive tetrahedron by the vertices opposite to them, each anticlockwise as seen
+ *  from outside. */
 inline constexpr std::array<std::array<int, 3>, 4> FacesOfTetrahedron = { { { 1, 2, 3 },
   { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } } };
 
@@ -76,7 +76,7 @@ using PatchTetrahedron = std::array<PatchPoint, 4>;
 /** Signs of the vertices 0 to 3, as Isoregion::SignOf gives them for an isorange. */
 using PatchSigns = std::array<int, 4>;
 
-/** Where a vertex is: twice its sign, or between two, on a surface, if it has been moved there. */
+/** Where a vertex is: twice its sign; or an odd number if it has been moved onto a surface. */
 enum VertexState : int
 {
   BelowLower = 0,
@@ -110,7 +110,7 @@ inline constexpr int PatchCase(const PatchSigns& signs)
   return signs[0] + 3 * (signs[1] + 3 * (signs[2] + 3 * signs[3]));
 }
 
-/** The tetrahedra of all 81 cases; found once, by the search. */
+/** The tetrahedra of all 81 cases; the search finds them once. */
 const std::array<std::vector<PatchTetrahedron>, 81>& IntervalPatches();
 
 inline constexpr int MovedCase(const PatchStates& states)
@@ -119,10 +119,10 @@ inline constexpr int MovedCase(const PatchStates& states)
 }
 
 /**
- * The same where vertices may be on surfaces, for all 625 cases of states: points of the surface
- * that they are on, which has no isovertices on their edges then. Safe as long as a moved vertex
- * leaves the tetrahedron positive, and isovertices on the straight lines between the vertices.
- * Where a diagonal on a surface can be chosen there is a tetrahedralization for each.
+ * The same where vertices may be on surfaces, for all 625 cases of states: such vertices are points
+ * of their surface, which then has no isovertices on their edges. Safe as long as moved vertices
+ * leave the tetrahedron positive, and isovertices are on the straight lines between the vertices.
+ * Where there is a choice of diagonals on a surface, there is a tetrahedralization for each.
  */
 const std::array<std::vector<std::vector<PatchTetrahedron>>, 625>& MovedPatches();
 
@@ -130,8 +130,8 @@ const std::array<std::vector<std::vector<PatchTetrahedron>>, 625>& MovedPatches(
  *  the isovertices are: 1 or -1; 0 if it is not. */
 int SafeOrientation(const PatchStates& states, const PatchTetrahedron& points);
 
-/** The polygon in range on the face that lies opposite to a vertex, seen from outside of a positive
- *  tetrahedron anticlockwise; empty if nothing is. */
+/** The polygon in range on the face opposite to a vertex, anticlockwise as seen from outside a
+ *  positive tetrahedron; empty if nothing is in range. */
 std::vector<PatchPoint> FacePolygon(const PatchStates& states, int opposite);
 
 }

@@ -15,14 +15,14 @@ namespace isodiamond
 {
 
 /**
- * Lengths for bounds: the world's in numbers of 32 bits, in a unit that is about one step of the
- * lattice, so that their squares neither vanish nor overflow.
+ * Lengths for bounds: the world's lengths as numbers of 32 bits, in a unit of about one lattice
+ * step, so that their squares neither vanish nor overflow.
  */
 template <typename Lengths>
 class BoundLengths
 {
 public:
-  /** @param lengths they must outlive it */
+  /** @param lengths must outlive it */
   explicit BoundLengths(const Lengths& lengths)
     : World(lengths)
     , PerUnit(1.0 / lengths.TypicalStep())
@@ -40,8 +40,8 @@ public:
     }
   }
 
-  /** Offsets of positions from another one: of the lattice, or lengths where these are not linear
-   *  in the former. Factor makes lengths of either. */
+  /** Offsets of positions from an origin: on the lattice or, where lengths are not linear in these,
+   *  as lengths. Factor turns either into lengths. */
   void Offsets(const FinePosition& origin, const FinePosition* positions, int count, float* x,
     float* y, float* z) const
   {
@@ -68,7 +68,7 @@ public:
     }
   }
 
-  /** A squared length of the world in squared units. */
+  /** Squared lengths of the world, to and from squared units. */
   float Squared(double squared) const { return static_cast<float>(squared * this->PerSquaredUnit); }
   double FromSquared(float squared) const { return squared / this->PerSquaredUnit; }
 
@@ -84,7 +84,7 @@ private:
         this->Factor[row][axis] = static_cast<float>(factor[row][axis] / unit / FineUnits);
       }
     }
-    // How much longer than their sum its parts along the axes can be.
+    // How much longer than a vector its parts along the axes can be.
     const double shear = std::abs(factor[0][1]) / factor[1][1] +
       (std::abs(factor[0][2]) + std::abs(factor[1][2])) / factor[2][2];
     const double condition = (1.0 + 2.0 * shear) * (1.0 + 2.0 * shear);
@@ -99,18 +99,18 @@ private:
 public:
   /** Upper triangular. */
   std::array<std::array<float, 3>, 3> Factor{};
-  /** More than what rounding changes in sums of a few lengths, relative to these; and whatever
-   *  these are. */
+  /** More than what rounding changes in sums of a few lengths: relative to these, and independently
+   *  of them. */
   float RelativeError = 0.0F;
   float AbsoluteError;
 };
 
 /**
- * Upper bounds of the distances to the patch of a tetrahedron, of some positions at once.
+ * Upper bounds of the distances of several positions at once to the patch of a tetrahedron.
  *
- * A bound is the distance to a point of the patch that is near: over the patch and near to two
- * sides of a triangle it is the nearest. That takes no decisions, only short loops over numbers of
- * 32 bits, which compilers make vector instructions of.
+ * A bound is the distance to a nearby point of the patch; for positions over the patch, and near
+ * two of a triangle's sides, to the nearest. This takes no branches, only short loops over numbers
+ * of 32 bits, which compilers turn into vector instructions.
  */
 template <typename Lengths>
 class PatchBound
@@ -141,13 +141,13 @@ public:
       triangle.Complete();
       extent = std::max({ extent, triangle.Extent(), Length(triangle.Start) });
     }
-    // (a + b)^2 <= 1.01 a^2 + 101 b^2; and what is lost where numbers are too small.
+    // (a + b)^2 <= 1.01 a^2 + 101 b^2; plus what is lost where numbers are too small.
     const float error = lengths.RelativeError * extent + lengths.AbsoluteError;
     this->Slack = 101.0F * error * error + 1e-30F;
   }
 
-  /** Bounds of squared distances, in the units of the lengths; not a number where there is none.
-   *  @param count of the positions, at most Width and at least 1 */
+  /** Bounds of squared distances, in the units of the lengths; NaN where there is none.
+   *  @param count of the positions, at least 1 and at most Width */
   std::array<float, Width> Squared(const FinePosition* positions, int count) const
   {
     std::array<float, Width> x;
@@ -213,7 +213,8 @@ private:
     }
     float Extent() const { return Length(this->First) + Length(this->Second); }
 
-    /** Any coordinates within the triangle give a bound: how exact they are does not matter. */
+    /** The distance to any point of the triangle is a bound: how exact its coordinates are does
+     *  not matter. */
     std::array<float, Width> Squared(const std::array<float, Width>& x,
       const std::array<float, Width>& y, const std::array<float, Width>& z) const
     {
@@ -235,7 +236,7 @@ private:
         const float px = x[i] - start[0];
         const float py = y[i] - start[1];
         const float pz = z[i] - start[2];
-        // Over the plane; then the nearest along the one side, and along the other.
+        // Seen along the normal; then the nearest along one side, then along the other.
         const float u = within(along[0] * px + along[1] * py + along[2] * pz, 1.0F);
         const float v = within(unitSecond[0] * (px - u * first[0]) +
             unitSecond[1] * (py - u * first[1]) + unitSecond[2] * (pz - u * first[2]),

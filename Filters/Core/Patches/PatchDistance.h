@@ -17,8 +17,8 @@ namespace isodiamond
 /**
  * Squared distances to a triangle.
  *
- * Where a point lies over the triangle is told by its barycentric coordinates, which come from the
- * normal: so they are right for thin triangles too, where dot products of the sides would cancel.
+ * Barycentric coordinates tell where a point lies over the triangle. They come from the normal, so
+ * they are right even for thin triangles, where dot products of the sides would cancel.
  */
 class TriangleDistance
 {
@@ -43,7 +43,7 @@ public:
     const Vector p = point - this->Corner;
     const double first = Dot(p, this->AlongFirst);
     const double second = Dot(p, this->AlongSecond);
-    // The nearest point lies on a side that is seen from the point, or inside.
+    // The nearest point lies inside, or on a side that is visible from the point.
     const bool seesFirst = second < 0.0 || this->IsDegenerate;
     const bool seesSecond = first < 0.0 || this->IsDegenerate;
     const bool seesThird = first + second > 1.0 || this->IsDegenerate;
@@ -68,17 +68,17 @@ public:
     return squared;
   }
 
-  /** Whether a point is over the triangle, seen along its normal. */
+  /** Whether a point is over the triangle, as seen along its normal. */
   bool IsOver(const Vector& point) const
   {
     const Vector p = point - this->Corner;
     return this->IsOver(Dot(p, this->AlongFirst), Dot(p, this->AlongSecond));
   }
 
-  /** Normal to the triangle, of some length; nothing if it has no area. */
+  /** A normal of the triangle, not of unit length; zero if the triangle has no area. */
   const Vector& Across() const { return this->Normal; }
 
-  /** The nearest point of the triangle, but for rounding. */
+  /** The nearest point of the triangle, up to rounding. */
   Vector Nearest(const Vector& point) const
   {
     const Vector p = point - this->Corner;
@@ -96,8 +96,8 @@ public:
     return this->Corner + nearest;
   }
 
-  /** The plane through one of the three sides that stands on the triangle, by a point and its
-   *  normal, which leads away from the triangle. What is between all three is over the triangle. */
+  /** The plane through one of the three sides, perpendicular to the triangle: a point, and the
+   *  normal that leads away from the triangle. What is between all three is over the triangle. */
   struct Wall
   {
     Vector Point;

@@ -9,7 +9,7 @@
 
 /**
  * @file SurfacePatch.h
- * The *patch* of a half-tetrahedron: the triangles of a surface in it.
+ * The *patch* of a half-tetrahedron: a surface's triangles in it.
  *
  * Its corners are isovertices, named by the six edges of the half-tetrahedron: 0 to 2 lead from the
  * diamond's centre to vertex 0 to 2, 3 to 5 are the outer edges opposite to vertex 0 to 2.
@@ -17,10 +17,10 @@
 namespace isodiamond
 {
 
-/** Edges that belong to the diamond, and where the others begin. */
+/** Number of the edges that belong to the diamond, and index of the first of the others. */
 inline constexpr int OwnEdgeCount = 3;
 
-/** Up to two triangles of edges. */
+/** Up to two triangles, whose corners are given by edges. */
 struct SurfacePatch
 {
   int TriangleCount = 0;
@@ -46,7 +46,7 @@ inline constexpr SurfacePatch MakeIsosurfacePatch(int differing)
   }
   for (std::uint8_t i = 0; i < 3 && (count == 1 || count == 2); ++i)
   {
-    // Turned so that the vertices that differ come first: i, or i and j.
+    // Rotated so that the vertices that differ come first: i, or i and j.
     const auto j = static_cast<std::uint8_t>((i + 1) % 3);
     const auto k = static_cast<std::uint8_t>((i + 2) % 3);
     const auto outer = [](std::uint8_t opposite)
@@ -76,8 +76,8 @@ inline constexpr std::array<SurfacePatch, 8> MakeIsosurfacePatches()
   return all;
 }
 
-/** The patches of an isosurface. Triangles wind so that seen against their normals, and in a
- *  positively oriented half-tetrahedron, the centre lies behind them. */
+/** The patches of an isosurface. Triangles are wound so that in a positively oriented
+ *  half-tetrahedron, seen against their normals, the centre lies behind them. */
 inline constexpr std::array<SurfacePatch, 8> IsosurfacePatches = MakeIsosurfacePatches();
 
 }
@@ -90,20 +90,20 @@ inline const SurfacePatch& IsosurfacePatch(const HalfTetrahedron& half, std::uin
     (((edges >> v[2]) & 1U) << 2)];
 }
 
-/** The edge of a half-tetrahedron between two of its vertices by age, the centre is 0. */
+/** The edge of a half-tetrahedron between two of its vertices, by age; the centre is 0. */
 inline std::uint8_t EdgeBetween(const HalfTetrahedron& half, int younger, int older)
 {
   if (younger == 0)
   {
     return half.ByAge[older - 1];
   }
-  // An outer edge lies opposite to the outer vertex that is none of its ends.
+  // An outer edge lies opposite to the outer vertex that is not one of its ends.
   return static_cast<std::uint8_t>(OwnEdgeCount + half.ByAge[6 - younger - older - 1]);
 }
 
 /**
- * The patch of any surface in a half-tetrahedron of the diamond of a rank, as extraction makes it;
- * of an interval volume's without an orientation.
+ * The patch of any surface in a half-tetrahedron of the diamond with a given rank, as extraction
+ * makes it; without an orientation if the surface is an interval volume's.
  */
 SurfacePatch PatchOf(const IsodiamondHierarchy& hierarchy, std::uint32_t rank,
   const HalfTetrahedron& half, int surface);

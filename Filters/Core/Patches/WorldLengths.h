@@ -12,11 +12,11 @@
 
 /**
  * @file WorldLengths.h
- * World lengths: maps of fine positions to spaces in which distances are the world's but
+ * World lengths: maps from fine positions to spaces in which distances are the world's but
  * orientation and origin do not matter. What is flat in the world is flat there.
  *
- * There is one for affine worlds and one for coordinates along the axes. Whoever measures a lot is
- * a template of either, so that the former, by far the most frequent, pays nothing for the other.
+ * There is one for affine worlds and one for coordinates along the axes. Code that measures a lot
+ * is a template of these, so that the former, by far the most common, pays nothing for the latter.
  */
 namespace isodiamond
 {
@@ -25,7 +25,7 @@ namespace isodiamond
 class AffineLengths
 {
 public:
-  /** Whether steps of the lattice are the same everywhere, so that Factor() tells all. */
+  /** Whether lattice steps are the same everywhere, so that Factor() says all. */
   static constexpr bool IsLinear = true;
 
   explicit AffineLengths(const AffineMap& world);
@@ -40,26 +40,26 @@ public:
     return this->Mapped(unit * p[0], unit * p[1], unit * p[2]);
   }
 
-  /** From one lattice point to another. */
+  /** The offset from one lattice point to another. */
   Vector Between(const Point& from, const Point& to) const
   {
     const Point between = to + -1 * from;
     return this->Mapped(between[0], between[1], between[2]);
   }
 
-  /** The squared radius of the ball around the middle of a box that holds the box. */
+  /** The squared radius of the ball, around the middle of a box, that holds the box. */
   double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
 
-  /** A box of index space, low and high, that holds all that is within a radius of a point. */
+  /** A box in index space, low and high, that holds all that is within a radius of a point. */
   std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
 
   /** From index space; upper triangular. */
   const std::array<std::array<double, 3>, 3>& Factor() const { return this->Triangular; }
 
-  /** The length of a lattice step; along the axis where that is longest. */
+  /** The length of a lattice step, along the axis where it is longest. */
   double TypicalStep() const;
 
-  /** What rounding changes between two positions, unless in proportion to their distance. */
+  /** The rounding error between two positions that is not in proportion to their distance. */
   static constexpr double Rounding() { return 0.0; }
 
 private:
@@ -73,7 +73,7 @@ private:
   std::array<std::array<double, 3>, 3> Inverse{};
 };
 
-/** The lengths of a world of coordinates along the axes; the same as above. */
+/** The lengths of a world of coordinates along the axes; the members are as above. */
 class AxesLengths
 {
 public:
@@ -82,7 +82,7 @@ public:
   /** @param padding index of the grid's first sample */
   AxesLengths(AxisCoordinates coordinates, int padding);
 
-  /** Whether the coordinates are finite and rise, or fall, at every sample of an axis. */
+  /** Whether the coordinates are finite and, along each axis, rise, or fall, at every sample. */
   bool IsValid() const;
 
   Vector operator()(const FinePosition& p) const
@@ -96,14 +96,14 @@ public:
   double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
   std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
 
-  /** Their mean, on the axis where that is longest. */
+  /** The mean of the steps, on the axis where it is longest. */
   double TypicalStep() const;
 
-  /** Positions near to each other, but far from the first sample, have lost digits. */
+  /** Positions that are close together, but far from the first sample, have lost digits. */
   double Rounding() const { return this->AbsoluteError; }
 
 private:
-  /** Between samples, and beyond the first and the last by the outermost steps. */
+  /** Interpolated between samples, and continued beyond the ends by the outermost steps. */
   double Along(int axis, std::int32_t position) const;
   /** The index of a place on an axis. */
   double IndexAlong(int axis, double place) const;
@@ -115,11 +115,11 @@ private:
 
 using WorldLengths = std::variant<AffineLengths, AxesLengths>;
 
-/** Why a world has no lengths, in words; empty if it has one. Curvilinear grids have none: flat
- *  patches would not be between their samples. */
+/** Why a world has no lengths, in words; empty if it has. Curvilinear grids have none: flat patches
+ *  would not be between their samples. */
 std::string FaultOfLengths(const GridGeometry& world);
 
-/** The lengths of a world. @throws std::invalid_argument if there is none */
+/** The lengths of a world. @throws std::invalid_argument if it has none */
 WorldLengths WorldLengthsOf(const GridGeometry& world);
 
 }

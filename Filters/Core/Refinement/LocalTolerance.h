@@ -11,14 +11,14 @@
 namespace isodiamond
 {
 
-/** What is tolerated somewhere: where a surface is, and inside an interval volume. */
+/** What is tolerated in one place: at a surface, and inside an interval volume. */
 struct Tolerances
 {
   double Surface = 0.0;
   double Interior = HUGE_VAL;
 };
 
-/** The tolerances of a query that depend on the place: with a region of interest, or from a
+/** The tolerances of a query, which depend on the place if there is a region of interest or a
  *  viewpoint. */
 class LocalTolerance
 {
@@ -29,7 +29,7 @@ public:
   {
   }
 
-  /** Whether they are the same everywhere, so that thresholds alone tell what is refined. */
+  /** Whether they are the same everywhere, so that thresholds alone decide what is refined. */
   bool IsUniform() const
   {
     return !this->TheQuery.Region && !this->TheQuery.View && this->TheQuery.Also.empty();
@@ -37,7 +37,7 @@ public:
 
   const std::vector<Place>& Also() const { return this->TheQuery.Also; }
 
-  /** What is tolerated wherever it is. */
+  /** The tolerances above which a diamond is refined wherever it is. */
   Tolerances Everywhere() const
   {
     const Tolerances most = this->TheQuery.Region ? this->Outside() : this->Inside();
@@ -45,11 +45,11 @@ public:
       most, this->TheQuery.View ? this->TheQuery.View->GreatestIn(this->TheGrid) : 0.0);
   }
 
-  /** What is tolerated of the diamonds that have their centre in a brick of a scale. */
+  /** What is tolerated of the diamonds centred in a brick of a scale. */
   struct OfBrick
   {
-    Tolerances Least;      ///< of any: at most that
-    bool AreEqual = false; ///< whether it is that of all
+    Tolerances Least;      ///< at most that of any
+    bool AreEqual = false; ///< whether this is that of all
   };
   OfBrick In(int scale, const Point& brickOrigin) const
   {

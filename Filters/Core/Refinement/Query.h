@@ -15,23 +15,23 @@ namespace isodiamond
 /** What is asked of a hierarchy. */
 struct Query
 {
-  /** The error that is tolerated, in the units of the hierarchy's metric; 0 is full resolution,
-   *  infinity leaves only what must always be subdivided; negative and NaN count as 0. */
+  /** The tolerated error, in the units of the hierarchy's metric; 0 gives full resolution, infinity
+   *  leaves only what must always be subdivided; negative values and NaN count as 0. */
   double Tolerance = 0.0;
-  /** The same, of the field, inside an interval volume; without effect if the hierarchy has no
+  /** The tolerated field error inside an interval volume; has no effect if the hierarchy has no
    *  thresholds for it. */
   double InteriorTolerance = HUGE_VAL;
   /** Where these tolerances hold; everywhere if there is none. */
   std::optional<RegionOfInterest> Region = std::nullopt;
-  /** The tolerance outside of the region. */
+  /** The tolerance outside the region. */
   double OutsideTolerance = HUGE_VAL;
-  /** Diamonds that are to be subdivided whatever is tolerated, with all ancestors. */
+  /** Diamonds to be subdivided, with all ancestors, whatever is tolerated. */
   std::vector<Place> Also = {};
-  /** From where the mesh is seen: a diamond's tolerance is at least what the distance from there
-   *  makes of it. For errors that are distances. */
+  /** Where the mesh is seen from: a diamond's tolerance is at least that which follows from its
+   *  distance from there. For errors that are distances. */
   std::optional<Viewpoint> View = std::nullopt;
-  /** Of an HD: whether the mesh is to be homeomorphic to that of full resolution. RI and MI are
-   *  built so, or not. */
+  /** For an HD: whether the mesh is to be homeomorphic to that of full resolution. For RI and MI
+   *  this is decided when they are built. */
   bool PreserveTopology = false;
 };
 

@@ -9,15 +9,15 @@ namespace isodiamond
 {
 
 /**
- * The subdivided diamonds of a query: a set with ranks of its own, so that what passes keep for
- * every diamond, and the bricks that they visit, are as many as the query asks for.
+ * The subdivided diamonds of a query: a set with ranks of its own, so that passes keep data for,
+ * and visit the bricks of, only as many diamonds as the query needs.
  *
- * Where the tolerance is the same everywhere that is R(t) = {threshold > t}: no front, no closure,
- * the thresholds have them (see ActivationThresholds.h). With a region of interest or a viewpoint
- * it is the smallest closed superset of R(what is tolerated everywhere) and of those active and
- * creation diamonds whose threshold exceeds the tolerance that they have (see RefinedSet.cpp), and
- * of those that follow their parents: inside of a region, the mesh is the uniform one; outside it
- * is what conformity and its own tolerance need.
+ * Where the tolerance is the same everywhere, this is R(t) = {threshold > t}: it takes no front and
+ * no closure, as thresholds include them (see ActivationThresholds.h). With a region of interest or
+ * a viewpoint it is the smallest closed superset of R(what is tolerated everywhere), of the active
+ * and creation diamonds whose threshold exceeds their tolerance (see RefinedSet.cpp), and of those
+ * that follow their parents: inside a region, the mesh is the uniform one; outside, it is what
+ * conformity and the tolerance there need.
  *
  * The corners of the base cube always count as subdivided.
  */
@@ -33,9 +33,9 @@ public:
   const DiamondSet& Diamonds() const { return this->All ? this->Source.Diamonds() : this->Some; }
 
   /**
-   * Whether this is full resolution. Then all that carries a surface lies at scale 0: the middle of
-   * a coarser edge that the surface crosses, and the child of a coarser half-tetrahedron that has a
-   * patch, are active diamonds, and refined.
+   * Whether this is full resolution. Then all that carries a surface is at scale 0: wherever the
+   * surface crosses a coarser edge, the diamond at its middle is active, and so refined, as is the
+   * child of every coarser half-tetrahedron that has a patch.
    */
   bool IsFull() const { return this->All && !this->Source.Header().IsAnswer; }
 
@@ -46,12 +46,12 @@ public:
     return brick != nullptr && brick->Contains(place.Position[2] & 7, BitOf(place.Position));
   }
 
-  /** Number of refined diamonds, corners of the base cube not counted. */
+  /** Number of refined diamonds, not counting the corners of the base cube. */
   std::int64_t Count() const;
 
   /**
    * The size of the active front: the diamonds that are not refined but have a refined parent, or
-   * the root alone. Of an MI only stored ones count, and of their parents too.
+   * the root alone. Of an MI, only stored diamonds and stored parents count.
    */
   std::int64_t CountFront() const;
 
@@ -61,7 +61,7 @@ private:
   DiamondSet Some;  ///< the refined diamonds, unless they are all
 };
 
-/** A brick of a refined set, whose diamonds have ranks among the stored and the refined ones. */
+/** A brick of a refined set. Its diamonds have two ranks: among the stored and the refined ones. */
 class RefinedBrick
 {
 public:
@@ -84,7 +84,7 @@ public:
   int Scale() const { return this->BrickScale; }
   const Point& Origin() const { return this->First; }
 
-  /** The brick of the stored diamonds, and its number in the order of AllBricks(). */
+  /** The brick of stored diamonds at the same place, and its number in the order of AllBricks(). */
   const Brick& StoredBrick() const { return this->Stored; }
   std::int64_t StoredNumber() const
   {

@@ -24,8 +24,8 @@ struct Box
   }
 };
 
-/** The smallest box in index space around the cells of a grid that may touch a box in the world; of
- *  those at the grid's ends the padding, too. Not by an affine map. */
+/** The smallest box in index space around the cells of a grid that may touch a box in the world,
+ *  with the padding next to cells at the grid's ends. Not for affine maps. */
 Box IndexBoxOf(const Box& box, const GridGeometry& world);
 
 /**
@@ -49,12 +49,12 @@ public:
 
   bool Touches(const Place& place) const;
 
-  /** How all diamonds lie to the region that have their centre in a brick of a scale: none touches
-   *  it, all do, or some may. */
+  /** How the diamonds centred in a brick of a scale lie relative to the region: none touches it,
+   *  all do, or some may. */
   Relation OfBrick(int scale, const Point& origin) const;
 
 private:
-  /** How a box of lattice points lies to the region. */
+  /** How a box of lattice points lies relative to the region. */
   Relation Compare(const Point& minimum, const Point& maximum) const;
   bool TouchesTetrahedron(const std::array<Point, 4>& corners) const;
 

@@ -10,9 +10,9 @@ namespace isodiamond
 {
 
 /**
- * One HD query: the subdivided diamonds, encoded as an RI whose every diamond is always subdivided.
- * Extracting it, at any tolerance, gives the query's mesh. The set is closed, so all vertices of
- * its diamonds are centres of diamonds of the set.
+ * One HD query: the subdivided diamonds, encoded as an RI in which every diamond is always
+ * subdivided. Extraction from it gives the query's mesh at any tolerance. The set is closed, so all
+ * vertices of its diamonds are centres of diamonds of the set.
  */
 Encoded EncodeQuery(const ScalarHierarchy& hierarchy, const Isoregion& region, const Query& query,
   bool exactIsovertices, const ParallelFor& parallelFor);

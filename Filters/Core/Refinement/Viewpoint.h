@@ -15,9 +15,9 @@ namespace isodiamond
 
 /**
  * The viewpoint of a query: the tolerance grows with the distance from it, as the size of a pixel
- * does in the world. A diamond has the tolerance at the nearest point of a ball around it, or where
+ * does in the world. A diamond has the tolerance at the nearest point of a ball around it or, where
  * lattice steps differ in length, of the box around it: so everywhere in it the error in pixels is
- * at most the one that is tolerated; around the viewpoint the mesh is of full resolution.
+ * at most the tolerated one; around the viewpoint the mesh has full resolution.
  */
 class Viewpoint
 {
@@ -51,7 +51,7 @@ public:
     return this->NearestIn({ 1.0 * centre[0], 1.0 * centre[1], 1.0 * centre[2] }, 1 << place.Scale);
   }
 
-  /** At most that of any diamond that has its centre in a brick of a scale. */
+  /** At most the tolerance of any diamond centred in a brick of a scale. */
   double LeastIn(int scale, const Point& brickOrigin) const
   {
     const double h = 1 << scale;
@@ -60,7 +60,7 @@ public:
       4.5 * h);
   }
 
-  /** At least that of any diamond in the cube of a grid. */
+  /** At least the tolerance of any diamond in the base cube of a grid. */
   double GreatestIn(const Grid& grid) const
   {
     double greatest = 0.0;
@@ -82,7 +82,7 @@ private:
     return LengthOf(this->World(index) - this->Position);
   }
 
-  /** At the nearest point of the ball around a cube of a half width, or of the cube. */
+  /** The tolerance at the nearest point of a cube of a half width, or of the ball around it. */
   double NearestIn(const Vector& centre, double half) const
   {
     const double distance = this->World.Axes() != nullptr
@@ -91,7 +91,7 @@ private:
     return this->TolerancePerDistance * distance;
   }
 
-  /** Of a cube, which is a box in the world. */
+  /** The distance of a cube that is a box in the world. */
   double DistanceOfBox(const Vector& centre, double half) const
   {
     const Vector halves = { half, half, half };
@@ -109,7 +109,7 @@ private:
   Vector Position;
   double TolerancePerDistance;
   GridGeometry World;
-  double CornerLength = 0.0; ///< in the world, of the longest of (+-1, +-1, +-1)
+  double CornerLength = 0.0; ///< in the world, the longest of (+-1, +-1, +-1)
 };
 
 }

@@ -10,12 +10,12 @@
 namespace isodiamond
 {
 
-/** A mesh, and how far from each triangle another one may be that is made of it. */
+/** A mesh, and how far from each of its triangles a mesh made of it may be. */
 struct AllowedMesh
 {
   TriangleMesh Mesh;
   std::vector<double> Allowances;     ///< by triangle; at least 0
-  std::vector<Walls::Type> OnWalls{}; ///< by point; none where nothing is known of walls
+  std::vector<Walls::Type> OnWalls{}; ///< by point; none if nothing is known of walls
   /** In degrees, below 60: no new triangle has a smaller angle, unless one that it replaces has. */
   double LeastAngle = 0.0;
 };

@@ -15,14 +15,14 @@ namespace isodiamond
 {
 
 /**
- * Shows that a triangle is near to a mesh, all of it.
+ * Shows that all of a triangle is near to a mesh.
  *
- * What lies within a distance of a triangle is convex: a piece whose corners do does so as a whole.
- * So the triangle is cut into pieces, each of which belongs to one triangle of the mesh, by walking
- * over the mesh: what lies beyond an edge of a mesh's triangle is cut off along the plane through
- * the edge and the mean of the two normals there, and goes on to the neighbour. Whatever planes
- * cut, the pieces are all of the triangle, so the distances of their corners bound those of all
- * points; the planes only make the bound a good one.
+ * The points within a distance of a triangle form a convex set: a piece whose corners lie in it
+ * does as a whole. So the triangle is cut into pieces, each assigned to one triangle of the mesh,
+ * by walking over the mesh: what lies beyond an edge of a mesh triangle is cut off along the plane
+ * through the edge and the mean of the two normals there, and passed on to the neighbour. Whatever
+ * the planes, the pieces make up the whole triangle, so the distances of their corners bound those
+ * of all its points; the planes only make the bound a good one.
  */
 class Covering
 {
@@ -64,7 +64,7 @@ public:
   /** Unit normal of a triangle of the mesh; 0 if it has no area. */
   Vector Normal(std::uint32_t triangle) { return this->Of(triangle).Normal; }
 
-  /** Of a place from a triangle of the mesh. */
+  /** From a triangle of the mesh to a place. */
   double SquaredDistance(std::uint32_t triangle, const Vector& place)
   {
     return this->Of(triangle).Distance.Squared(place);
@@ -76,7 +76,7 @@ public:
     return this->Of(triangle).Distance.IsOver(place);
   }
 
-  /** Whether all corners of a piece are so near to a triangle of the mesh. */
+  /** Whether all corners of a piece are within a distance of a triangle of the mesh. */
   bool IsNear(std::uint32_t triangle, const Vector* corners, int count, double allowed)
   {
     const TriangleDistance& distance = this->Of(triangle).Distance;
@@ -84,7 +84,7 @@ public:
       [&](const Vector& corner) { return distance.Squared(corner) <= allowed * allowed; });
   }
 
-  /** Which of some triangles of the mesh is nearest to a place. @pre there are any */
+  /** Which of some triangles of the mesh is nearest to a place. @pre there is one */
   template <typename Triangles>
   std::uint32_t NearestOf(const Triangles& triangles, const Vector& place)
   {
@@ -106,9 +106,9 @@ public:
    * Cuts a triangle into pieces.
    *
    * @param start a triangle of the mesh nearby
-   * @param near a piece that is so near to a triangle of the mesh need not be cut
+   * @param near a piece within this distance of a triangle of the mesh need not be cut
    * @param use (triangle of the mesh, piece) -> whether to go on
-   * @return whether all pieces were used; not if the way is too long
+   * @return whether all pieces were used; false if the way is too long
    */
   template <typename Use>
   bool Cut(const std::array<Vector, 3>& corners, std::uint32_t start, double near, Use&& use)
@@ -122,10 +122,11 @@ public:
   }
 
   /**
-   * The same; but what is not near to the triangle that it was walked to is looked at around that.
+   * The same, but a piece that is not near to the triangle where its walk ended is compared with
+   * those around that triangle.
    *
    * @param allowed how far away a piece may be
-   * @param begin called before all pieces are used, and once more if that was in vain
+   * @param begin called before the pieces are used, and again before a second attempt if that fails
    * @param use (triangle of the mesh, corners of a piece, their count) -> whether it is near enough
    */
   template <typename Begin, typename Use>
@@ -162,10 +163,10 @@ public:
   }
 
 private:
-  /** Pieces that are nearer than this part of what is allowed are not cut any further. */
+  /** Pieces nearer than this part of the allowed distance are not cut any further. */
   static constexpr double UncutPart = 0.3;
-  /** How often a piece that was walked to is cut in four, and a triangle that is too large for
-   * that: where a piece was too far away already more is not worth it. */
+  /** How often a piece found by walking is cut in four, and a triangle that is too large to walk
+   * over: where a piece was already too far away, more cuts are not worth it. */
   static constexpr int DepthOfPiece = 3;
   static constexpr int DepthOfWhole = 5;
 
@@ -185,10 +186,10 @@ private:
     return ball;
   }
 
-  /** Where walking finds no good pieces, which takes longer: a triangle is cut in four until each
-   *  piece is near to any of the triangles around.
-   *  @param reach how far away from it triangles are of interest
-   *  @param depth how often, at the most
+  /** For where walking finds no good pieces; takes longer: cuts a triangle in four until each
+   *  piece is near to one of the triangles around.
+   *  @param reach how far from it triangles are of interest
+   *  @param depth how often it is cut at most
    *  @param use (triangle of the mesh, piece) -> whether the piece is near enough to it */
   template <typename Use>
   bool LookAround(
@@ -206,7 +207,7 @@ private:
   bool IsNearAround(const std::array<Vector, 3>& corners, const std::vector<std::uint32_t>& around,
     double reach, int depth, Use&& use)
   {
-    // Those nearest to the middle first.
+    // The nearest to the middle first.
     const auto [middle, radius] = BallAround(corners);
     std::vector<std::pair<double, std::uint32_t>> near;
     for (const std::uint32_t triangle : around)
@@ -256,8 +257,8 @@ private:
   static bool Split(
     const Piece& piece, const Vector& at, const Vector& normal, Piece& inside, Piece& beyond);
 
-  /** From the start to the triangle where a piece is. No triangle is on it twice: around a sharp
-   *  point it could lead in circles. */
+  /** From the start to the triangle where a piece is. No triangle is on it twice: otherwise it
+   *  could go in circles around a sharp point. */
   struct Way
   {
     static constexpr int Longest = 100;
@@ -327,18 +328,18 @@ private:
     return this->Positions[this->Mesh.Triangles[triangle][i]];
   }
 
-  /** What is measured from, of a triangle. */
+  /** What distances from a triangle are computed with. */
   struct Base
   {
     std::uint32_t Triangle = None;
     Vector Normal{};
     TriangleDistance Distance;
   };
-  /** A part's triangles are numbered along the whole mesh: with fewer places neighbours take each
-   *  other's. */
+  /** A part's triangles are numbered across the whole mesh: with fewer slots, neighbours would
+   *  evict each other. */
   static constexpr std::size_t MostRecent = 2048;
 
-  /** Of those that were used last, one in each place: neighbours are asked for again and again. */
+  /** Kept for those used last, one in each slot: neighbours are asked for again and again. */
   const Base& Of(std::uint32_t triangle)
   {
     Base& base = this->Recent[triangle % MostRecent];
@@ -353,7 +354,7 @@ private:
   const std::vector<Vector>& Positions;
   const LinkedTriangles& Mesh;
   std::vector<Base> Recent;
-  std::vector<std::uint32_t> Looks; ///< by triangle: the last look around that it was seen in
+  std::vector<std::uint32_t> Looks; ///< by triangle: the last look around that came across it
   std::uint32_t LookCount = 0;
 };
 

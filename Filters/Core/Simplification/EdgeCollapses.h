@@ -16,69 +16,69 @@
 namespace isodiamond
 {
 
-/** What else an edge of a surface belongs to, that has a say in its collapse. */
+/** Anything else that edges of a surface belong to and that has a say in their collapse. */
 class CollapseGuard
 {
 public:
   virtual ~CollapseGuard() = default;
-  /** Whether a vertex may go into another one. */
+  /** Whether a vertex may collapse into another one. */
   virtual bool Allows(std::uint32_t vertex, std::uint32_t target) = 0;
-  /** It does. */
+  /** Collapses a vertex into another one. */
   virtual void Collapse(std::uint32_t vertex, std::uint32_t target) = 0;
-  /** A vertex may go nowhere, as things are. */
+  /** Notes that a vertex cannot collapse into any other one at present. */
   virtual void NoteRefusal(std::uint32_t vertex) = 0;
-  /** Whether a vertex may have somewhere to go since the last NoteRefusal() of it. */
+  /** Whether a vertex may have become able to collapse since the last NoteRefusal() of it. */
   virtual bool IsWorthATry(std::uint32_t vertex) const = 0;
-  /** Undoes collapses. @return the vertices that are there again: these, and all whose collapses
+  /** Undoes collapses. @return the vertices that are restored: these, and all whose collapses
    *  built on theirs */
   virtual std::vector<std::uint32_t> Undo(const std::vector<std::uint32_t>& vertices) = 0;
 };
 
 /**
  * Collapses edges of a mesh into one of their ends, the cheapest by quadrics first (Garland and
- * Heckbert, SIGGRAPH 1997), as long as all keeps its allowance.
+ * Heckbert, SIGGRAPH 1997), as long as everything stays within its allowance.
  *
- * A vertex goes, and the hole is filled by triangles from one of its neighbours. Seen along the
- * mean normal of the hole both fillings have to be the same polygon, covered once, so no part is
- * turned over (of an open hole, up to where its new border is). Where no direction shows them so,
- * or hardly, as on the edge of a thin wall, no triangle may turn by more than 75 degrees, and
- * samples stay with what faces as they do. The link condition keeps the topology. Samples of the
- * original stay with the triangle that they lie over: how far they are from it tells nearly how far
- * the original is. So the result is to be measured, and what is wrong with it can be undone.
+ * A vertex is removed, and the hole filled by triangles from one of its neighbours. Seen along the
+ * mean normal of the hole, the old and the new filling must be the same polygon, covered once, so
+ * nothing is turned over (of an open hole, up to its new border). Where no direction shows that, or
+ * only barely, as on the edge of a thin wall, no triangle may turn by more than 75 degrees, and
+ * samples stay with triangles that face as they do. The link condition keeps the topology. Samples
+ * of the original stay with the triangle that they lie over: their distance from it is nearly that
+ * of the original. So the result has to be measured, and what is wrong with it can be undone.
  *
- * A vertex at the border goes along this, and only if its edge there and the next one are on one
- * wall: what is put in their place is so, too. Where no walls are known the border stays. No new
- * edge joins two vertices that are fixed: a neighbouring part that has these, too, might make the
- * same.
+ * A vertex at the border moves along it, and only if its two edges there are on one wall, so that
+ * the edge that replaces them is, too. Where no walls are known, the border stays. No new edge
+ * joins two fixed vertices: a neighbouring part that has them, too, might make the same edge.
  *
- * Last, edges that are left are flipped where that brings samples nearer, all in all: quadrics tell
+ * Last, the remaining edges are flipped where that brings samples nearer overall: quadrics tell
  * which vertices to keep, but not which of two diagonals follows a ridge or a groove between them.
- * Where both do as well the one of the better shape is taken.
+ * Where both do equally well, the one that gives the better shape is taken.
  */
 class EdgeCollapses
 {
 public:
   /** @param part stays as it is, and must outlive it
-   *  @param usedPart of allowances, by samples: between them the surface may be a bit farther off
-   *  @param guard is asked whether a vertex is worth a try, and last; and told. Null if there is
-   * none. Must outlive it */
+   *  @param usedPart what part of allowances samples may use: between them the surface may be a
+   * bit farther off
+   *  @param guard is asked first whether a vertex is worth a try, last whether it may collapse, and
+   * told if it does. Null if there is none. Must outlive it */
   EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuard* guard = nullptr);
   EdgeCollapses(const EdgeCollapses&) = delete;
   EdgeCollapses& operator=(const EdgeCollapses&) = delete;
 
-  /** Collapses all that it can, but for what the guard knows to be no use. Flips edges only if
-   * there is no guard. @return by number: whether a triangle is another one now, or gone
+  /** Collapses all that it can, except what the guard knows to be futile. Flips edges only if
+   * there is no guard. @return by number: whether a triangle has changed, or is gone
    */
   std::vector<bool> Run();
 
-  /** The mesh as it is now: a triangle that is left has the number that it had. */
+  /** The mesh as it is now; triangles that remain keep their numbers. */
   const LinkedTriangles& Mesh() const { return this->Links; }
 
   /** By sample: the number of the triangle that it lies over now; None for points in use. */
   const std::vector<std::uint32_t>& SampleHomes() const { return this->Homes; }
 
-  /** Undoes the last collapse or flip that made a triangle what it is, and those that removed
-   * points, with all that came later and built on them. @return by number: which triangles that
+  /** Undoes the last collapse or flip that made each triangle what it is, and those that removed
+   * points, with all later ones that built on them. @return by number: which triangles this
    * changed */
   std::vector<bool> Undo(
     const std::vector<std::uint32_t>& triangles, const std::vector<std::uint32_t>& points);
@@ -86,7 +86,7 @@ public:
 private:
   static constexpr int MostNeighbours = Hole::MostPoints;
 
-  /** The cheapest collapse of a vertex that has not been refused. */
+  /** A vertex's cheapest collapse that has not been refused. */
   struct Candidate
   {
     double Cost;
@@ -94,7 +94,7 @@ private:
     std::uint32_t Target;
     std::uint32_t Version; ///< of the vertex's neighbourhood
 
-    bool operator<(const Candidate& other) const // the greatest is the first of a queue
+    bool operator<(const Candidate& other) const // a queue has the greatest first
     {
       return this->Cost != other.Cost  ? this->Cost > other.Cost
         : this->Vertex != other.Vertex ? this->Vertex > other.Vertex
@@ -106,7 +106,7 @@ private:
   struct Filling
   {
     Vector Normal{};
-    TriangleDistance Distance; ///< if the hole is open, or a ridge's
+    TriangleDistance Distance; ///< of an open hole, or a ridge's
     Hole::Place Start{};       ///< of the edge to the next one
     Hole::Place Spoke{};
     std::uint32_t FirstSample = None;
@@ -118,22 +118,22 @@ private:
     }
   };
 
-  /** A sample, as little of it as will do: there are many, and each is looked at often. */
+  /** A sample, kept small: there are many, and each is looked at often. */
   struct Watched
   {
-    std::array<float, 3> Position; ///< from the first point
+    std::array<float, 3> Position; ///< relative to the first point
     float Allowance;               ///< the used part of it
-    std::uint32_t Next;            ///< of those over the same triangle
-    std::uint32_t NextOver;        ///< the same, of what fills a hole
+    std::uint32_t Next;            ///< the next one over the same triangle
+    std::uint32_t NextOver;        ///< likewise, over what fills a hole
 
     Vector At() const { return { this->Position[0], this->Position[1], this->Position[2] }; }
   };
 
-  /** What was done, to be undone: a vertex went, or an edge was flipped. */
+  /** What was done, so as to undo it: a vertex was removed, or an edge flipped. */
   struct Step
   {
-    std::uint32_t Vertex; ///< None of a flip
-    std::size_t First;    ///< of its triangles, and of its points; of a flip A to D
+    std::uint32_t Vertex; ///< None for a flip
+    std::size_t First;    ///< of its triangles, and of its points: for a flip, A to D
     int Count;
   };
 
@@ -206,13 +206,13 @@ private:
   void Offer(std::uint32_t vertex, double cost, std::uint32_t target);
   void OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::uint32_t target);
 
-  /** Calls visit(neighbour, triangle from it on to the next one; None if it is the last). */
+  /** Calls visit(neighbour, triangle between it and the next one; None if it is the last). */
   template <typename Visit>
   void ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const;
 
   CollapseGuard* Guard;          ///< or null
   double LeastSine;              ///< of new triangles
-  std::vector<Vector> Positions; ///< from the first one
+  std::vector<Vector> Positions; ///< relative to the first one
   LinkedTriangles Links;
   std::vector<Triangle>& Triangles;       ///< of these
   std::vector<Triangle>& Neighbours;      ///< of these
@@ -231,17 +231,17 @@ private:
   {
     double Cost = 0.0;
     std::uint32_t Target = None;
-    bool WasRefused = false; ///< a better one
-    bool IsOld = false;      ///< it is to be found again
+    bool WasRefused = false; ///< a better one was
+    bool IsOld = false;      ///< has to be found again
   };
-  std::vector<Price> Best; ///< by vertex: what is offered; None if all was refused
+  std::vector<Price> Best; ///< by vertex: what is offered; None if all were refused
   std::vector<std::uint32_t> Versions;
-  std::vector<std::uint32_t> Marks; ///< which hole a vertex was seen around
+  std::vector<std::uint32_t> Marks; ///< by vertex: the last hole that it was seen around
   std::uint32_t Mark = 0;
 
   std::priority_queue<Candidate> Queue;
   std::array<Filling, MostNeighbours> Fillings; ///< of the last hole, by its points
-  Vector Corner{};                              ///< that all of them have
+  Vector Corner{};                              ///< that all of them share
   int FillingCount = 0;
 
   std::vector<Step> Steps;
@@ -249,14 +249,14 @@ private:
   std::vector<std::uint32_t> PointsOfSteps;
   std::vector<std::uint32_t> LastStep;  ///< by triangle
   std::vector<std::uint32_t> RemovedIn; ///< by point: the step
-  /** Edges that would be there again if flips were undone. */
+  /** Edges that undoing flips would bring back. */
   std::unordered_set<std::uint64_t> FlippedAway;
 };
 
 template <typename Visit>
 void EdgeCollapses::ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const
 {
-  // At the border: from where there is nothing before.
+  // At the border: start where there is no triangle before.
   std::uint32_t first = this->AnyTriangle[vertex];
   if (this->IsAtBorder[vertex])
   {

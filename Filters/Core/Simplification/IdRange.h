@@ -8,7 +8,7 @@
 namespace isodiamond
 {
 
-/** A view of ids that lie one after the other. */
+/** A view of ids that are contiguous in memory. */
 struct IdRange
 {
   const std::uint32_t* First = nullptr;

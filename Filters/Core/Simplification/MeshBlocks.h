@@ -12,12 +12,12 @@
 namespace isodiamond
 {
 
-/** The triangles of a mesh in blocks, in an order that depends on their positions, and where these
- *  are the same on their numbers. */
+/** The triangles of a mesh in blocks, in an order that depends on their positions, and on their
+ *  numbers where positions are the same. */
 struct MeshBlocks
 {
   std::vector<std::uint32_t> Order; ///< of the triangles
-  std::vector<std::size_t> First;   ///< in that order; and the number of all
+  std::vector<std::size_t> First;   ///< by block, in that order; then the number of all
 
   std::size_t Count() const { return this->First.size() - 1; }
 
@@ -29,11 +29,11 @@ struct MeshBlocks
 };
 
 /**
- * Cuts triangles again and again where they are spread farthest, until no block has too many.
+ * Cuts triangles repeatedly, where they are spread farthest, until no block has too many.
  *
  * @param middles of the triangles
- * @param most triangles of a block, 1 at the least
- * @param part of the triangles that are before a cut: with another one cuts are elsewhere
+ * @param most triangles of a block, at least 1
+ * @param part of the triangles that lie before a cut; another value puts the cuts elsewhere
  */
 MeshBlocks CutIntoBlocks(const std::vector<Vector>& middles, std::size_t most, double part);
 

@@ -12,16 +12,16 @@
 namespace isodiamond
 {
 
-/** A place of the original mesh that is watched: each of its points, and the middle of each of its
- *  triangles. */
+/** A watched place of the original mesh: one of its points, or the middle of one of its triangles.
+ */
 struct SurfaceSample
 {
   Vector Position;
   double Allowance = 0.0;
-  std::uint32_t Home = None; ///< the triangle that it lies over; none for a point in use
+  std::uint32_t Home = None; ///< the triangle that it lies over; None for a point in use
 };
 
-/** A part of a mesh that is made simpler on its own, and what it stands for. */
+/** A part of a mesh that is simplified on its own, and what it stands for. */
 struct MeshPart
 {
   std::vector<Vector> Positions;
@@ -32,7 +32,7 @@ struct MeshPart
   std::vector<Walls::Type> OnWalls;   ///< by point
   std::vector<SurfaceSample> Samples; ///< first the points, then the original's middles
   NearLists Near{ 0 };                ///< by triangle of the original
-  double LeastSine = 0.0;             ///< of angles that new triangles may have
+  double LeastSine = 0.0;             ///< of the angles of new triangles
 };
 
 }

@@ -11,7 +11,7 @@
 namespace isodiamond
 {
 
-/** Of each triangle of a mesh, those of a simpler one that its pieces were found to be near to. */
+/** For each triangle of a mesh, those of a simpler one that its pieces were found to be near. */
 class NearLists
 {
 public:
@@ -29,7 +29,7 @@ public:
     return { first, first + this->Ranges[triangle].Count };
   }
 
-  /** Begins a new list; the items that follow are its. */
+  /** Begins a new list, to which the items that follow belong. */
   void Begin(std::size_t triangle) { this->Ranges[triangle] = { this->Items.size(), 0 }; }
   void Add(std::size_t triangle, std::uint32_t near)
   {

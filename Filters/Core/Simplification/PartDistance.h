@@ -18,27 +18,27 @@ namespace isodiamond
 /**
  * Finds where a simpler mesh is too far from the original, both ways, or turned over.
  *
- * Whole triangles are compared. Most of the original have their three points near to one triangle
- * of the simpler mesh, the one that one of them lies over, and then are as near to it; of most of
- * the simpler ones their shadow tells (ShadowTest.h). The others are cut in pieces (Covering.h).
+ * Whole triangles are compared. Most of the original have all three points near to one triangle of
+ * the simpler mesh, the one that one of the points lies over, and so are as near to it; most of the
+ * simpler ones are settled by a shadow (ShadowTest.h). The others are cut into pieces (Covering.h).
  *
- * Of each original triangle is known which triangles it is near to, so where these have not been
- * touched it need not be looked at again; nor where all are again what they were at the start, if
- * that was near: what is near may be hard to find.
+ * For each original triangle it is known which triangles it is near to. It need not be looked at
+ * again if these have not been touched; nor if they all are again what they were at the start, and
+ * the start was near: what is near may be hard to find.
  */
 class PartDistance
 {
 public:
-  /** @param part must outlive it; its near lists are kept as they should be
-   *  @param isStartNear whether its simpler mesh is known to be near, and its near lists tell to
-   * what
+  /** @param part must outlive it; its near lists are kept up to date
+   *  @param isStartNear whether its simpler mesh is known to be near, and its near lists say what
+   * is near to what
    */
   explicit PartDistance(MeshPart& part, bool isStartNear = false);
 
-  /** What is too far away: some of it is not what it was at the start, if that was near. */
+  /** What is too far away. If the start was near, some of it has changed since. */
   struct Faults
   {
-    std::vector<std::uint32_t> Triangles; ///< numbers of the simpler mesh's
+    std::vector<std::uint32_t> Triangles; ///< numbers in the simpler mesh
     std::vector<std::uint32_t> Points;    ///< of the original, gone from the simpler one
     bool Any() const { return !this->Triangles.empty() || !this->Points.empty(); }
   };
@@ -46,9 +46,9 @@ public:
   /**
    * Compares.
    *
-   * @param simple the mesh in place of the part's simpler one, by the same numbers
-   * @param homes by sample: which of its triangles it lies over; None where nothing is known
-   * @param isTouched by number: whether it is another triangle, or gone, since the last time
+   * @param simple the mesh to compare in place of the part's simpler one, with the same numbers
+   * @param homes by sample: which triangle of that mesh it lies over; None if unknown
+   * @param isTouched by number: whether a triangle has changed, or gone, since the last time
    */
   Faults Find(const LinkedTriangles& simple, const std::vector<std::uint32_t>& homes,
     const std::vector<bool>& isTouched, const ParallelFor& parallelFor = SerialFor);
@@ -56,7 +56,7 @@ public:
 private:
   class Comparison;
 
-  /** What a thread looks at the original with. */
+  /** What a thread uses to look at the original. */
   struct OriginalSpace
   {
     explicit OriginalSpace(const MeshPart& part)

@@ -64,7 +64,7 @@ public:
 
 private:
   std::uint32_t First = 0;
-  std::vector<std::uint32_t> Numbers; ///< of points from the first one on; None of others
+  std::vector<std::uint32_t> Numbers; ///< of points from the first one on; None for others
   std::vector<std::uint32_t> Used;
 };
 

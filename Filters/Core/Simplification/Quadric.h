@@ -9,8 +9,8 @@
 namespace isodiamond
 {
 
-/** Squared distances from planes, with weights, as a function of the place (Garland and Heckbert,
- *  SIGGRAPH 1997). */
+/** The weighted sum of squared distances from planes, as a function of position (Garland and
+ *  Heckbert, SIGGRAPH 1997). */
 class Quadric
 {
 public:

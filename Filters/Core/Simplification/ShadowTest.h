@@ -16,11 +16,11 @@ namespace isodiamond
  * cast on it.
  *
  * Seen along a direction, these cover each place a number of times, where those that face the other
- * way count as -1. That number changes only across the shadow of their border, the edges that one
- * of them has. So if this does not enter the triangle, and leads around its middle once, all of the
- * triangle is covered; and if they are near to it along the direction wherever they are over it,
- * all of it is near to them. It takes a few operations for each of the mesh's triangles, but does
- * not always succeed: a way along the direction may be longer than another one.
+ * way count as -1. That number changes only across the shadow of their border: the edges that only
+ * one of them has. So if this shadow does not enter the triangle, and goes around its middle once,
+ * all of the triangle is covered; and if they are near to it along the direction wherever they are
+ * over it, all of it is near to them. The test takes a few operations per triangle of the mesh, but
+ * does not always succeed: the way along the direction may be longer than another one.
  */
 class ShadowTest
 {
@@ -30,17 +30,17 @@ public:
   ShadowTest(const std::vector<Vector>& positions, const LinkedTriangles& mesh,
     const std::vector<double>& allowances);
 
-  /** Whether each point of a triangle is shown to be near to the mesh, and to face as that does.
-   *  @param direction of unit length @param triangles different ones of the mesh, near to it;
-   * others join them */
+  /** Whether all of a triangle is shown to be near to the mesh, and to face as the mesh does.
+   *  @param direction of unit length @param triangles distinct ones of the mesh, near to it;
+   * others are added */
   bool Covers(const std::array<Vector, 3>& corners, const Vector& direction,
     std::vector<std::uint32_t>& triangles);
 
 private:
   using Place = std::array<double, 2>;
   using Clipped = Vector; ///< a place and a height
-  /** Each of three cuts adds one at most, or by rounding, of what is nearly a line, doubles them.
-   */
+  /** Each of three cuts adds at most one or, by rounding where they are nearly in line, doubles
+   * them. */
   using ClippedCorners = std::array<Clipped, 24>;
 
   /** How a point of the mesh is seen. */
@@ -69,13 +69,13 @@ private:
   // The triangle, seen from above: its first corner is at 0, its first side along x.
   Vector Origin{};
   std::array<Vector, 3> Axes{}; ///< the last one is the normal
-  Vector Way{};                 ///< along the direction, by one along the normal
+  Vector Way{};                 ///< along the direction, as far as 1 along the normal
   double WayLength = 1.0;
   std::array<Place, 3> Corners{};
   std::array<Place, 3> Inward{}; ///< normals to the sides, of unit length
   Place Middle{};
-  double Slack = 0.0; ///< what is not distinguished from nothing
-  double Strip = 0.0; ///< how far from the rest what lies so near to a side may be
+  double Slack = 0.0; ///< a length that is not distinguished from 0
+  double Strip = 0.0; ///< how far from the rest what lies that near to a side may be
 };
 
 }

@@ -11,25 +11,25 @@
 namespace isodiamond
 {
 
-/** Triangles of a part that is simplified on its own. */
+/** The most triangles of a part that is simplified on its own. */
 constexpr std::size_t MostOfPart = 32000;
 
 /**
- * Makes fewer triangles of a mesh, of some of its points, with a promise: every point of the result
- * is within the allowance of a triangle of the mesh of a point of that triangle, and every point of
- * a triangle within its allowance of the result; both are homeomorphic; border edges on a wall stay
- * on it, others stay as they are, and nothing is turned over.
+ * Makes fewer triangles of a mesh, on some of its points, with a promise: every point of the result
+ * is within some mesh triangle's allowance of that triangle, and every point of a mesh triangle is
+ * within that triangle's allowance of the result; both are homeomorphic; border edges on a wall
+ * stay on it, others stay as they are, and nothing is turned over.
  *
- * Edges collapse in parts of the mesh (SimplifiedMesh.h), as long as samples of what was there are
+ * Edges collapse in parts of the mesh (SimplifiedMesh.h), as long as samples of the original are
  * near enough (EdgeCollapses.h). Then whole triangles are compared, both ways (PartDistance.h), and
  * what is wrong is undone.
  *
- * Parts are cut by position, and done independently: the result does not depend on threads.
+ * Parts are cut by position and simplified independently: the result does not depend on threads.
  *
- * @param mesh one that has edges of more than two triangles, or of two that go along it in one
- *        direction, stays as it is in parts with such edges
- * @param mostOfPart triangles of a part at the most; 1 and more
- * @return triangles on the points of the mesh, and what these lie over
+ * @param mesh stays as it is in parts that have edges of more than two triangles, or of two that go
+ *        along them in the same direction
+ * @param mostOfPart triangles of a part at most; 1 or more
+ * @return triangles on the points of the mesh, and what the points lie over
  */
 SimplerMesh Simplify(
   const AllowedMesh& mesh, const ParallelFor& parallelFor, std::size_t mostOfPart = MostOfPart);

@@ -14,11 +14,11 @@ namespace isodiamond
 {
 
 /**
- * A mesh that is made simpler, part by part, in passes whose parts are cut elsewhere.
+ * A mesh that is simplified part by part, in passes that cut the parts in different places.
  *
- * A part has triangles of the simpler mesh, and those of the original that are near to these
- * alone. Original triangles that are near to triangles of several parts hold them all: these stay
- * as they are in the pass. So parts do not know of each other.
+ * A part has triangles of the simpler mesh, and those of the original that are near to these alone.
+ * Where an original triangle is near to triangles of several parts, these all stay as they are in
+ * that pass. So parts need not know of each other.
  */
 class SimplifiedMesh
 {
@@ -28,13 +28,13 @@ public:
 
   const std::vector<Triangle>& Triangles() const { return this->Simple.Triangles; }
 
-  /** By point: the triangle that it lies over; None of points in use. */
+  /** By point: the triangle that it lies over; None for points in use. */
   std::vector<std::uint32_t> PointHomes() const
   {
     return { this->Homes.begin(), this->Homes.begin() + this->Original.Mesh.Positions.size() };
   }
 
-  /** Makes all parts simpler.
+  /** Simplifies all parts.
    *  @param most triangles of a part @param cut see CutIntoBlocks
    *  @param usedPart see EdgeCollapses */
   void Simplify(std::size_t most, double cut, double usedPart, const ParallelFor& parallelFor);
@@ -45,8 +45,7 @@ private:
 
   SurfaceSample SampleOf(std::size_t id) const;
   Division Divide(std::size_t most, double cut) const;
-  /** @param ids is given the part's samples, of which the points are the first, as they are in the
-   *         mesh */
+  /** @param ids receives the part's samples, the points first, by their ids in the whole mesh */
   MeshPart Take(
     const Division& division, std::uint32_t number, std::vector<std::uint32_t>& ids) const;
   void AddPoints(const Division& division, std::uint32_t number, const PointNumbers& numbers,
@@ -58,11 +57,11 @@ private:
 
   const AllowedMesh& Original;
   LinkedTriangles OriginalLinks;
-  std::vector<bool> IsFaulty;  ///< by point: edges there cannot be told
+  std::vector<bool> IsFaulty;  ///< by point: neighbours there are meaningless
   std::vector<bool> IsPinched; ///< by point: sheets meet there, so it stays
   LinkedTriangles Simple;
   std::vector<std::uint32_t> Homes;    ///< by sample: the points, then the middles of triangles
-  std::vector<double> PointAllowances; ///< the least of the triangles there
+  std::vector<double> PointAllowances; ///< by point: the least of the triangles there
   NearLists Near;                      ///< by original triangle
 };
 

@@ -17,13 +17,13 @@ namespace isodiamond
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/** Which of a triangle's points one is. @pre it is one of them */
+/** Which of a triangle's points a given one is. @pre it is one of them */
 inline int PlaceOf(const Triangle& triangle, std::uint32_t point)
 {
   return triangle[0] == point ? 0 : triangle[1] == point ? 1 : 2;
 }
 
-/** Normal to a triangle, twice as long as its area. */
+/** Normal of a triangle; its length is twice the area. */
 inline Vector Across(const std::vector<Vector>& positions, const Triangle& triangle)
 {
   const Vector& a = positions[triangle[0]];
@@ -36,14 +36,14 @@ inline double AreaOf(const std::vector<Vector>& positions, const Triangle& trian
   return 0.5 * std::sqrt(Dot(across, across));
 }
 
-/** A vector of length 1 in the same direction; 0 of one without a length. */
+/** A vector of length 1 in the same direction; 0 for one without length. */
 inline Vector Unit(const Vector& vector)
 {
   const double length = std::sqrt(Dot(vector, vector));
   return length > 0.0 ? (1.0 / length) * vector : Vector{};
 }
 
-/** The sine of a triangle's smallest angle, opposite to its shortest side; 0 of a point. */
+/** The sine of a triangle's smallest angle, opposite to its shortest side; 0 for a point. */
 inline double SmallestSine(const Vector& a, const Vector& b, const Vector& c)
 {
   const Vector across = Cross(b - a, c - a);
@@ -52,7 +52,7 @@ inline double SmallestSine(const Vector& a, const Vector& b, const Vector& c)
   return sides[1] > 0.0 ? std::sqrt(Dot(across, across) / (sides[1] * sides[2])) : 0.0;
 }
 
-/** Triangles by the ids of their points, with one orientation. */
+/** Triangles by the ids of their points, consistently oriented. */
 struct TriangleMesh
 {
   std::vector<Vector> Positions;
@@ -80,7 +80,7 @@ constexpr std::uint32_t None = 0xffffffff;
  *  to the next one. */
 struct LinkedTriangles
 {
-  std::vector<Triangle> Triangles;  ///< the first point is None where one is gone
+  std::vector<Triangle> Triangles;  ///< the first point is None if the triangle is gone
   std::vector<Triangle> Neighbours; ///< by triangle and edge; None at the border
 
   bool IsThere(std::uint32_t triangle) const { return this->Triangles[triangle][0] != None; }
@@ -97,7 +97,7 @@ std::vector<std::uint32_t> AnyTriangleAt(std::size_t points, const LinkedTriangl
 /**
  * Which triangles meet at the points and edges of a mesh.
  *
- * Orientation must be one: an edge has one triangle, or two that go along it in opposite
+ * Orientation must be consistent: an edge has one triangle, or two that go along it in opposite
  * directions.
  */
 class Connectivity
@@ -105,14 +105,14 @@ class Connectivity
 public:
   Connectivity(std::size_t pointCount, std::vector<Triangle> triangles);
 
-  /** The points at which edges begin that more than two triangles have, or two in one direction.
-   *  Only if there are none the neighbours have a meaning. */
+  /** Where edges begin that more than two triangles have, or two in the same direction. Neighbours
+   *  are meaningful only if there are none. */
   const std::vector<std::uint32_t>& FaultyPoints() const { return this->Faulty; }
 
   /** The triangles at a point. */
   IdRange At(std::uint32_t point) const { return this->Cells[point]; }
 
-  /** Whether these are more than one fan: sheets meet there. @pre no edge there is faulty */
+  /** Whether these form more than one fan: sheets meet there. @pre no edge there is faulty */
   bool IsPinched(std::uint32_t point) const;
 
   /** The mesh's triangles, linked. */

@@ -18,7 +18,7 @@ struct Crossing
   bool IsThere() const { return this->Ends[0] != CutMesh::None; }
 };
 
-/** The leaves of an interval volume's mesh in the world, and what is at each vertex of theirs. */
+/** The leaves of an interval volume's mesh in the world, and what is at each of their vertices. */
 class Background
 {
 public:
@@ -27,7 +27,7 @@ public:
    * @param positions of the cut mesh's vertices in the world; must outlive it
    * @param walls by vertex
    * @param points of the interval volume's mesh, in the world; must outlive it
-   * @param mirrored whether orientation turns around from index space to the world
+   * @param mirrored whether orientation is reversed from index space to the world
    */
   Background(const CutMesh& cut, const std::vector<Vector>& positions,
     std::vector<Walls::Type> walls, const std::vector<Vector>& points, bool mirrored)
@@ -53,7 +53,7 @@ public:
   {
     return this->Cut.Tetrahedra[tetrahedron].Vertices;
   }
-  /** Whether a leaf is negative in the world, in the order of its vertices. */
+  /** Whether a leaf, with its vertices in their order, is negative in the world. */
   bool IsNegative(std::uint32_t tetrahedron) const
   {
     return this->Cut.Tetrahedra[tetrahedron].IsOdd != this->IsMirrored;
@@ -67,7 +67,7 @@ public:
   /** The leaves at a vertex. */
   CellsAtPoints::Cells StarOf(std::uint32_t vertex) const { return this->Stars[vertex]; }
 
-  /** By point: where surfaces cross edges; of vertices inside it is not there. */
+  /** By point: where a surface crosses an edge; not there for vertices inside. */
   const std::vector<Crossing>& AllCrossings() const { return this->Crossings; }
   /** The points where surfaces cross the edges of a vertex. */
   IdRange CrossingsAt(std::uint32_t vertex) const { return this->CrossingsOfStars[vertex]; }

@@ -13,11 +13,11 @@
 namespace isodiamond
 {
 
-/** A face opposite to a point, and what of its tetrahedron does not depend on where that is. */
+/** The face opposite to a point, and all of its tetrahedron that does not depend on the point. */
 class OppositeFace
 {
 public:
-  /** From outside: with the point it is a positive tetrahedron. */
+  /** Corners as seen from outside: with the point they form a positive tetrahedron. */
   explicit OppositeFace(const std::array<Vector, 3>& corners)
     : Corners(corners)
     , Across(Cross(corners[1] - corners[0], corners[2] - corners[0]))
@@ -37,8 +37,8 @@ public:
     return isodiamond::SmallestSine(place, this->Corners[0], this->Corners[1], this->Corners[2]);
   }
 
-  /** The smallest sine with the point at a place; 0 of what is not positive, if only more than a
-   *  sine that is not negative is of interest. */
+  /** The smallest sine with the point at a place, where only more than a given sine is of interest:
+   *  if that is not negative, 0 for a tetrahedron that is not positive. */
   double SmallestSine(const Vector& place, double interesting) const
   {
     const Vector b = this->Corners[0] - place;
@@ -61,14 +61,14 @@ private:
   std::array<Vector, 3> Corners;
   Vector Across;
   double SquaredAcross;
-  std::array<double, 3> SquaredSides{}; ///< by the corner that they do not have
+  std::array<double, 3> SquaredSides{}; ///< by the corner opposite to them
 };
 
 /** The faces opposite to a point in its tetrahedra. */
 class PointStar
 {
 public:
-  /** Adds a tetrahedron that has the point in the place of one of its corners. */
+  /** Adds a tetrahedron that has the point as one of its corners. */
   void Add(const TetrahedronMesh& mesh, const Corners& corners, std::uint32_t point)
   {
     const auto own = std::find(corners.begin(), corners.end(), point) - corners.begin();
@@ -79,8 +79,8 @@ public:
     this->Looks.push_back({ this->Looks.size() });
   }
 
-  /** The smallest sine of the tetrahedra with the point at a place; any that is small enough, if
-   *  it is not more than what is of interest. */
+  /** The smallest sine of the tetrahedra with the point at a place; if that is not more than what
+   *  is of interest, any sine that is not. */
   double WorstAt(const Vector& place, double interesting)
   {
     double worst = 1.0;
@@ -94,13 +94,13 @@ public:
         return worst;
       }
     }
-    // Places around this one will be tried, and fail where it is worst.
+    // Places around this one will be tried next, and fail where this one is worst.
     std::sort(this->Looks.begin(), this->Looks.end(),
       [](const Look& a, const Look& b) { return a.Sine < b.Sine; });
     return worst;
   }
 
-  /** Calls visit(sine) of each tetrahedron with the point at a place. */
+  /** Calls visit(sine) for each tetrahedron with the point at a place. */
   template <typename Visit>
   void ForEachSine(const Vector& place, Visit&& visit) const
   {
@@ -121,7 +121,7 @@ public:
     return (1.0 / (3.0 * static_cast<double>(this->Faces.size()))) * sum;
   }
 
-  /** The distance of the nearest corner. */
+  /** The distance to the nearest corner. */
   double Radius(const Vector& place) const
   {
     double squared = HUGE_VAL;
@@ -137,7 +137,7 @@ public:
 
 private:
   std::vector<OppositeFace> Faces;
-  /** At a face, and what was found there the last time. */
+  /** A face to look at, and what was found there the last time. */
   struct Look
   {
     std::size_t Face = 0;
@@ -160,8 +160,8 @@ struct Reach
   std::function<bool(const Vector& place)> Allows = nullptr; ///< null for all
 };
 
-/** Looks for a better place for a point, until all around it is as wanted: first in the middle of
- *  its star, then in steps that get smaller.
+/** Looks for a better place for a point until everything around it is as wanted: first in the
+ *  middle of its star, then in ever smaller steps.
  *  @param walls that it stays on */
 PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
   const std::array<Vector, 3>& axes, double wanted, const Reach& reach = {});

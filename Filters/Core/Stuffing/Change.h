@@ -9,7 +9,7 @@
 namespace isodiamond
 {
 
-/** A change of a mesh's neighbourhood. */
+/** A local change of a mesh. */
 struct Change
 {
   enum Kinds
@@ -24,7 +24,7 @@ struct Change
   static constexpr std::uint32_t NewPoint = LocalMesh::None;
 
   Kinds Kind = None;
-  double Gain = 0.0; ///< of what all tetrahedra lack that it touches
+  double Gain = 0.0; ///< in the shortfall of all tetrahedra that it touches
   std::uint32_t Point = 0;
   std::uint32_t Other = 0;
   Vector Place{};
@@ -33,7 +33,7 @@ struct Change
   std::vector<Corners> Fresh;
 };
 
-/** Changes a mesh. @param changed gets the tetrahedra that are not as they were */
+/** Changes a mesh. @param changed receives the tetrahedra that are not as they were */
 void Do(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& changed);
 
 }

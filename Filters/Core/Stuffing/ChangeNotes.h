@@ -10,11 +10,11 @@
 namespace isodiamond
 {
 
-/** What of a mesh has been tried to improve, and what has changed since. */
+/** Which tetrahedra of a mesh improvement has been tried for, and what has changed since. */
 class ChangeNotes
 {
 public:
-  /** How many changes there were. */
+  /** How many changes there have been. */
   int Count() const { return this->Changes; }
 
   /** Whether anything has changed around a tetrahedron since it was tried. */
@@ -27,7 +27,7 @@ public:
         [&](std::uint32_t point) { return this->IsTouched(point, tried); });
   }
 
-  /** Whether anything that BestChange() reads has changed after so many changes. */
+  /** Whether anything that BestChange() reads has changed since there were so many changes. */
   bool IsTouchedAround(const LocalMesh& mesh, std::uint32_t tetrahedron, int changes) const
   {
     const Corners& corners = mesh.CornersOf(tetrahedron);
@@ -47,13 +47,13 @@ public:
 
   void NoteTry(std::uint32_t tetrahedron) { Note(this->Tried, tetrahedron, this->Changes); }
 
-  /** Changes a mesh. @param changed gets the tetrahedra that are not as they were */
+  /** Changes a mesh. @param changed receives the tetrahedra that are not as they were */
   void Do(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& changed)
   {
     ++this->Changes;
     if (change.Kind == Change::Collapse)
     {
-      this->Touch(mesh, mesh.StarOf(change.Point)); // some of it has nothing in its place
+      this->Touch(mesh, mesh.StarOf(change.Point)); // nothing replaces some of it
     }
     const std::size_t first = changed.size();
     isodiamond::Do(change, mesh, changed);
@@ -63,8 +63,8 @@ public:
 private:
   static constexpr int Never = -1;
 
-  /** Of a point or tetrahedron, of which there may be new ones: how many changes there were when it
-   *  was noted last; less than any if it never was. */
+  /** How many changes there were when a point or tetrahedron, possibly a new one, was last noted;
+   *  less than any number of changes if it never was. */
   static int NotedAt(const std::vector<int>& notes, std::uint32_t number)
   {
     return number < notes.size() ? notes[number] : Never;
@@ -78,7 +78,7 @@ private:
     notes[number] = changes;
   }
 
-  /** Whether a point has been touched after so many changes. */
+  /** Whether a point has been touched since there were so many changes. */
   bool IsTouched(std::uint32_t point, int changes) const
   {
     return NotedAt(this->Touched, point) > changes;
@@ -95,7 +95,7 @@ private:
   }
 
   int Changes = 0;
-  std::vector<int> Tried;   ///< by tetrahedron: how many changes there were, the last time
+  std::vector<int> Tried;   ///< by tetrahedron: how many changes there were at the last try
   std::vector<int> Touched; ///< by point, likewise
 };
 

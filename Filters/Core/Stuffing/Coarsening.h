@@ -8,35 +8,34 @@
 namespace isodiamond
 {
 
-/** What tells how coarse a mesh may get. */
+/** What determines how coarse a mesh may get. */
 struct CoarseningInput
 {
   const TetrahedronMesh& Plain; ///< the volume's mesh, with its leaves as origins
-  /** By leaf: how far from its part of the surfaces those of the result may be. */
+  /** By leaf: how far from its part of the surfaces the result's surfaces may be. */
   const std::vector<double>& Allowances;
   /** By leaf: whether it could be finer. */
   const std::vector<bool>& CanBeFiner;
   bool KeepsInside = false; ///< whether points inside stay
-  /** Of allowances, by samples; what turns out to be too much is undone. */
+  /** What part of allowances samples may use; what turns out to be too much is undone. */
   double UsedPart = 0.75;
   /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
   std::array<Vector, 3> Axes{};
 };
 
-/** The leaves where a surface of a stuffed mesh is too far away, and which could be finer, sorted.
- */
+/** The leaves that could be finer and where a surface of a stuffed mesh is too far away, sorted. */
 std::vector<std::uint32_t> FarLeaves(
   const TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor);
 
 /**
  * Makes a stuffed mesh coarser, within what is allowed: edges collapse, on surfaces as Simplify
- * collapses them (EdgeCollapses.h), and inside, where the tetrahedra that this makes are of good
- * shape (TetrahedronCollapses.h). All of both surfaces is measured against those of the volume's
- * mesh, both ways (PartDistance.h), and what is too far away undone. Then points inside move to
- * better places (Relaxation.h), and more edges inside collapse.
+ * collapses them (EdgeCollapses.h), and inside where the resulting tetrahedra have a good shape
+ * (TetrahedronCollapses.h). All of both surfaces is measured against those of the volume's mesh,
+ * both ways (PartDistance.h), and what is too far away is undone. Then points inside move to better
+ * places (Relaxation.h), and more edges inside collapse.
  *
- * @return the FarLeaves() of before. If there are any the mesh stays as it is: it is for the caller
- *         to refine and begin again. What is too far away and cannot be finer stays as it is there.
+ * @return the FarLeaves() before any change. If there are any, the mesh stays as it is: the caller
+ *         has to refine and begin again. What is too far away but cannot be finer is left as it is.
  */
 std::vector<std::uint32_t> Coarsen(
   TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor);

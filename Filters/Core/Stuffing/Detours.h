@@ -10,14 +10,14 @@ namespace isodiamond
 {
 
 /**
- * Improves bad tetrahedra that no single change improves: by several, of which the first ones make
- * things worse.
+ * Improves bad tetrahedra that no single change improves, by several changes, the first of which
+ * make things worse.
  *
- * On a copy of what is around it one to three changes are made by chance, and then what
- * Improvement.h would do next, until it finds no more. The best of many such attempts, each from
- * the best one before, is done to the mesh, if it leaves less to be wished for and the worst one no
- * worse. It ends where attempts have not helped for too long. Chance is the same each time: the
- * result depends on nothing but the mesh.
+ * On a copy of what is around a bad one, one to three random changes are made, and then those that
+ * Improvement.h would make next, until it finds no more. The best of many such attempts, each from
+ * the best one before, is applied to the mesh if it reduces the shortfall and leaves the worst
+ * tetrahedron no worse. The search ends when attempts have not helped for too long. The random
+ * numbers are the same each time: the result depends on nothing but the mesh.
  */
 void TakeDetours(
   LocalMesh& mesh, const ImprovementOptions& options, const ParallelFor& parallelFor);

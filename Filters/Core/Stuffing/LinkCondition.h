@@ -9,20 +9,20 @@
  * Whether an edge of a mesh can shrink into a point without a change of topology.
  *
  * The link of a point is what its tetrahedra have opposite to it: triangles, their edges and
- * points. That of an edge is a ring around it, or a path at the boundary. What the links of both
- * ends have in common must be the edge's, and nothing else (Dey, Edelsbrunner, Guha and Nekhayev,
- * "Topology preserving edge contraction", 1999); and the same must hold of the boundary.
+ * points. That of an edge is a ring around it, or a path at the boundary. The links of both ends
+ * must have the edge's link in common, and nothing else (Dey, Edelsbrunner, Guha and Nekhayev,
+ * "Topology preserving edge contraction", 1999); and the same must hold on the boundary.
  */
 namespace isodiamond
 {
 
 class LocalMesh;
 
-/** Whether two points have an edge, and of their links nothing but its link in common. */
+/** Whether two points have an edge, and their links nothing but its link in common. */
 bool HaveOnlyTheirEdgeInCommon(const LocalMesh& mesh, std::uint32_t a, std::uint32_t b);
 
-/** The same of the boundary, if the first of two points is on it: then they have an edge of it, and
- *  that lies on every surface and wall that the first point has triangles on. */
+/** The same on the boundary, if the first of two points is on it: then their edge is on it, too,
+ *  and lies on every surface and wall that the first point has triangles on. */
 bool HaveOnlyTheirEdgeOnTheBoundary(const LocalMesh& mesh, std::uint32_t from, std::uint32_t to);
 
 }

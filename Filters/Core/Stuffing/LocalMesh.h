@@ -12,10 +12,10 @@ namespace isodiamond
 {
 
 /**
- * A tetrahedral mesh that is changed here and there: tetrahedra go, others come, points move.
+ * A tetrahedral mesh for local changes: tetrahedra are removed and added, points move.
  *
- * What it can tell of a change is whether the mesh stays one of the same topology, with the same
- * surfaces and walls; whether it gets better, and stays near, is for the caller to see.
+ * It can tell whether a change leaves a mesh of the same topology, with the same surfaces and
+ * walls; whether the mesh gets better, and stays near, is for the caller to check.
  */
 class LocalMesh
 {
@@ -35,7 +35,7 @@ public:
   double SineOf(std::uint32_t tetrahedron) const { return this->Sines[tetrahedron]; }
   double SineOf(const Corners& corners) const { return SmallestSine(this->TheMesh, corners); }
 
-  /** The point that another one has its attributes from; itself, unless it is blended. */
+  /** The point that a point has its attributes from; itself, unless it is blended. */
   std::uint32_t SourceOf(std::uint32_t point) const
   {
     return this->BlendOf[point] == None
@@ -49,46 +49,46 @@ public:
   double WorstAround(std::uint32_t point) const;
 
   bool HasEdge(std::uint32_t a, std::uint32_t b) const;
-  /** How many tetrahedra have a triangle. */
+  /** How many tetrahedra have this triangle. */
   int CountAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
   /** What a triangle of the boundary lies on: walls, as bits, or one of these. */
   static constexpr int LowerSurface = 128;
   static constexpr int UpperSurface = 256;
   int PlaceOfFace(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
-  /** Whether a tetrahedron has a face on a wall with all points on one surface, of which nobody
-   *  could tell by the points what it is. */
+  /** Whether a tetrahedron has a face on a wall with all points on one surface: its points cannot
+   *  tell which of the two it lies on. */
   bool IsAmbiguous(const Corners& corners) const;
 
-  /** Whether an edge can shrink into one of its ends: the link condition, also of the boundary, and
-   *  of the curves where a surface meets a wall. */
+  /** Whether an edge can shrink into one of its ends: the link condition, also for the boundary and
+   *  for the curves where a surface meets a wall. */
   bool CanCollapse(std::uint32_t from, std::uint32_t to) const;
 
-  /** The points around an edge, so that (a, b, each, the next) are its tetrahedra. */
+  /** The points around an edge, such that (a, b, each, the next) are its tetrahedra. */
   struct Ring
   {
     std::vector<std::uint32_t> Points;
     std::vector<std::uint32_t> Tetrahedra;
     bool IsClosed = false; ///< else it is a path, at the boundary
   };
-  /** @return whether there is one of at most so many tetrahedra */
+  /** @return whether there is one with at most that many tetrahedra */
   bool FindRing(std::uint32_t a, std::uint32_t b, std::size_t most, Ring& ring) const;
 
   ///@{
   /** Changes. */
   void Move(std::uint32_t point, const Vector& to);
   void Collapse(std::uint32_t from, std::uint32_t to, std::vector<std::uint32_t>& changed);
-  /** Puts tetrahedra in the place of others. */
+  /** Replaces tetrahedra by others. */
   void Replace(const std::vector<std::uint32_t>& old, const std::vector<Corners>& fresh,
     std::vector<std::uint32_t>& changed);
-  /** Undoes a change that put tetrahedra in the place of others, which are all still there. */
+  /** Undoes a change that replaced tetrahedra by others, if these are all still there. */
   void PutBack(const std::vector<std::uint32_t>& old, const std::vector<std::uint32_t>& fresh);
   /** Adds a point. @return its id */
   std::uint32_t AddPoint(
     const Vector& at, std::int8_t surface, Walls::Type walls, const std::vector<Share>& shares);
   ///@}
 
-  /** What is alive. The LocalMesh is empty then. */
+  /** Takes out what is alive, which leaves the LocalMesh empty. */
   TetrahedronMesh Take();
 
 private:

@@ -9,7 +9,7 @@
 namespace isodiamond
 {
 
-/** The triangles of both surfaces of a mesh, from outside, and the origins of their tetrahedra. */
+/** The triangles of a mesh's surfaces, seen from outside, and the origins of their tetrahedra. */
 struct Surfaces
 {
   std::vector<Triangle> Triangles;
@@ -18,10 +18,10 @@ struct Surfaces
 Surfaces SurfacesOf(const TetrahedronMesh& mesh);
 
 /**
- * The surfaces of a volume's mesh, and of what was made of it, to be compared.
+ * The surfaces of a volume's mesh, and of the mesh that was made of it, for comparison.
  *
- * The second one has some points of the first, and a few of its own; samples of the first are over
- * the triangle of the second that is nearest, as far as walking over the surface tells.
+ * The second mesh has some points of the first, and a few of its own; samples of the first lie over
+ * the nearest triangle of the second, as far as walking over the surface can tell.
  */
 struct MeasuredSurfaces
 {
@@ -33,9 +33,9 @@ struct MeasuredSurfaces
   /** By sample: the triangle of the second mesh that it lies over. */
   std::vector<std::uint32_t> Homes() const;
 
-  /** Whether both can be walked over: no edge of more than two triangles. */
+  /** Whether both can be walked over: no edge has more than two triangles. */
   bool AreSound = false;
-  MeshPart Part;                            ///< the first one is the original; if they are sound
+  MeshPart Part;                            ///< with the first one as original; if they are sound
   std::vector<std::uint32_t> Origins;       ///< by triangle of the first mesh
   std::vector<std::uint32_t> SimpleOrigins; ///< of the second
 

@@ -13,10 +13,10 @@ namespace isodiamond
 /**
  * The vertices of a background mesh, some of which have been moved onto a surface.
  *
- * An isovertex near to the end of its edge makes thin tetrahedra. So a vertex that has one nearby
- * moves there, and all others on its edges are gone, for the surface passes through it now
- * (Labelle & Shewchuk, "Isosurface stuffing", SIGGRAPH 2007). The nearest go first; a vertex stays
- * where it is if a tetrahedron around it would get too flat, or the topology would be another
+ * An isovertex near the end of its edge makes thin tetrahedra. So a vertex that has one nearby
+ * moves there, and all others on its edges vanish, as the surface now passes through the vertex
+ * (Labelle & Shewchuk, "Isosurface stuffing", SIGGRAPH 2007). The nearest move first; a vertex
+ * stays where it is if a tetrahedron around it would get too flat, or the topology would change
  * (SurfaceLinks.h).
  */
 class MovedVertices
@@ -25,7 +25,7 @@ public:
   /** None has been moved yet. @param background must outlive it */
   explicit MovedVertices(const Background& background);
 
-  /** Moves all that can be. */
+  /** Moves all vertices that can be moved. */
   void MoveAll(const ParallelFor& parallelFor);
 
   /** What is in range, as tetrahedra of points. */

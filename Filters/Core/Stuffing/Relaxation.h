@@ -14,7 +14,7 @@ namespace isodiamond
 /** How points are moved. */
 struct RelaxationOptions
 {
-  double Wanted = 0.0; ///< the sine of the angle from which on a point stays where it is
+  double Wanted = 0.0; ///< a point whose worst sine is at least this stays where it is
   /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
   std::array<Vector, 3> Axes{};
   /** Whether a point may move to a place. */
@@ -22,8 +22,8 @@ struct RelaxationOptions
 };
 
 /**
- * Moves the points that are on no surface, one after the other, each to where the worst angle
- * around it is best, until that is as wanted. The result does not depend on threads.
+ * Moves the points that are on no surface, one after another, each to where the worst angle around
+ * it is best, until that angle is as wanted. The result does not depend on threads.
  *
  * @return the points that have moved
  */

@@ -10,8 +10,8 @@ namespace isodiamond
 /** Edges with more tetrahedra around them stay. */
 inline constexpr std::size_t MostAround = 7;
 
-/** The best way to fill what is around an edge without it: triangles between the points around,
- *  each with both ends (Klincsek's dynamic programme). @return the smallest sine */
+/** The best way to fill the space around an edge without it: triangles between the ring's points,
+ *  each joined to both ends (Klincsek's dynamic programming). @return the smallest sine */
 double FillRing(const LocalMesh& mesh, std::uint32_t a, std::uint32_t b,
   const std::vector<std::uint32_t>& ring, std::vector<Corners>& fresh);
 

@@ -10,18 +10,18 @@
 namespace isodiamond
 {
 
-/** Tetrahedra with less than this part of the wanted sine are all equally bad. */
+/** Tetrahedra with less than this part of the wanted sine all count as equally bad. */
 inline constexpr double WorstPartOfSine = 0.01;
 
-/** What a tetrahedron lacks: of several bad ones each counts, the worst most.
- *  @param wanted its smallest sine; with that or more it lacks nothing */
+/** What a tetrahedron lacks: every bad one counts, the worst most.
+ *  @param wanted a tetrahedron whose smallest sine is at least this lacks nothing */
 inline double ShortfallOf(double sine, double wanted)
 {
   const double missing = std::max(0.0, wanted / std::max(sine, WorstPartOfSine * wanted) - 1.0);
   return missing * missing;
 }
 
-/** What some tetrahedra lack, together. */
+/** What several tetrahedra lack in total. */
 struct Shortfall
 {
   explicit Shortfall(double wanted)
@@ -35,7 +35,7 @@ struct Shortfall
     this->Sum += ShortfallOf(sine, this->Wanted);
   }
 
-  double Wanted;      ///< the sine of which nothing is lacking
+  double Wanted;      ///< the sine at which nothing is lacking
   double Worst = 1.0; ///< the smallest sine
   double Sum = 0.0;
 };
@@ -48,7 +48,7 @@ inline bool IsBad(const LocalMesh& mesh, double wanted, std::uint32_t tetrahedro
 
 /** The tetrahedra of a mesh that lack something, each once, the worst first. */
 std::vector<std::uint32_t> WorstFirst(const LocalMesh& mesh, double wanted);
-/** The same of some, which may be dead. */
+/** The same of some tetrahedra, which may be dead. */
 std::vector<std::uint32_t> WorstFirst(
   const LocalMesh& mesh, double wanted, std::vector<std::uint32_t> some);
 

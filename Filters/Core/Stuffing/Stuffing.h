@@ -11,7 +11,7 @@
 namespace isodiamond
 {
 
-/** What tetrahedra for simulations are made of. */
+/** What tetrahedra for simulations are made from. */
 struct StuffingInput
 {
   const CutMesh& Leaves;
@@ -21,7 +21,7 @@ struct StuffingInput
   const Grid& SampleGrid;
   double SurfaceMove = 0.0; ///< see ImprovementOptions
   ///@{
-  /** See CoarseningInput; none to neither measure nor coarsen. */
+  /** See CoarseningInput; without allowances nothing is measured or coarsened. */
   std::vector<double> Allowances = {};
   std::vector<bool> CanBeFiner = {};
   bool KeepsInside = false;
@@ -33,24 +33,23 @@ struct StuffingInput
  *
  * Vertices that are near to a surface move onto it before the leaves are cut (MovedVertices.h);
  * then the few tetrahedra that are still bad are improved one by one (Improvement.h). Points are
- * some of those that the volume's mesh has otherwise; a few inside are moved or added, and fewer
- * still on surfaces move off these, by a quarter of their edge at most. Tetrahedra are positive and
- * conform; surfaces have the topology that they had. What is wanted of the angles, 15 to 165
- * degrees, is no promise: where so much is bad that the search gives up, some are left that are
- * worse.
+ * some of those that the volume's mesh would otherwise have; a few inside are moved or added, and
+ * fewer still move off their surface, by a quarter of their edge at most. Tetrahedra are positive
+ * and conforming; surfaces keep their topology. The wanted angles, 15 to 165 degrees, are no
+ * promise: where so much is bad that the search gives up, some that are worse are left.
  *
- * If there are allowances the surfaces are measured; it is for the caller to refine where they are
- * too far away. If they are not, the mesh is made coarser, as far as allowed (Coarsening.h).
+ * If there are allowances, the surfaces are measured; where they are too far away, the caller has
+ * to refine. If they nowhere are, the mesh is made coarser, as far as allowed (Coarsening.h).
  *
- * Angles are those of the world: if steps on the axes differ in length, there is more to improve.
+ * Angles are those in the world: if steps on the axes differ in length, there is more to improve.
  */
 struct StuffedMesh
 {
   TetrahedronMesh Mesh;
-  /** That have to be finer, see Coarsening.h. If there are any the mesh is not done. */
+  /** Those that have to be finer, see Coarsening.h. If there are any, the mesh is not finished. */
   std::vector<std::uint32_t> FarLeaves;
 };
-/** @param parallelFor is given the work in steps, one after the other: it can tell, and abort */
+/** @param parallelFor is given the work in successive steps: it can report progress, and abort */
 StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor);
 
 }

@@ -6,15 +6,16 @@
 
 /**
  * @file SurfaceChanges.h
- * Whether a change of a mesh leaves its surfaces where they are, or near.
+ * Whether a change of a mesh leaves its surfaces where they are, or near there.
  */
 namespace isodiamond
 {
 
-/** Whether a surface stays near to where it was, and is not folded, when a point on it goes. */
+/** Whether a surface stays near where it was, unfolded, if a point on it goes into another one. */
 bool StaysNear(const LocalMesh& mesh, std::uint32_t from, std::uint32_t to, double distance);
 
-/** Whether an edge of the boundary can be replaced by the one across, near and on the same. */
+/** Whether an edge of the boundary can be replaced by the one across it, near and on the same
+ *  surface or wall. */
 bool CanTurn(const LocalMesh& mesh, std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring,
   double distance);
 
@@ -25,14 +26,13 @@ struct CutSide
   Vector Beyond{};
 };
 
-/** Where an isovertex may be beside its place on an edge: in a spindle around that, which meets
- *  those of the lattice's other edges, and the grid's boundary, at its ends only, so that sheets
- *  keep apart; and no nearer to the end beyond than it is, or than the middle. Where spacings
- *  differ spindles may overlap. */
+/** Whether an isovertex may be at a place beside its edge: in a spindle around the edge, which
+ *  meets those of the lattice's other edges, and the grid's boundary, at its ends only, so that
+ *  sheets stay apart; and no nearer to the end beyond than it is now, or than the edge's middle.
+ *  Where spacings differ, spindles may overlap. */
 bool IsBeside(const CutSide& edge, const Vector& from, const Vector& to);
 
-/** Whether a point on a surface can be elsewhere: no triangle of the boundary around it is folded.
- */
+/** Whether a point on a surface can move to a place: this folds no boundary triangle around it. */
 bool CanShift(const LocalMesh& mesh, std::uint32_t point, const Vector& to);
 
 }

@@ -10,18 +10,18 @@ namespace isodiamond
 /**
  * Tells whether a vertex can lie on a surface without a change of topology.
  *
- * Count a vertex on a surface as outside of it, together with those that are: then the surface
- * crosses the edges from there to vertices inside, near the vertex, and pulling these crossings
- * into the vertex makes the mesh. That keeps the topology if what is pulled together is a disc, and
- * what remains a surface:
+ * Count a vertex on a surface as outside it, like those that are: then the surface crosses the
+ * edges from the vertex to vertices inside, near the vertex, and pulling these crossings into the
+ * vertex gives the mesh. That keeps the topology if what is pulled together is a disc, and what
+ * remains is a surface:
  *
  * - in the link of the vertex, the sides change along exactly one cycle (on a wall, one path);
- * which is also when a vertex inside may change sides at all, the rule of CriticalDiamonds.h;
- * - around an edge with both ends on the surface, vertices inside make one run at most, and never
- *   the whole cycle (on a wall, the path's end is among them, but not both ends);
+ * this is also when a vertex inside may change sides at all, the rule of CriticalDiamonds.h;
+ * - around an edge with both ends on the surface, vertices inside form at most one run, and never
+ *   the whole cycle (on a wall, one end of the path is among them, but not both);
  * - a triangle on the surface has vertices inside on one side only.
  *
- * Of vertices outside some tetrahedra may be missing, those that lie outside as a whole: they do
+ * Vertices outside may lack some of their tetrahedra, those that lie outside as a whole: they do
  * not change sides.
  */
 class SurfaceLinks
@@ -34,7 +34,7 @@ public:
   {
   }
 
-  /** Whether a vertex, which is on a surface now, can be there.
+  /** Whether a vertex that is now on a surface can be there.
    *  @param wasInside whether it was inside before */
   bool CanBeOn(std::uint32_t vertex, int surface, bool wasInside) const;
 

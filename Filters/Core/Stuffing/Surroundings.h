@@ -11,12 +11,12 @@ namespace isodiamond
 {
 
 /**
- * A copy of what a mesh has around one of its tetrahedra, with ids of its own, to try changes on.
+ * A copy of what a mesh has around one of its tetrahedra, with its own ids, to try changes on.
  *
- * Its points are some edges away from the tetrahedron. It has all tetrahedra at points that are no
- * more than Reach away; free are those with no point as far away as that. All that BestChange()
- * reads of a free one is there, and stays so when free ones change: a point that is less than Reach
- * away only gets neighbours of which all tetrahedra are there.
+ * How far away a point is counts in edges from the tetrahedron. The copy has all tetrahedra at
+ * points at most Reach away; those whose points are all less than Reach away are free. All that
+ * BestChange() reads for a free one is there, and remains so when free ones change: a point less
+ * than Reach away only gets neighbours all of whose tetrahedra are there.
  */
 class Surroundings
 {
@@ -31,19 +31,19 @@ public:
   /** By point: its id in the whole. */
   const std::vector<std::uint32_t>& Ids() const { return this->TheIds; }
 
-  /** Whether a tetrahedron of what has become of the copy may be changed. */
+  /** Whether a tetrahedron may be changed, in what the copy has become. */
   bool IsFree(const LocalMesh& mesh, std::uint32_t tetrahedron) const;
 
-  /** A change of the copy, or of what has become of it. */
+  /** A change of the copy, or of what it has become. */
   struct Step
   {
     Step(Change change, const LocalMesh& mesh);
 
     Change Way;
-    std::vector<Corners> Old; ///< of what it replaces, as the whole has other numbers for that
+    std::vector<Corners> Old; ///< of what it replaces, which has other numbers in the whole
   };
-  /** Does changes to the whole, where that is still as it was when it was copied.
-   *  @param changed gets the tetrahedra that are not as they were */
+  /** Makes changes in the whole, where it is still as it was when copied.
+   *  @param changed receives the tetrahedra that are not as they were */
   void DoInWhole(
     const std::vector<Step>& steps, LocalMesh& whole, std::vector<std::uint32_t>& changed) const;
 

@@ -14,21 +14,21 @@ namespace isodiamond
 
 /**
  * Collapses edges of a tetrahedral mesh into one of their ends, wherever that leaves tetrahedra of
- * good shape and the topology as it is, no edge much longer than those around were (by a quarter
+ * good shape, the topology as it is, no edge much longer than those around it were (by a quarter
  * inside, twice as long on surfaces), and the whole volume nearly the same. Inside it finds the
- * edges itself; on surfaces others do, who see to it that these stay near, and ask whether they may
- * (CollapseGuard). Collapses can be undone, until points move.
+ * edges itself; on surfaces others find them, keep the surfaces near, and ask whether an edge may
+ * collapse (CollapseGuard). Collapses can be undone until points move.
  */
 class TetrahedronCollapses : public CollapseGuard
 {
 public:
-  /** @param leastAngle in degrees: dihedral angles between that and 180 less that, or as good as
-   *         what they replace
-   *  @param volume what the mesh should have: it gets no farther from that than half a percent, or
-   *         than it is */
+  /** @param leastAngle in degrees: new dihedral angles are between this and 180 less this, or as
+   *         good as what they replace
+   *  @param volume that the mesh should have: it gets no farther from this than half a percent, or
+   *         than it already is */
   TetrahedronCollapses(TetrahedronMesh mesh, double leastAngle, double volume);
 
-  /** Collapses edges whose vertices that go are on no surface. */
+  /** Collapses edges where the vertex that is removed is on no surface. */
   void CollapseInside(const ParallelFor& parallelFor);
 
   /** Moves points that are on no surface to where the angles around them are better (Relaxation.h),
@@ -39,7 +39,7 @@ public:
   /** How many collapses there are. */
   std::size_t Count() const { return this->Steps.size(); }
 
-  /** The mesh as it is now. All else is over then. */
+  /** The mesh as it is now. Nothing else may be called afterwards. */
   TetrahedronMesh Take() { return this->Mesh.Take(); }
 
   bool Allows(std::uint32_t vertex, std::uint32_t target) override;
@@ -49,7 +49,7 @@ public:
   std::vector<std::uint32_t> Undo(const std::vector<std::uint32_t>& vertices) override;
 
 private:
-  /** What was done, to be undone. */
+  /** What was done, so as to undo it. */
   struct Step
   {
     std::uint32_t Vertex = 0;
@@ -67,7 +67,7 @@ private:
   bool IsNear(std::uint32_t point, const Vector& place) const;
   bool IsLong(std::uint32_t a, std::uint32_t b, double mostTimes) const;
   void FindTargets(std::uint32_t vertex, double needed);
-  /** What has changed makes new tries worth while. */
+  /** Changed tetrahedra make their points worth another try. */
   void LookAgainAround(const LocalMesh::Star& changed);
 
   LocalMesh Mesh;
@@ -77,9 +77,9 @@ private:
   double MostChange;           ///< of it
   std::vector<double> Longest; ///< by point: the longest edge, squared, as it was at first
   std::vector<Step> Steps;
-  std::vector<bool> IsTried;         ///< by point: and nothing has changed around it since
-  std::vector<bool> IsShortOfVolume; ///< by point: refused for what others may give back
-  /** Of one vertex: the smallest sine, negative, so that the best comes first. */
+  std::vector<bool> IsTried;         ///< by point: and nothing around it has changed since
+  std::vector<bool> IsShortOfVolume; ///< by point: refused for volume that others may give back
+  /** Of one vertex: the smallest sine, negated, so that the best comes first. */
   std::vector<std::pair<double, std::uint32_t>> Targets;
 };
 

@@ -25,7 +25,7 @@ inline bool Has(const Corners& corners, std::uint32_t point)
 }
 
 ///@{
-/** The corners but one, or two, of them, in their order. */
+/** The corners except one, or two, of them, in their order. */
 inline Face Without(const Corners& corners, std::uint32_t point)
 {
   Face others{};
@@ -47,14 +47,14 @@ inline Edge SortedEdge(std::uint32_t a, std::uint32_t b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/** A part of what one point has. */
+/** A part of one point's attributes. */
 struct Share
 {
   std::uint32_t Point = 0;
   double Part = 0.0;
 };
 
-/** A point whose attributes are those of others, in parts. */
+/** A point whose attributes are made up of parts of others'. */
 struct BlendedPoint
 {
   std::uint32_t Point = 0;
@@ -85,16 +85,15 @@ inline Walls::Type WallsOfFace(const TetrahedronMesh& mesh, const Face& face)
 }
 ///@}
 
-/** The smallest sine of the six dihedral angles of (a, b, c, d), from what is known of it; NaN
- * never.
+/** The smallest sine of the six dihedral angles of (a, b, c, d), from known quantities; never NaN.
  *  @param squaredEdges ab, ac, ad, bc, bd, cd
- *  @param squaredAreas of the faces opposite to a, b, c and d, of twice the areas */
+ *  @param squaredAreas squares of twice the areas of the faces opposite to a, b, c and d */
 inline double SmallestSine(double sixVolumes, const std::array<double, 6>& squaredEdges,
   const std::array<double, 4>& squaredAreas)
 {
   const auto& [ab, ac, ad, bc, bd, cd] = squaredEdges;
   const auto& [toA, toB, toC, toD] = squaredAreas;
-  // At an edge the sine is its length times six volumes by both areas, doubled.
+  // At an edge, the sine is its length times six volumes, divided by both doubled areas.
   const double least = std::min({ ab / (toC * toD), ac / (toB * toD), ad / (toB * toC),
     bc / (toA * toD), bd / (toA * toC), cd / (toA * toB) });
   const double sine = sixVolumes * std::sqrt(least);
@@ -102,7 +101,7 @@ inline double SmallestSine(double sixVolumes, const std::array<double, 6>& squar
 }
 
 /** The smallest sine of the six dihedral angles: large if none is near 0 or 180 degrees. Negative
- *  if the tetrahedron is, NaN never. */
+ *  if the tetrahedron is; never NaN. */
 double SmallestSine(const Vector& a, const Vector& b, const Vector& c, const Vector& d);
 
 inline double SmallestSine(const TetrahedronMesh& mesh, const Corners& corners)
@@ -139,7 +138,7 @@ inline double VolumeOf(const TetrahedronMesh& mesh)
 std::array<double, 2> DihedralAngles(
   const Vector& a, const Vector& b, const Vector& c, const Vector& d);
 
-/** The same of all tetrahedra of a mesh; 180 and 0 if there is none. */
+/** The same over all tetrahedra of a mesh; 180 and 0 if there are none. */
 std::array<double, 2> DihedralAngles(const TetrahedronMesh& mesh);
 
 }
