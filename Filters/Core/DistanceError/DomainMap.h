@@ -25,8 +25,8 @@ namespace isodiamond
  * diamond's patches: how far it moves any point bounds the way back.
  *
  * Like that of one tetrahedron (MapBounds), but isovertices inside the domain may go to any
- * triangle of the patches around; those on its border have to stay on it. Where the ends of an edge
- * go to different triangles, some points of the edge go to the sides between these
+ * triangle in the tetrahedra that hold them; those on its border have to stay on it. Where the ends
+ * of an edge go to different triangles, some points of the edge go to the sides between these
  * (TriangleWalk.h). So a triangle of full resolution is mapped in pieces, each to one triangle of
  * the patches, and no point moves farther than the pieces' corners do. As the map takes border to
  * border, all of the patches are covered: they contain no closed surface, as there is no vertex
