@@ -14,6 +14,9 @@ namespace
 /** Points whose best places are searched for at the same time: few of them are neighbours. */
 constexpr std::size_t PointsAtOnce = 64;
 
+/** A sine that grows by less is the same but for rounding. */
+constexpr double LeastGain = 1e-9;
+
 class Relaxation
 {
 public:
@@ -27,7 +30,7 @@ public:
   std::vector<std::uint32_t> Run(const ParallelFor& parallelFor)
   {
     const std::vector<std::uint32_t> points = this->PointsInside();
-    std::vector<PlacedPoint> best(PointsAtOnce);
+    std::vector<Vector> best(PointsAtOnce);
     for (std::size_t first = 0; first < points.size(); first += PointsAtOnce)
     {
       ++this->Batch;
@@ -62,20 +65,24 @@ private:
     return points;
   }
 
-  PlacedPoint BestPlaceOf(std::uint32_t point) const
+  /** Where a point goes; where it is now, if that is as good. */
+  Vector BestPlaceOf(std::uint32_t point) const
   {
-    if (this->Mesh.WorstAround(point) >= this->Options.Wanted)
+    const Vector& now = this->Mesh.At(point);
+    const double worst = this->Mesh.WorstAround(point);
+    if (worst >= this->Options.Wanted)
     {
-      return { this->Mesh.At(point), 1.0 };
+      return now;
     }
     PointStar star;
     for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
     {
       star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
     }
-    return BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
+    const PlacedPoint best = BestPlace(star, now, this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Options.Wanted,
       { 0.0, [&](const Vector& place) { return this->Options.Allows(point, place); } });
+    return best.Sine > worst + LeastGain ? best.Place : now;
   }
 
   /** Whether anything around a point has moved since its best place was searched for. */
@@ -91,11 +98,11 @@ private:
       });
   }
 
-  void MoveTo(std::uint32_t point, const PlacedPoint& best)
+  void MoveTo(std::uint32_t point, const Vector& place)
   {
-    if (best.Place != this->Mesh.At(point))
+    if (place != this->Mesh.At(point))
     {
-      this->Mesh.Move(point, best.Place);
+      this->Mesh.Move(point, place);
       this->MovedWith[point] = this->Batch;
       this->Moved.push_back(point);
     }
