@@ -63,7 +63,7 @@ void vtkIsodiamondAlgorithm::SetRegionOfInterestPosition(double x, double y, dou
   {
     const double* bounds = this->RegionOfInterest + 2 * axis;
     region[2 * axis] = position[axis];
-    // A size is kept to the bit where the position stays.
+    // The size is kept to the bit where the position stays the same.
     region[2 * axis + 1] =
       bounds[0] == position[axis] ? bounds[1] : position[axis] + (bounds[1] - bounds[0]);
   }

@@ -203,7 +203,7 @@ void vtkIsodiamondBuilder::Build(
   }
   const bool isKnown = this->Built && this->BuiltOf == input && this->BuiltAt > input->GetMTime() &&
     this->BuiltAt > this->GetMTime();
-  // Peers build together, or nobody does.
+  // Peers build together or not at all.
   if (!isodiamond::IsAnywhere(this->Plan->Together(), !isKnown))
   {
     output->ShallowCopy(this->Built);

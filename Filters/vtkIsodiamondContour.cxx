@@ -26,9 +26,9 @@ namespace
 
 /**
  * For vtkAppendPolyData, which allocates its output itself, and would end the program where it
- * cannot. Its cells may have ids of twice the bits that those of the input have.
+ * cannot. The ids of its cells may have twice as many bits as the input's.
  *
- * @throws std::bad_alloc if so much is not to be had now
+ * @throws std::bad_alloc if that much memory is not available now
  */
 void ExpectMemoryToAppend(const std::vector<vtkSmartPointer<vtkPolyData>>& meshes)
 {
@@ -37,7 +37,7 @@ void ExpectMemoryToAppend(const std::vector<vtkSmartPointer<vtkPolyData>>& meshe
   {
     kibibytes += mesh->GetActualMemorySize();
   }
-  void* volatile memory = std::malloc(2 * 1024 * kibibytes); // volatile, or it would be left out
+  void* volatile memory = std::malloc(2 * 1024 * kibibytes); // volatile, or it would be elided
   if (!memory && kibibytes > 0)
   {
     throw std::bad_alloc();
@@ -45,7 +45,7 @@ void ExpectMemoryToAppend(const std::vector<vtkSmartPointer<vtkPolyData>>& meshe
   std::free(memory);
 }
 
-/** Gives appended data the order and the roles of the arrays that they were appended from, which
+/** Gives appended data the order and the roles of the arrays that it was appended from, which
  *  vtkAppendPolyData does not keep. */
 void OrderAs(vtkDataSetAttributes* model, vtkDataSetAttributes* data)
 {
@@ -58,7 +58,7 @@ void OrderAs(vtkDataSetAttributes* model, vtkDataSetAttributes* data)
   }
 }
 
-/** Meshes one after the other as one. @throws std::bad_alloc */
+/** Meshes, one after the other, as one. @throws std::bad_alloc */
 vtkSmartPointer<vtkPolyData> Appended(
   const std::vector<vtkSmartPointer<vtkPolyData>>& meshes, int precision)
 {
@@ -77,7 +77,7 @@ vtkSmartPointer<vtkPolyData> Appended(
   vtkSmartPointer<vtkPolyData> all = append->GetOutput();
   if (all->GetNumberOfPoints() == 0)
   {
-    return meshes.front(); // of nothing it has no arrays
+    return meshes.front(); // appending nothing yields no arrays
   }
   OrderAs(meshes.front()->GetPointData(), all->GetPointData());
   OrderAs(meshes.front()->GetCellData(), all->GetCellData());

@@ -42,7 +42,7 @@ struct vtkIsodiamondExtractor::Execution
   std::optional<vtkIdType> Subdivided;
   std::optional<vtkIdType> Front;
 
-  /** Asks again the first time, and only counts. @return 0 after an error */
+  /** Repeats the query the first time, only to count. @return 0 after an error */
   vtkIdType CountOnce(std::optional<vtkIdType>& counted,
     std::int64_t (isodiamond::RefinedSet::*count)() const, vtkIsodiamondExtractor* filter) const
   {
@@ -305,7 +305,7 @@ int vtkIsodiamondExtractor::RequestData(
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::WarnOfUnusedValues(const vtkIsodiamond::State& state)
 {
-  // Values of a user who did not turn them on; what a panel starts with says nothing.
+  // Values that a user set but did not turn on; those that a panel starts with do not count.
   const vtkIsodiamond::Choice& own = state.Chosen;
   const bool isVolume = IsForVolume(this->GetQuery(), state);
   if (!isVolume && !this->UseIsovalue && this->Isovalue != this->FirstIsovalue.value_or(0.0) &&

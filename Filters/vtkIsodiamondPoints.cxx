@@ -28,7 +28,7 @@ vtkStandardNewMacro(vtkIsodiamondPoints);
 namespace
 {
 
-/** Calls body(place, rank) for the stored diamonds: the corners of the base cube are none. */
+/** Calls body(place, rank) for the stored diamonds, which the corners of the base cube are not. */
 template <typename Body>
 void ForEachIsodiamond(const isodiamond::IsodiamondHierarchy& hierarchy, Body&& body)
 {

@@ -41,12 +41,12 @@ bool AreVolumes(const std::vector<isodiamond::Isoregion>& regions)
   return !regions.empty() && regions.front().IsVolume();
 }
 
-/** Which hierarchy a query needs. Interior tolerances from the extent of the values on need nothing
- *  inside. */
+/** Which hierarchy a query needs. Interior tolerances that reach the extent of the values need
+ *  nothing inside. */
 vtkIsodiamond::Cache::Need NeedOf(
   const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::Volume& volume)
 {
-  // More than the field's extent refines nothing; of slabs that is not known.
+  // A tolerance of the field's extent or more refines nothing; with slabs the extent is not known.
   const auto isLess = [&]
   {
     const isodiamond::ValueRange range = isodiamond::FiniteRange(volume.Samples);
@@ -226,7 +226,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       const double unit = this->GetUnit(volume.Placement.World.SmallestStep());
       query.ErrorTolerance *= unit;
       query.OutsideErrorTolerance *= unit;
-      // Where cells are hidden, an interval volume is refined inside: by all errors.
+      // Where cells are hidden, an interval volume is refined inside, by all errors.
       query.OneTolerance = this->OneTolerance &&
         this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
         !(volume.Hidden.Any() && AreVolumes(this->GetRegions()));
@@ -235,7 +235,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       vtkIsodiamond::RunThreaded(this->NumberOfThreads,
         [&]
         {
-          // Trimmed after an abortion or an error, too, or runs of these would fill the memory.
+          // Trimmed after an abort or an error, too, or a series of these would fill the memory.
           const vtkIsodiamond::CacheTrimmer trimmer{ *this->Hierarchies,
             std::int64_t{ this->CacheSize } << 20 };
           isodiamond::InStep(slabs ? slabs->Together() : nullptr,

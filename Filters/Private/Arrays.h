@@ -16,10 +16,10 @@
 
 /**
  * @file Arrays.h
- * Memory of VTK's arrays, with std::bad_alloc where there is none.
+ * Memory for VTK's arrays, with std::bad_alloc where there is none.
  *
- * An array that cannot allocate ends the program if VTK was built without NDEBUG, as Debian's
- * is. So what can be large is allocated here.
+ * An array that cannot allocate ends the program if VTK was built without NDEBUG, as Debian's is.
+ * So arrays that can be large are allocated here.
  */
 namespace vtkIsodiamond
 {
@@ -55,8 +55,8 @@ vtkSmartPointer<Array> NewArray(const char* name, vtkIdType count, int component
   return array;
 }
 
-/** An array of the type, components and name of another, with its values in a row; they are
- *  arbitrary. @throws std::bad_alloc */
+/** An array with the type, components and name of another; its values are in a row, and arbitrary.
+ *  @throws std::bad_alloc */
 inline vtkSmartPointer<vtkDataArray> NewLike(vtkDataArray* other, vtkIdType count)
 {
   auto array =
@@ -67,7 +67,7 @@ inline vtkSmartPointer<vtkDataArray> NewLike(vtkDataArray* other, vtkIdType coun
   return array;
 }
 
-/** Adds a number to field data, for who looks at them. */
+/** Adds a number to field data, for users who look at them. */
 template <typename Array>
 void AddNumber(vtkFieldData* fieldData, const char* name, typename Array::ValueType number)
 {
@@ -79,7 +79,7 @@ void AddNumber(vtkFieldData* fieldData, const char* name, typename Array::ValueT
 
 /**
  * The array, if its values are in a row as vtkAOSDataArrayTemplate has them, or else (structures of
- * arrays, implicit arrays) a copy that has: as many bytes as there are values.
+ * arrays, implicit arrays) a copy in a row, of as many bytes as the values take.
  *
  * @throws std::bad_alloc
  */

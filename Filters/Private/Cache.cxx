@@ -23,7 +23,8 @@ isodiamond::Peers* PeersOf(const Volume& volume)
   return volume.InSlabs ? volume.InSlabs->Together() : nullptr;
 }
 
-/** Whether two worlds, which are not curvilinear, have the same lengths. They may have if not. */
+/** Whether two worlds, neither curvilinear, surely have the same lengths. If not, they still
+ *  may. */
 bool HaveSameLengths(const isodiamond::GridGeometry& a, const isodiamond::GridGeometry& b)
 {
   const isodiamond::AffineMap* mapA = a.Affine();
@@ -37,7 +38,7 @@ bool HaveSameLengths(const isodiamond::GridGeometry& a, const isodiamond::GridGe
     { return std::equal(rowA.begin(), rowA.begin() + 3, rowB.begin()); });
 }
 
-/** Whether two worlds are the same, but for the padding of grids. */
+/** Whether two worlds are the same, except for the grids' padding. */
 bool AreSame(const isodiamond::GridGeometry& a, const isodiamond::GridGeometry& b)
 {
   const isodiamond::AffineMap* mapA = a.Affine();
@@ -109,7 +110,7 @@ isodiamond::BuildOptions Cache::OptionsFor(
   return options;
 }
 
-/** Whether errors are measured as soon as there are isovertices, without a mesh before. */
+/** Whether errors are measured as soon as there are isovertices, without making a mesh first. */
 bool Cache::MeasuresAtOnce(const Need& need)
 {
   return need.AllErrors || need.RefinedInterior;
@@ -129,7 +130,7 @@ void Cache::Build(
   {
     entry.Staged.emplace(BuildInSlabs(*volume.InSlabs, region, options, task));
   }
-  // Where cells are hidden, what is inside of a volume is refined, too: by its errors.
+  // Where cells are hidden, the inside of a volume is refined, too, by its errors.
   else if (need.AllErrors || need.RefinedInterior || (region.IsVolume() && volume.Hidden.Any()))
   {
     entry.Encoding =
@@ -204,12 +205,12 @@ std::list<Cache::Entry>::iterator Cache::Find(const isodiamond::Isoregion& regio
     return std::find_if(this->Entries.begin(), this->Entries.end(),
       [&](const Entry& entry)
       {
-        // What can be refined inside need not be.
+        // A hierarchy that can be refined inside need not be.
         return entry.Region == region && (entry.RefineInterior || !need.RefinedInterior) &&
           (entry.Staged ? mayBeStaged : mayBeDone) && entry.From == this->Current;
       });
   };
-  // One mesh only does not depend on whether other errors are known.
+  // A lone mesh must not depend on whether other errors are known.
   const auto done = find(false, !need.Only);
   return done != this->Entries.end() ? done : find(true, false);
 }
@@ -220,7 +221,7 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
   const auto found = this->Find(region, need);
   const bool isKnown = found != this->Entries.end();
   const bool isStaged = isKnown && found->Staged;
-  // Peers build together, or nobody does; and go on from the same.
+  // Peers build together or not at all, and go on from the same stage.
   isodiamond::Peers* const peers = PeersOf(volume);
   const bool isUnknown = isodiamond::IsAnywhere(peers, !isKnown);
   const bool isStagedAnywhere = isodiamond::IsAnywhere(peers, isStaged);
@@ -238,7 +239,7 @@ const isodiamond::IsodiamondHierarchy& Cache::Get(
     found->IsUsed = true;
     this->Entries.splice(this->Entries.begin(), this->Entries, found);
   }
-  // One whose inside has a tolerance of its own is built at once, but for slabs.
+  // An entry whose inside has a tolerance of its own is built at once, except from slabs.
   if (this->Entries.front().Staged && MeasuresAtOnce(need))
   {
     this->MeasureErrors(volume, task);

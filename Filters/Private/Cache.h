@@ -21,26 +21,26 @@ namespace vtkIsodiamond
 {
 
 /**
- * The minimal hierarchies that a one-step filter has built: of the blocks of its input, of time
- * steps that were shown before, of isovalues.
+ * The minimal hierarchies that a one-step filter has built: for the blocks of its input, for time
+ * steps shown before, for isovalues.
  *
  * Volumes count as the same when the values of their arrays, their dimensions, padding and hidden
- * cells are; with the distance metric their lengths in the world have to be, too. All other
- * geometry is applied on extraction. What was used longest ago is forgotten first.
+ * cells are the same; with the distance metric their lengths in the world must be, too. All other
+ * geometry is applied on extraction. The least recently used is forgotten first.
  */
 class Cache
 {
 public:
-  /** The volume and the way to build that what follows is about. @param array the grid's own,
-   *  before padding @param options RefineInterior is Get()'s */
+  /** Sets the volume and the build options for the calls that follow. @param array the grid's own,
+   *  before padding @param options RefineInterior is set by Get() */
   void Prepare(vtkDataArray* array, const Volume& volume, const isodiamond::BuildOptions& options);
 
-  /** What of a hierarchy a query needs. */
+  /** What a query needs of a hierarchy. */
   struct Need
   {
-    bool AllErrors = true; ///< else it asks for full resolution, or for one mesh only
+    bool AllErrors = true; ///< else the query is for full resolution, or for one mesh only
     bool RefinedInterior = false;
-    /** By the distance metric, without all errors: what that mesh is asked for with. Not of an
+    /** With the distance metric, without all errors: the query for that one mesh. Not for an
      *  interval volume with hidden cells, which is refined inside. */
     std::optional<WorldQuery> Only = std::nullopt;
   };
@@ -50,26 +50,26 @@ public:
   const isodiamond::IsodiamondHierarchy& Get(
     const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task);
 
-  /** How many cells there are at every tolerance, of the same hierarchy. Kept until a query has
-   *  another interior tolerance, or the hierarchy is forgotten. @pre need.AllErrors */
+  /** The numbers of cells at all tolerances, of the same hierarchy. Kept until a query has another
+   *  interior tolerance, or the hierarchy is forgotten. @pre need.AllErrors */
   const isodiamond::CellCounts& Count(const Volume& volume, const isodiamond::Isoregion& region,
     const Need& need, double interiorTolerance, Task& task);
 
-  /** What points of its meshes have, of a volume in slabs: one value a stored point. Kept until
-   *  something else is wanted, or the hierarchy is forgotten. */
+  /** The point data of its meshes, for a volume in slabs: one value per stored point. Kept until
+   *  other data are wanted, or the hierarchy is forgotten. */
   const std::vector<vtkSmartPointer<vtkDataArray>>& StoredPointData(const Volume& volume,
     const isodiamond::Isoregion& region, const Need& need, const VolumePointData& wanted,
     Task& task);
 
-  /** Forgets all but what was used since the last time, and as much more as fits. */
+  /** Forgets all but the entries used since the last call, and as many more as fit. */
   void Trim(std::int64_t bytes);
 
-  /** How many hierarchies were built so far, and are kept. */
+  /** How many hierarchies have been built so far, and how many are kept. */
   vtkIdType GetNumberOfBuilds() const { return this->NumberOfBuilds; }
   vtkIdType GetSize() const { return static_cast<vtkIdType>(this->Entries.size()); }
 
 private:
-  /** What has to be the same of a volume. */
+  /** What of a volume has to be the same. */
   struct Source
   {
     ContentHash Samples{};
@@ -96,9 +96,9 @@ private:
     Source From;
     isodiamond::Isoregion Region = 0.0;
     bool RefineInterior = false;
-    bool IsUsed = true;                            ///< since the last time of trimming
-    std::optional<isodiamond::StagedBuild> Staged; ///< as long as nobody needs all errors
-    std::optional<Refinement> RefinedTo;           ///< what it was told last
+    bool IsUsed = true;                            ///< since the cache was last trimmed
+    std::optional<isodiamond::StagedBuild> Staged; ///< until a query needs all errors
+    std::optional<Refinement> RefinedTo;           ///< what it was last refined for
     isodiamond::Encoding Encoding;
     std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy; ///< of the encoding
     std::optional<isodiamond::CellCounts> Counts;
@@ -110,7 +110,7 @@ private:
     {
       return this->Staged ? this->Staged->OneMesh() : *this->Hierarchy;
     }
-    /** 0 if an abortion left nothing to be seen yet. */
+    /** 0 if an abort left nothing to show yet. */
     std::int64_t Bytes() const
     {
       return this->Staged || this->Hierarchy
@@ -124,24 +124,24 @@ private:
   /** Adds an entry, in front. */
   void Build(
     const Volume& volume, const isodiamond::Isoregion& region, const Need& need, Task& task);
-  /** What is kept that serves a need; the end if nothing does. */
+  /** The kept entry that serves a need; the end if none does. */
   std::list<Entry>::iterator Find(const isodiamond::Isoregion& region, const Need& need);
-  /** Finishes the one in front. */
+  /** Finishes the front entry. */
   void MeasureErrors(const Volume& volume, Task& task);
-  /** Makes the one in front show one mesh, unless it does. */
+  /** Makes the front entry show one mesh, unless it already does. */
   void RefineTo(const WorldQuery& only, const Volume& volume, Task& task);
-  /** Does something with the one in front. Where that fails it is forgotten if it cannot go on, and
-   *  among peers: others may have come farther, so all begin anew. */
+  /** Applies a change to the front entry. If that fails, the entry is forgotten if it cannot go on,
+   *  and always among peers: others may have come farther, so all begin anew. */
   template <typename Change>
   void ChangeFirst(isodiamond::Peers* peers, const Change& change);
 
   ContentHashes Hashes;
   Source Current;
-  std::list<Entry> Entries; ///< what was used last comes first
+  std::list<Entry> Entries; ///< the most recently used comes first
   vtkIdType NumberOfBuilds = 0;
 };
 
-/** Trims a cache at the end of a scope, however that is left. */
+/** Trims a cache at the end of a scope, however it is left. */
 struct CacheTrimmer
 {
   Cache& Target;

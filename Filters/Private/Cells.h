@@ -49,7 +49,7 @@ vtkSmartPointer<vtkCellArray> WriteCellsAs(
   return cells;
 }
 
-/** In 32 bits where they fit: half the bytes. */
+/** In 32 bits where these suffice: half the bytes. */
 template <typename Write>
 vtkSmartPointer<vtkCellArray> WriteCells(
   std::int64_t count, int size, const isodiamond::ParallelFor& parallelFor, const Write& write)
@@ -65,7 +65,7 @@ inline void GiveCells(vtkUnstructuredGrid* output, int type, vtkCellArray* cells
   vtkNew<vtkUnsignedCharArray> types;
   AllocateTuples(types, cells->GetNumberOfCells());
   std::fill_n(types->GetPointer(0), cells->GetNumberOfCells(), static_cast<unsigned char>(type));
-  // What is given without faces is looked at for polyhedra, cell by cell.
+  // Cells given without faces would be searched for polyhedra, one by one.
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
   output->SetPolyhedralCells(types, cells, nullptr, nullptr);
 #else

@@ -15,7 +15,7 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** In parts, so that nobody needs memory that another may lack, and counts are of 32 bits. */
+/** In parts, so that no process needs memory that another may lack, and counts fit in 32 bits. */
 template <typename T>
 void Reduce(vtkMultiProcessController* controller, T* values, std::int64_t count, int operation)
 {

@@ -14,14 +14,14 @@ namespace vtkIsodiamond
 class ControllerPeers : public isodiamond::Peers
 {
 public:
-  /** How many processes make an output together: each is asked for its own piece, of as many as
+  /** How many processes make an output together: each is asked for its own one of as many pieces as
    *  there are processes. Then all of them execute the filter, and may wait for each other.
    *  @return 1 if they do not */
   static int CountOf(vtkInformation* outputInformation);
 
   ControllerPeers();
 
-  /** For exchanges of arrays. */
+  /** For exchanging arrays. */
   vtkMultiProcessController* Processes() const { return this->Controller; }
 
   int Count() const override;

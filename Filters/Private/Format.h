@@ -4,14 +4,13 @@
 
 /**
  * @file Format.h
- * What writing and reading of hierarchies (State.h) have to agree about: names of field-data
- * arrays, and what is where in the header and among the parameters. docs/file-format.md describes
- * them all.
+ * What writing and reading hierarchies (State.h) must agree on: the names of field-data arrays, and
+ * what is where in the header and among the parameters. docs/file-format.md describes them all.
  */
 namespace vtkIsodiamond::format
 {
 
-/** What is written. Version 2 is read too: its header ends before TwoSided. */
+/** The version that is written. Version 2 is read, too: its header ends before TwoSided. */
 inline constexpr int Version = 3;
 
 inline constexpr const char* Header = "IsodiamondHeader";
@@ -35,8 +34,8 @@ inline constexpr const char* Errors = "IsodiamondErrors";
 inline constexpr const char* Minima = "IsodiamondMinima";
 inline constexpr const char* Maxima = "IsodiamondMaxima";
 
-/** Numbers for who looks at the field data, the first three of any hierarchy, the others of RI and
- * MI. Nothing reads them. */
+/** Numbers for users who look at the field data: the first three of any hierarchy, the others of RI
+ * and MI. Nothing reads them. */
 inline constexpr const char* LargestErrorTolerance = "LargestErrorTolerance";
 inline constexpr const char* Isovalue = "Isovalue";
 inline constexpr const char* Isorange = "Isorange";
@@ -47,7 +46,7 @@ inline constexpr const char* NumberOfIsovertices = "NumberOfIsovertices";
 inline constexpr const char* NumberOfRemovedPieces = "NumberOfRemovedPieces";
 inline constexpr const char* StorageSize = "StorageSize";
 
-/** The same beside a mesh. */
+/** Such numbers beside a mesh. */
 inline constexpr const char* AchievedTolerance = "AchievedTolerance";
 inline constexpr const char* SmallestDihedralAngle = "SmallestDihedralAngle";
 inline constexpr const char* LargestDihedralAngle = "LargestDihedralAngle";
@@ -72,7 +71,7 @@ enum : int
   MinimumPieceSize,
   RemovedPieces,
   Size,                     ///< how many there are
-  SizeOfVersion2 = TwoSided ///< how many there were
+  SizeOfVersion2 = TwoSided ///< how many version 2 had
 };
 
 }

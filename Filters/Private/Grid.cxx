@@ -46,7 +46,7 @@ isodiamond::AffineMap IndexToWorld(vtkImageData* image, int padding)
   return map;
 }
 
-/** Whether coordinates are as evenly spaced as their rounding lets them be. */
+/** Whether coordinates are as evenly spaced as their rounding allows. */
 bool AreEven(const std::vector<double>& coordinates)
 {
   const double first = coordinates.front();

@@ -21,24 +21,23 @@ class vtkDataSet;
 namespace vtkIsodiamond
 {
 
-/** The data sets of a composite one, or the one that there is. */
+/** The data sets in a composite one, or the given one itself. */
 std::vector<vtkDataSet*> LeavesOf(vtkDataObject* data);
 
-/** Samples on each axis; all 0 if the data set is of no such kind. */
+/** Samples on each axis; all 0 if the data set is none of these. */
 std::array<int, 3> DimensionsOf(vtkDataSet* grid);
 
-/** The length of the diagonal of a grid's samples: of an image in index space, else of its bounds.
- */
+/** The length of a grid's diagonal: of an image the one in index space, else that of its bounds. */
 double DiagonalOf(vtkDataSet* grid);
 
-/** The smallest spacing of an image or rectilinear grid; 0 of all else. */
+/** The smallest spacing of an image or rectilinear grid; 0 for all else. */
 double VoxelOf(vtkDataSet* grid);
 
 /** Where a grid's samples are in the world. */
 struct Geometry
 {
   isodiamond::GridGeometry World = isodiamond::AffineMap();
-  vtkSmartPointer<vtkDataArray> Positions; ///< that it views, if it does
+  vtkSmartPointer<vtkDataArray> Positions; ///< the array that World views, if any
 };
 
 /**

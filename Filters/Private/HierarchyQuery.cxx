@@ -9,8 +9,8 @@ namespace
 {
 
 constexpr double LargestPartOfSimplify = 0.3;
-/** More of the rest would be of no use: it is the tetrahedra's shape that bounds how coarse they
- *  get, and the finer ones take their time. */
+/** Leaving more would be of no use: the tetrahedra's shape limits how coarse they get, and finer
+ *  ones take time. */
 constexpr double PartOfSimulation = 0.65;
 
 }

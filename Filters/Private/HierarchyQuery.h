@@ -6,22 +6,22 @@
 
 /**
  * @file HierarchyQuery.h
- * What a hierarchy is asked for, of meshes that are made coarser afterwards: it gets a part of each
- * tolerance, and the rest is left for that.
+ * What a hierarchy is asked for if its mesh is made coarser afterwards: it gets a part of each
+ * tolerance, and the rest is left for the coarsening.
  */
 namespace vtkIsodiamond
 {
 
-/** Whether a query's mesh is made coarser after it was extracted: simplified, or for simulations.
- */
+/** Whether a query's mesh is made coarser after extraction: by simplification, or for
+ *  simulations. */
 bool GetsCoarser(const WorldQuery& query, isodiamond::ErrorMetric metric);
 
-/** The part of a tolerance for the hierarchy. The more is left, the fewer cells come out, and the
- *  longer it takes. */
+/** The part of a tolerance that the hierarchy gets. The more is left, the fewer cells result, and
+ *  the longer it takes. */
 double PartForHierarchy(
   const WorldQuery& query, double tolerance, const isodiamond::GridGeometry& world);
 
-/** The query whose mesh is made coarser; the same where it is not. */
+/** The query whose mesh is then made coarser; the given one if its mesh is not. */
 WorldQuery HierarchyQuery(
   const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world);
 

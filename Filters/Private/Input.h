@@ -32,15 +32,15 @@ struct Volume
   Geometry Placement; ///< of the samples, padding included
   isodiamond::HiddenCells Hidden;
   std::string ArrayName;
-  /** Where the samples come from, if they are not at hand: neither they nor other arrays are above
-   *  then, and their number is 0. */
+  /** Where the samples come from if they are not at hand: then the members above have neither them
+   *  nor other arrays, and their number is 0. */
   const Slabs* InSlabs = nullptr;
 
-  /** Of the samples, padding included. */
+  /** Dimensions of the samples, padding included. */
   std::array<int, 3> SampleDimensions() const;
 };
 
-/** An array and what it is of, as vtkDataObject::FIELD_ASSOCIATION_... says. */
+/** An array and what it belongs to, a vtkDataObject::FIELD_ASSOCIATION_... */
 struct InputArray
 {
   vtkDataArray* Array = nullptr;
@@ -48,21 +48,22 @@ struct InputArray
 };
 
 /**
- * The array that a filter is to process: what it found itself, or the point scalars if the request
- * has no name. ParaView makes such a request for an input that has not been updated yet.
+ * The array that a filter is to process: the one it found itself, or the point scalars if the
+ * request names none. ParaView makes such a request for an input that has not been updated yet.
  *
  * @param request vtkAlgorithm::GetInputArrayInformation
  */
 InputArray OrScalars(const InputArray& found, vtkInformation* request, vtkDataObject* input);
 
-/** Largest less smallest finite value; nothing if there is no array, or if that is 0. */
+/** The largest finite value minus the smallest; nothing without an array, or if that is 0. */
 std::optional<double> ExtentOfValues(vtkDataArray* array);
 
-/** Distance tolerances beyond this part of the grid's diagonal are hardly of use. */
+/** Distance tolerances beyond this part of the grid's diagonal are of little use. */
 inline constexpr double DistanceOfInterest = 0.02;
 
-/** The largest error tolerance that is worth trying on a grid's array: by the distance metric part
- * of the diagonal, by the field metric the extent of the values; 1 while there is no input. */
+/** The largest error tolerance that is worth trying on a grid's array: with the distance metric a
+ * part of the diagonal, with the field metric the extent of the values; 1 while there is no
+ * input. */
 double LargestTolerance(
   isodiamond::ErrorMetric metric, vtkDataObject* input, const InputArray& array);
 
@@ -71,13 +72,13 @@ double LargestTolerance(
  *
  * @param grid an image, rectilinear grid or structured grid
  * @param closeBoundary pad by one layer of the data's minimum on all six sides
- * @param minimum of all the data, if the grid has some of them only
+ * @param minimum of all the data, if the grid has only some of them
  * @throws std::invalid_argument saying why the grid or the array cannot be used
  */
 Volume ReadVolume(vtkDataSet* grid, const InputArray& array, bool closeBoundary,
   std::optional<double> minimum = {});
 
-/** The samples of an array as volume of given dimensions. @return false for an unknown type. */
+/** Views an array's samples as a volume of given dimensions. @return false for an unknown type. */
 bool ViewSamples(
   vtkDataArray* array, const std::array<int, 3>& dimensions, isodiamond::AnySamples& samples);
 

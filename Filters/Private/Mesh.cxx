@@ -60,7 +60,8 @@ vtkSmartPointer<vtkPoints> WritePoints(
   return points;
 }
 
-/** Whether cells change after they have been written: only all of them tell what a share is. */
+/** Whether cells change after they have been written: then only all of them tell what a share
+ *  is. */
 bool AreCellsChanged(const MeshOptions& options)
 {
   return options.ForSimulation || (options.Hidden != nullptr && options.Hidden->Any());
@@ -72,7 +73,7 @@ Share ExtractedShare(const MeshOptions& options)
   return AreCellsChanged(options) ? Share{} : options.Wanted;
 }
 
-/** Adds an extraction's cells that are wanted, to which its points are limited.
+/** Adds the wanted cells of an extraction, whose points are limited to theirs.
  *  @param counted cells @param write (range, ids, levels) */
 template <typename Extraction, typename Write>
 void AddCells(Extraction& extraction, std::int64_t counted, int size, const MeshOptions& options,
@@ -172,8 +173,8 @@ isodiamond::Point CellOfGrid(
   return cell;
 }
 
-/** Leaves out the cells that lie in hidden ones of the grid, and points that no cell has then.
- *  Cells there are of full resolution, so each lies in one. */
+/** Removes the cells that lie in hidden cells of the grid, and points that no cell then uses. The
+ *  mesh there is at full resolution, so each of its cells lies in one of the grid's. */
 template <typename Extraction>
 void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells& hidden, Mesh& mesh)
 {
@@ -183,7 +184,7 @@ void LeaveOutHidden(const Extraction& extraction, const isodiamond::HiddenCells&
   std::vector<vtkIdType> keptCells;
   std::vector<vtkIdType> keptPoints;
   std::vector<vtkIdType> newIds(positions.size(), -1);
-  vtkIdType size = 0; // of a cell: all have as many points
+  vtkIdType size = 0; // of a cell: all have the same number of points
   const vtkIdType* ids = nullptr;
   for (vtkIdType cell = 0; cell < mesh.Cells->GetNumberOfCells(); ++cell)
   {

@@ -34,15 +34,15 @@ struct Mesh
   vtkSmartPointer<vtkPointData> PointData = vtkSmartPointer<vtkPointData>::New();
   /** "Level". */
   vtkSmartPointer<vtkCellData> CellData = vtkSmartPointer<vtkCellData>::New();
-  /** Points and cells that were counted: of the whole mesh, if a share has ids of that. */
+  /** The numbers of points and cells counted: of the whole mesh, if a share has ids of that. */
   std::array<vtkIdType, 2> CountedSize{};
-  /** The smallest and the largest, in degrees, of tetrahedra for simulations. */
+  /** The smallest and the largest angle, in degrees, of tetrahedra for simulations. */
   std::optional<std::array<double, 2>> DihedralAngles;
-  /** Of such tetrahedra: diamonds that have to be refined, for surfaces are too far away. The mesh
-   *  is not done then. */
+  /** Of such tetrahedra: diamonds that have to be refined because surfaces are too far away. If
+   *  there are any, the mesh is not done. */
   std::vector<isodiamond::Place> FarDiamonds;
 
-  /** Hands it to a data set. */
+  /** Hands the mesh to a data set. */
   void Give(vtkPolyData* triangles) const;
   void Give(vtkUnstructuredGrid* output, bool isVolume) const;
 };
@@ -51,31 +51,33 @@ struct Mesh
 struct MeshOptions
 {
   const isodiamond::GridGeometry& World;
-  std::string ArrayName;        ///< the field's values get it
-  bool WithValues = true;       ///< whether a surface's points have them
-  bool ValuesAreScalars = true; ///< whether they are the active scalars then
+  std::string ArrayName;        ///< the name that the field's values get
+  bool WithValues = true;       ///< whether a surface's points get them
+  bool ValuesAreScalars = true; ///< whether these are then the active scalars
   /** A vtkAlgorithm::DesiredOutputPrecision; by default floats for triangles, doubles for
-   *  tetrahedra: rounded to floats, the thinnest would turn over. */
+   *  tetrahedra: rounded to floats, the thinnest would be inverted. */
   int PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;
   PointDataMaker MorePointData = nullptr;
   const isodiamond::HiddenCells* Hidden = nullptr; ///< what lies in them is left out
-  Share Wanted = {};                               ///< what of the mesh
-  bool ForSimulation = false;                      ///< see Stuff.h; of an interval volume
-  double DistanceTolerance = 0.0; ///< the least that it may be away from full resolution
-  /** The same in a triangle or tetrahedron, by its corners in the world; none to not measure. */
+  Share Wanted = {};                               ///< what is wanted of the mesh
+  bool ForSimulation = false;                      ///< see Stuff.h; interval volumes only
+  double DistanceTolerance = 0.0; ///< the least tolerated distance from full resolution
+  /** The same in a triangle or tetrahedron, given its corners in the world; empty to not
+   *  measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
   bool MayRefine = true;       ///< whether FarDiamonds are looked at
   bool KeepsInside = false;    ///< whether points on no surface stay
-  bool WithThresholds = false; ///< whether triangles have ThresholdsArray; all of them are wanted
-  /** Whether thresholds tell errors: else it is known only that those of a mesh are tolerated. */
+  bool WithThresholds = false; ///< whether triangles get ThresholdsArray; all must be wanted
+  /** Whether thresholds give errors: else all that is known of a mesh's is that they are
+   *  tolerated. */
   bool AreErrorsKnown = true;
 };
 
-/** By triangle, unsigned short: SurfaceExtraction::WriteThresholds(). */
+/** One unsigned short per triangle: SurfaceExtraction::WriteThresholds(). */
 inline constexpr const char* ThresholdsArray = "IsodiamondThresholds";
 
-/** Extracts a mesh, or a share of it: of that no more is written than there is in it, unless cells
- *  have to be left out or moved first. Runs in the calling thread's vtkSMPTools scope. */
+/** Extracts a mesh, or a share of it: then no more than the share is written, unless cells have to
+ *  be left out or moved first. Runs in the calling thread's vtkSMPTools scope. */
 Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& options, Task& task);
 
 }

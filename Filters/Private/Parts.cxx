@@ -77,7 +77,7 @@ void ForEachRow(const Extent& rows, const Extent& ofArray, Body&& body)
   }
 }
 
-/** Copies what two arrays, each of an extent, have both. */
+/** Copies what two arrays, each of an extent, have in common. */
 void CopyShared(vtkDataArray* from, const Extent& ofFrom, vtkDataArray* to, const Extent& ofTo)
 {
   const Extent shared = Shared(ofFrom, ofTo);
@@ -92,7 +92,7 @@ void CopyShared(vtkDataArray* from, const Extent& ofFrom, vtkDataArray* to, cons
     [&](int, int, vtkIdType tuple) { to->InsertTuples(tuple, RowLength(shared), *row++, from); });
 }
 
-/** Of ghosts, of which there may be none, what is blanked. */
+/** What a ghost array, which may be null, marks as blanked. */
 vtkSmartPointer<vtkUnsignedCharArray> BlanksOf(
   vtkUnsignedCharArray* ghosts, vtkIdType tuples, int blank)
 {
@@ -111,7 +111,7 @@ bool IsAnySet(vtkUnsignedCharArray* array)
     begin, begin + array->GetNumberOfTuples(), [](unsigned char value) { return value != 0; });
 }
 
-/** The arrays at the points, but for ghosts and what numbers points. */
+/** The arrays at the points, except ghosts and those that number points. */
 std::vector<vtkDataArray*> PointArraysOf(vtkImageData* image)
 {
   vtkPointData* data = image->GetPointData();
@@ -128,7 +128,7 @@ std::vector<vtkDataArray*> PointArraysOf(vtkImageData* image)
   return arrays;
 }
 
-/** The samples of the cells that are not ghosts of other processes'. */
+/** The samples of the cells that are not ghosts of other processes' cells. */
 Extent OwnExtent(vtkImageData* image)
 {
   const Extent all = ExtentOf(image);
@@ -184,7 +184,7 @@ void Check(int success)
   }
 }
 
-/** Whether extents cover a whole along an axis and those below it. */
+/** Whether extents cover a whole along an axis and the axes below it. */
 bool CoverAlong(int axis, const std::vector<Extent>& parts, const Extent& whole)
 {
   if (axis < 0)
@@ -192,7 +192,7 @@ bool CoverAlong(int axis, const std::vector<Extent>& parts, const Extent& whole)
     return !parts.empty();
   }
   const int low = 2 * axis;
-  // Between two places where a part begins or ends the same parts are there.
+  // Between successive places where parts begin or end, the same parts are present.
   std::vector<int> begins = { whole[low] };
   for (const Extent& part : parts)
   {

@@ -17,39 +17,39 @@ class vtkUnsignedCharArray;
 namespace vtkIsodiamond
 {
 
-/** Bounds of sample indices, as VTK's extents. */
+/** Bounds of sample indices, like VTK's extents. */
 using Extent = std::array<int, 6>;
 
 /**
  * An image of which each process has a part, whatever it is asked for, as those of a simulation
- * have: the parts make the whole together. They may overlap. Ghost cells around a part do not
- * count: what is there comes from the process whose own they are.
+ * have: together the parts make the whole. They may overlap. Ghost cells around a part do not
+ * count: their data come from the process that owns them.
  *
  * All processes call the same functions, each of which waits for the others.
  */
 class Parts
 {
 public:
-  /** Everyone, as who has the result. */
+  /** As the owner of a result: all processes. */
   static constexpr int Everyone = -1;
 
-  /** @param input whose image is the part of this process, as long as this lives
+  /** @param input its image is the part of this process, as long as this object lives
    *  @throws std::exception in all processes if parts do not fit: they must have the same place in
    *          the world and the same point arrays, and leave no sample out */
   Parts(vtkInformation* input, const ControllerPeers& peers);
 
   /**
-   * Some slices of the whole, with arrays at the points, and what is blanked.
+   * Some slices of the whole, with the arrays at the points, and what is blanked.
    *
-   * @param first, last numbers of slices, from 0 on
+   * @param first, last slice numbers, from 0
    * @param only the one array of this process's part that is wanted; null for all
    * @param owner the process that is to have them, or Everyone
-   * @return null for who is not
+   * @return null in processes that are not
    * @throws std::exception in all processes if there is a problem in one
    */
   vtkSmartPointer<vtkImageData> Gather(int first, int last, vtkDataArray* only, int owner) const;
 
-  /** Whether cells of the whole are blanked, or points. */
+  /** Whether any cells or points of the whole are blanked. */
   bool HaveBlanks() const { return this->Blanks; }
 
 private:
@@ -67,7 +67,7 @@ private:
   vtkSmartPointer<vtkImageData> ImageOf(
     const Extent& slices, const std::vector<Located>& arrays) const;
 
-  mutable ControllerPeers Others; ///< an interface to what is elsewhere
+  mutable ControllerPeers Others; ///< an interface to other processes
   vtkSmartPointer<vtkImageData> Own;
   vtkSmartPointer<vtkUnsignedCharArray> BlankPoints;
   vtkSmartPointer<vtkUnsignedCharArray> BlankCells;

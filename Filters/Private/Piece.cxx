@@ -36,7 +36,7 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-/** The corners of a cell, of cells that are all alike. */
+/** The number of corners per cell, of cells that are all alike. */
 int SizeOf(vtkCellArray* cells)
 {
   return cells->GetNumberOfCells() > 0 ? static_cast<int>(cells->GetCellSize(0)) : 3;
@@ -54,20 +54,20 @@ MeshCells CellsOf(const Mesh& mesh)
       const vtkIdType* ids = nullptr;
       cells->GetCellAtId(cell, size, ids);
       corners = std::copy_n(ids, size, corners);
-      *levels++ = 0; // nobody asks for it
+      *levels++ = 0; // not used
     }
   };
   return { cells->GetNumberOfCells(), mesh.Points->GetNumberOfPoints(), SizeOf(cells), read };
 }
 
-/** Leaves a range of cells, and ghosts. @return the points that these have, whose ids become those
- *  among them, in the same order */
+/** Keeps a range of cells, and ghosts. @return the points that these use, in the same order, by
+ *  which the cells' ids are renumbered */
 template <typename Array>
 std::vector<vtkIdType> KeepCells(const isodiamond::CellRange& range, const Ghosts& ghosts,
   vtkIdType pointCount, vtkSmartPointer<vtkCellArray>& cells)
 {
   using Id = typename Array::ValueType;
-  // As they were given to SetData: none but our own cells come here, which are all alike.
+  // As they were given to SetData: only our own cells come here, which are all alike.
   auto* connectivity = vtkAOSDataArrayTemplate<Id>::FastDownCast(cells->GetConnectivityArray());
   const int size = SizeOf(cells);
   const Id* begin = connectivity->GetPointer(0) + size * range.First;
@@ -85,8 +85,8 @@ std::vector<vtkIdType> KeepCells(const isodiamond::CellRange& range, const Ghost
   return points;
 }
 
-/** Deals cells out to shares that differ by at most one; where there are more of them than cells,
- *  some have none. */
+/** Deals cells out to shares whose sizes differ by at most one; if there are more shares than
+ *  cells, some get none. */
 isodiamond::DealtCells Deal(const isodiamond::MeshShare& share, std::int64_t cells)
 {
   return { { 0, cells },

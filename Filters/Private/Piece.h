@@ -26,28 +26,28 @@ namespace vtkIsodiamond
 struct Ghosts;
 struct Mesh;
 
-/** What a process is asked for of a mesh. */
+/** What of a mesh a process is asked for. */
 struct Share
 {
-  std::array<int, 2> Piece = { 0, 1 }; ///< its number, and number of pieces
-  int GhostLevels = 0; ///< of cells of the other pieces around it, that are marked as such
-  /** The ids of the whole mesh's first point and cell among all meshes', if points and cells are to
-   *  have ids that are the same in all processes. */
+  std::array<int, 2> Piece = { 0, 1 }; ///< its number, and the number of pieces
+  int GhostLevels = 0;                 ///< of cells of other pieces around it, marked as ghosts
+  /** The ids of the whole mesh's first point and cell among those of all meshes, if ids are to be
+   *  the same in all processes. */
   std::optional<std::array<vtkIdType, 2>> FirstIds;
 
   bool HasGhosts() const { return this->GhostLevels > 0 && this->Piece[1] > 1; }
 
-  /** For an extraction. What has ghosts or ids of all needs all cells to be counted. */
+  /** For an extraction. A share with ghosts or ids of the whole needs all cells to be counted. */
   isodiamond::MeshShare OfMesh() const;
 };
 
-/** Asks for the whole input: a hierarchy of a part of a volume is another hierarchy, and of a part
- *  of a hierarchy there is no mesh. */
+/** Asks for the whole input: a part of a volume has another hierarchy, and a part of a hierarchy
+ *  has no mesh. */
 void RequestWhole(vtkInformation* inputInformation);
 
 /**
  * Notes the piece and the number of pieces that a filter's output is asked for. For ModifyRequest,
- * which has both: composite inputs are iterated over by the pipeline, and for every block of theirs
+ * which has both: the pipeline iterates over composite inputs, and for each of their blocks
  * RequestData is asked for piece 0 of 1.
  *
  * @param piece its number, number of pieces, and number of ghost levels
@@ -55,28 +55,28 @@ void RequestWhole(vtkInformation* inputInformation);
 void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[3]);
 
 /**
- * Refuses a part of a volume where several processes are to share its mesh: of other parts in other
- * processes the meshes would not fit. Images of processes that execute together do not come here in
- * parts: see Parts.h.
+ * Refuses a part of a volume where several processes are to share its mesh: the meshes of other
+ * parts in other processes would not fit. Images of processes that execute together do not come
+ * here in parts: see Parts.h.
  *
  * @throws std::invalid_argument
  */
 void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int piece[2]);
 
 /**
- * Leaves a share of a mesh: of its n cells those from n p / N until n (p + 1) / N for piece p of N,
- * and the points that these use, both in the mesh's order, with all their data; then ghosts. All
- * shares together have each cell once; points between two are in both, the same to the bit.
+ * Reduces a mesh to a share: of its n cells those from n p / N until n (p + 1) / N for piece p of
+ * N, and the points that these use, both in the mesh's order, with all their data; then ghosts. All
+ * shares together have each cell once; points between two are in both, identical to the bit.
  *
  * @throws std::bad_alloc if there is no memory for a copy
  */
 void KeepShare(const Share& share, Mesh& mesh);
 
 /**
- * Gives a share's points and cells ids of the whole, and marks what is another share's: a cell of
- * another one, a point that a share before has, too. Nothing that the share does not ask for.
+ * Gives a share's points and cells their ids in the whole, and marks what belongs to another share:
+ * cells of another one, points that an earlier one has, too. Adds only what the share asks for.
  *
- * @param points ids in the whole mesh, of all that there are
+ * @param points ids in the whole mesh, of all points here
  * @param own cells; ghosts follow
  */
 void AddOrigins(const Share& share, const std::vector<vtkIdType>& points,

@@ -21,7 +21,7 @@ public:
   {
   }
 
-  /** The least in a triangle or tetrahedron, or less. */
+  /** The least tolerance in a triangle or tetrahedron, or less. */
   double In(const isodiamond::Vector* corners, int count) const
   {
     isodiamond::Vector low = corners[0];

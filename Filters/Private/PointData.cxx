@@ -59,11 +59,11 @@ bool CanBeInterpolated(vtkDataArray* array, int attribute)
     attribute != vtkDataSetAttributes::GLOBALIDS && attribute != vtkDataSetAttributes::PEDIGREEIDS;
 }
 
-/** Arrays to read, their values in a row, and for each one to write. */
+/** Arrays to read, their values in a row, and for each an array to write. */
 struct ArrayPairs
 {
   ArrayList Values;
-  std::vector<vtkSmartPointer<vtkDataArray>> Read; ///< the list has no hold on them
+  std::vector<vtkSmartPointer<vtkDataArray>> Read; ///< the list does not keep them alive
 };
 
 /** Like ArrayList::AddArrayPair, which would allocate in its own way. @return the array that the
@@ -101,8 +101,8 @@ vtkSmartPointer<vtkDataArray> AddPair(
   return to;
 }
 
-/** The arrays of the grid that are wanted, but those that the output has under the same name;
- *  integers as floats. */
+/** The wanted arrays of the grid, except those that the output already has by name; integers as
+ *  floats. */
 PointWriter WriteOthers(const Volume& volume, const std::vector<std::string>& names,
   vtkIdType count, vtkPointData* output)
 {
@@ -205,7 +205,7 @@ void CheckNames(const VolumePointData& wanted, const std::string& contoured,
 {
   for (const std::string& name : wanted.Names)
   {
-    // Meshes have the values of what they are of anyway: who asks for all arrays means the others.
+    // Meshes have the contoured values anyway: users who ask for all arrays mean the others.
     if (name != contoured &&
       std::none_of(arrays.begin(), arrays.end(),
         [&](vtkDataArray* array) { return name == array->GetName(); }))

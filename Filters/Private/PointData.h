@@ -20,19 +20,19 @@ class vtkPointData;
 namespace vtkIsodiamond
 {
 
-/** Writes what it has to say of one point; of several at once from several threads. */
+/** Writes its data for one point; several threads may write for several points at once. */
 using PointWriter = std::function<void(const isodiamond::MeshPoint& point)>;
 
-/** Makes arrays for a number of points, and returns what fills them. */
+/** Makes arrays for a number of points, and returns the writers that fill them. */
 using PointDataMaker = std::function<std::vector<PointWriter>(vtkIdType count, vtkPointData*)>;
 
 /** What to take from a volume. */
 struct VolumePointData
 {
   bool Normals = false;   ///< "Normals", of the full-resolution gradient
-  bool Gradients = false; ///< "Gradient", in field units by world units
+  bool Gradients = false; ///< "Gradient", in field units per world unit
   bool Others = false;    ///< all other point arrays, interpolated trilinearly
-  /** Of the others these only, if there are any. */
+  /** Only these of the others, if any are named. */
   std::vector<std::string> Names = {};
 
   bool operator==(const VolumePointData& other) const
@@ -50,13 +50,13 @@ struct VolumePointData
  */
 PointDataMaker FromVolume(const Volume& volume, const VolumePointData& wanted);
 
-/** The arrays that a hierarchy keeps one value a stored point of, at points of its meshes. @param
- *  arrays must outlive what this makes */
+/** The arrays of which a hierarchy keeps one value per stored point, at points of its meshes.
+ *  @param arrays must outlive what this makes */
 PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
   const std::vector<vtkSmartPointer<vtkDataArray>>& arrays);
 
-/** @param contoured the array that meshes have anyway, and which may be among the names
- *  @throws std::invalid_argument if another one that is wanted by name is not there */
+/** @param contoured the array that meshes have anyway; it may be among the names
+ *  @throws std::invalid_argument if another one that is wanted by name is missing */
 void CheckNames(const VolumePointData& wanted, const std::string& contoured,
   const std::vector<vtkSmartPointer<vtkDataArray>>& arrays);
 

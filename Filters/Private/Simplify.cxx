@@ -31,11 +31,11 @@ constexpr const char* WallsArray = "IsodiamondWalls";
 
 /** In degrees, of triangles for simulations. */
 constexpr double LeastAngle = 15.0;
-/** The tolerance that these have at the least, as a part of the grid's smallest step: else slivers
+/** The least tolerance that these get, as a part of the grid's smallest step: with less, slivers
  *  would stay. */
 constexpr double LeastTolerance = 0.25;
 
-/** Lets points tell for a while which walls of the grid they are on. */
+/** Has points record, for a while, which walls of the grid they are on. */
 PointDataMaker WithWalls(PointDataMaker others, const isodiamond::Grid& grid)
 {
   return [others = std::move(others), grid](vtkIdType count, vtkPointData* pointData)
@@ -77,11 +77,11 @@ isodiamond::AllowedMesh ToCore(
 }
 
 /**
- * Simplifies the mesh of HierarchyQuery() within what is left of the tolerances: of each triangle
- * what the error of its diamond leaves, mostly more than the least that HierarchyQuery() does. It
- * adds up, since what a point of full resolution was measured from lies in the same diamond, or in
- * a coarser one, whose error is no less. Points stay what they are, with their data, but for
- * normals, which become means; cell data have no meaning any more and go.
+ * Simplifies the mesh of HierarchyQuery() within what is left of the tolerances: for each triangle
+ * what its diamond's error leaves, mostly more than the least that HierarchyQuery() leaves. The two
+ * add up, since what a point of full resolution was measured from lies in the same diamond, or in a
+ * coarser one, whose error is no less. Points stay what they are, with their data, except for
+ * normals, which become means; cell data lose their meaning and are removed.
  *
  * @param query the one that was asked for
  */

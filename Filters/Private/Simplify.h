@@ -7,7 +7,7 @@
 
 /**
  * @file Simplify.h
- * Meshes of a tolerance, part of which the hierarchy keeps and the rest a simplification.
+ * Meshes within a tolerance, of which the hierarchy uses a part, and simplification the rest.
  */
 namespace vtkIsodiamond
 {
@@ -24,7 +24,7 @@ void CheckSimplify(const WorldQuery& query, isodiamond::ErrorMetric metric, bool
 Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& query,
   const MeshOptions& options, Task& task);
 
-/** The same of a hierarchy. */
+/** The same for a hierarchy. */
 Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const WorldQuery& query,
   const MeshOptions& options, Task& task);
 

@@ -11,7 +11,7 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** Each time leaves that are too far away become finer by a level; smooth volumes need three to
+/** In each round, leaves that are too far away become a level finer; smooth volumes need three to
  *  eight. */
 constexpr int MostRounds = 10;
 

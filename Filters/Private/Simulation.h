@@ -14,10 +14,10 @@ namespace vtkIsodiamond
 
 /**
  * Extracts a refined set's interval volume, stuffed. Where its surfaces are farther from those of
- * the volume's mesh than what the diamonds' errors leave of the tolerance, it refines and begins
- * again; cells of full resolution stay as they are.
+ * the volume's mesh than the diamonds' errors leave of the tolerance, it refines and begins again;
+ * cells at full resolution stay as they are.
  *
- * @param query that the refined set is of
+ * @param query whose refined set it is
  */
 Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuery& query,
   const MeshOptions& options, Task& task);

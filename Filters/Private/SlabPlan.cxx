@@ -33,7 +33,7 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-/** What the image's samples take, if upstream says of what type they are; else as floats. */
+/** The bytes that the image's samples take, of the type that upstream states, else as floats. */
 double BytesOf(vtkInformation* input)
 {
   vtkInformation* scalars = vtkDataObject::GetActiveFieldInformation(
@@ -46,7 +46,7 @@ double BytesOf(vtkInformation* input)
     double{ 1.0 * vtkDataArray::GetDataTypeSize(type) }, std::multiplies<>());
 }
 
-/** The bytes of memory that nobody uses. */
+/** The bytes of memory that are not in use. */
 double FreeMemory()
 {
   vtksys::SystemInformation system;
@@ -65,7 +65,7 @@ int MostSlabs(vtkInformation* input)
 int CountShared(vtkInformation* input, int asked, int peers)
 {
   const int most = MostSlabs(input);
-  // Free memory is another in each of them.
+  // Free memory differs between them.
   return asked != 1 && peers <= most ? std::clamp(asked, peers, most) : 1;
 }
 
@@ -87,14 +87,13 @@ int CountAlone(vtkInformation* input, int asked)
   return std::clamp(count, 1, MostSlabs(input));
 }
 
-/** Whether upstream has not made what it should have: its output is empty, or what it was before.
- */
+/** Whether upstream has not made what it should have: its output is empty, or the previous one. */
 bool HasFailed(vtkInformation* input)
 {
   vtkImageData* image = vtkImageData::GetData(input);
   auto* upstream =
     vtkDemandDrivenPipeline::SafeDownCast(vtkExecutive::PRODUCER()->GetExecutive(input));
-  // What a trivial producer gives it does not make.
+  // A trivial producer does not make what it gives.
   const bool makes = upstream && !upstream->GetAlgorithm()->IsA("vtkTrivialProducer");
   return image->GetNumberOfPoints() == 0 ||
     (makes && image->GetUpdateTime() < upstream->GetPipelineMTime());
@@ -189,7 +188,7 @@ std::unique_ptr<Slabs> SlabPlan::Open(
     others, [&] { isHidden = HiddenCellsOf(vtkImageData::GetData(input), 0).Any(); });
   if (isodiamond::IsAnywhere(others, isHidden))
   {
-    // Which diamonds touch hidden cells is told by all of these, and what is inside by field
+    // Which diamonds touch hidden cells depends on all such cells, and what is inside on field
     // errors.
     this->Count = 1;
     this->IsShared = false;

@@ -25,35 +25,36 @@ class Task;
 /** Finds the array to process. */
 using ArrayFinder = std::function<InputArray(vtkDataSet*)>;
 
-/** How the input of a filter comes: at once, or in slabs, to it alone or to peers of other
- * processes, each of which has its share of them. Decided before it is read; where upstream gives
- * each process another part than it was asked for, as a simulation may, when that is seen. */
+/** How a filter's input arrives: at once or in slabs, in one process alone or in peers, each of
+ * which has its share of the slabs. Decided before it is read or, where upstream gives each process
+ * a part other than it was asked for, as a simulation may, when that is seen. */
 class SlabPlan
 {
 public:
   /**
    * For RequestUpdateExtent: decides, and asks upstream for the whole input, or for one slab.
    *
-   * @param blocks how many there should be: 1 if the filter cannot do with slabs; 0 for one, or for
-   *        one a process of those that work together, or for as many as keep the input within what
-   *        memory is there
+   * @param blocks how many slabs there should be: 1 if the filter cannot work on slabs; 0 for one,
+   *        or for one per process of those that work together, or for as many as keep the input
+   *        within free memory
    */
   void Request(vtkInformation* input, vtkInformation* output, int blocks);
 
-  /** For ModifyRequest: who gets nothing from upstream is not executed, and tells its peers, who
-   *  would wait for it; who gets another part, too. */
+  /** For ModifyRequest: a process that gets nothing from upstream does not execute, and tells its
+   *  peers, which would wait for it; one that gets another part tells them, too. */
   void Note(vtkAlgorithm* filter, vtkInformation* request, int when);
 
   /**
-   * Runs work(task) of RequestData: if it fails for one of the peers it fails for all. Then the
-   * output counts as not made, so that the next update executes all of them again, or none: of who
-   * got nothing from upstream, or stopped it, VTK executes the filter whatever has changed.
+   * Runs work(task) of RequestData: if it fails in one of the peers, it fails in all. Then the
+   * output counts as not made, so that the next update executes all of them again, or none: in a
+   * process that got nothing from upstream, or stopped it, VTK executes the filter whatever has
+   * changed.
    */
   int Execute(vtkAlgorithm* filter, vtkInformation* output, const std::function<void(Task&)>& work);
 
   int NumberOfSlabs() const { return this->Count; }
 
-  /** Who makes one hierarchy together, of parts; null for nobody. */
+  /** The peers that make one hierarchy together, from parts; null if there are none. */
   isodiamond::Peers* Together()
   {
     return this->AreParts || this->IsShared ? &*this->Peers : nullptr;
@@ -63,25 +64,27 @@ public:
   bool IsAPart() const { return this->Count > 1 || this->AreParts; }
 
   /** For RequestData.
-   *  @param closeBoundary whether the volume is to be padded: where it is at hand by who reads it
-   *  @return null if the input is there at once: TakeWhole(); as where cells turn out to be hidden
-   *  @throws std::exception if it cannot be had, here or by a peer */
+   *  @param closeBoundary whether the volume is to be padded: if it is there at once, by whoever
+   *         reads it
+   *  @return null if the input is there at once, see TakeWhole(); also if cells turn out to be
+   *          hidden
+   *  @throws std::exception if the input cannot be had, here or by a peer */
   std::unique_ptr<Slabs> Open(vtkInformation* input, ArrayFinder findArray, bool closeBoundary);
 
-  /** The input that is there at once: as upstream gave it, or put together of what peers have, once
-   *  only. */
+  /** The input that is there at once: as upstream gave it, or put together from what the peers
+   *  have, only once. */
   vtkSmartPointer<vtkDataObject> TakeWhole(vtkInformation* input);
 
 private:
   std::unique_ptr<Slabs> OpenParts(
     vtkInformation* input, ArrayFinder findArray, bool closeBoundary);
 
-  std::optional<ControllerPeers> Peers; ///< who execute the filter together, on images
+  std::optional<ControllerPeers> Peers; ///< those that execute the filter together, on images
   int Blocks = 0;                       ///< how many are asked for
   int Count = 1;
   bool IsShared = false;
-  bool IsPeerWithout = false; ///< whether one of the peers has got nothing
-  bool AreParts = false;      ///< whether one of them has got another part than it asked for
+  bool IsPeerWithout = false; ///< whether one of the peers got nothing
+  bool AreParts = false;      ///< whether one of them got a part other than it asked for
   vtkSmartPointer<vtkImageData> Gathered;
 };
 

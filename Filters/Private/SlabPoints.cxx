@@ -16,7 +16,8 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** The points of a hierarchy whose data a slab has, numbered anew and placed in what was given. */
+/** The points of a hierarchy whose data a slab has, numbered anew and placed in the volume that was
+ *  given. */
 struct PointsOfSlab
 {
   std::vector<isodiamond::MeshPoint> Points;

@@ -33,7 +33,7 @@ int FirstOwn(int count, const isodiamond::Peers& peers)
 
 }
 
-// ParaView puts a filter behind every source that passes requests on, but does not tell.
+// Behind every source ParaView puts a filter that passes requests on, but does not say so.
 bool MakesParts(vtkInformation* input)
 {
   if (input->Get(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT()) != 0)

@@ -37,14 +37,14 @@ vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input);
 /** A slab without the slices that it shares with others. */
 Slices Alone(Slices slices);
 
-/** Who of the peers has a slab. */
+/** Which of the peers has a slab. */
 int OwnerOf(int slab, int count, const isodiamond::Peers& peers);
 
-/** The slab that upstream has given last, or the first one that a peer has.
- *  @param count of them @param peers null for nobody */
+/** The slab that upstream gave last, or the first one that a peer has.
+ *  @param count of slabs @param peers null if there are none */
 Slices SlabAtHand(vtkInformation* input, int count, const isodiamond::Peers* peers);
 
-/** Asks upstream for a slab, by the time that it is updated next. */
+/** Asks upstream for a slab, to be given at its next update. */
 void RequestSlab(vtkInformation* input, const Slices& slices);
 
 /** Whether upstream has given what it was asked for. */

@@ -80,7 +80,7 @@ Volume Slabs::WholeVolume() const
 
 Slices Slabs::InVolume(const Slices& slices) const
 {
-  // What is padded at an end belongs to the slab there.
+  // Padding at an end belongs to the slab there.
   const int last = WholeDimensionsOf(this->Input)[2] - 1;
   const auto begin = [&](int slice) { return slice == 0 ? 0 : slice + this->Padding; };
   const auto end = [&](int slice) { return slice + (slice == last ? 2 : 1) * this->Padding; };
@@ -108,7 +108,7 @@ Slab Slabs::Read(vtkImageData* image, const Slices& slices) const
     throw std::runtime_error("Upstream gave another part of the volume than it was asked for.");
   }
   Slab slab;
-  // Until the minimum is known, as they are given.
+  // Until the minimum is known, slices stay as given.
   const bool isPadded = this->Minimum.has_value();
   const Slices wanted = isPadded ? this->InVolume(slices) : slices;
   slab.Slices = wanted;
@@ -181,7 +181,7 @@ void Slabs::ForEach(Task& task, const char* phase, double begin, double end, Rea
     {
       const vtkSmartPointer<vtkImageData> image =
         this->OfPeers->Gather(slices.First, slices.Last, only, owner);
-      // Who fails here must not leave the others with the next slab.
+      // A peer that fails here must not leave the others with the next slab.
       isodiamond::InStep(peers, [&] { visit([&] { return this->Read(image, slices); }); });
     }
     else

@@ -25,8 +25,8 @@ class vtkInformation;
 /**
  * @file Slabs.h
  * A volume that is larger than memory: upstream gives slab after slab of it, some slices each, as
- * often as it is asked. Sources and readers can that make a part of an image without the rest: the
- * Wavelet source, readers of raw files, .vti and .pvti.
+ * often as it is asked. Sources and readers can do so if they make a part of an image without the
+ * rest: the Wavelet source, readers of raw files, .vti and .pvti.
  */
 namespace vtkIsodiamond
 {
@@ -37,7 +37,7 @@ struct Slab
   vtkIsodiamond::Slices Slices;   ///< those that were asked for
   isodiamond::SampleSlab Samples; ///< of these, and no others
   /** What upstream gave, which may be more, and the slice that it begins with. Padding is around
-   *  all of it, also where the volume goes on. */
+   *  all of it, even where the volume goes on. */
   Volume Given;
   int First = 0;
 };
@@ -51,20 +51,20 @@ enum class Reading
   AllArrays
 };
 
-/** The slabs of an image. Within a filter's RequestData, whose input it is. */
+/** The slabs of an image, the input of a filter; for use within its RequestData. */
 class Slabs
 {
 public:
-  /** @param count of them, as of a plan, whose request has been answered
-   *  @param peers who have their share of the slabs, if there are any
+  /** @param count of slabs, from a plan whose request has been answered
+   *  @param peers that have shares of the slabs, if there are any
    *  @param parts where slabs come from, if not from upstream: peers have parts of another shape
-   *  @param closeBoundary whether the volume is padded as ReadVolume() does
+   *  @param closeBoundary whether the volume is padded, as by ReadVolume()
    *  @throws std::exception if a slab cannot be had */
   Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray, bool closeBoundary,
     const std::optional<ControllerPeers>& peers, std::unique_ptr<Parts> parts = nullptr);
 
-  /** Peers, until everything is built: nobody waits for another from then on, and slabs cannot be
-   *  read. Null for nobody. */
+  /** The peers, until everything is built: from then on none waits for another, and slabs cannot be
+   *  read. Null if there are none. */
   isodiamond::Peers* Together() const
   {
     return this->Others && !this->HaveDispersed ? &*this->Others : nullptr;
@@ -74,26 +74,26 @@ public:
   /** The whole image, without its arrays. */
   Volume WholeVolume() const;
 
-  /** Whether points have more than the array to process. */
+  /** Whether points have other arrays than the one to process. */
   bool HaveOtherArrays() const { return this->OtherArrays; }
 
-  /** Stands for the content that upstream gives: others have another one. It is told by upstream's
-   *  modification times, since the content itself is nowhere. */
+  /** Stands for the content that upstream gives: other content has another stamp. It is made of
+   *  upstream's modification times, since the content itself is nowhere at hand. */
   ContentHash Stamp() const { return this->StampOfUpstream; }
 
-  /** Before ForEach(), as often as one likes: the first time a volume whose boundary is closed is
-   *  read for the minimum that it is padded by. By all peers. */
+  /** To be called before ForEach(), by all peers, any number of times: the first call reads a
+   *  volume whose boundary is closed, for the minimum that it is padded with. */
   void FindPadding(Task& task, double begin, double end) const;
 
-  /** Calls body(slab) for all of them, from the first to the last; of peers for its share.
+  /** Calls body(slab) for all slabs, from the first to the last; with peers, for this one's share.
    *  @param phase in words, a part of the task from begin until end
-   *  @param ofOthers called with the slices of the others' slabs, in their place */
+   *  @param ofOthers called with the slices of other peers' slabs, in their place */
   void ForEach(Task& task, const char* phase, double begin, double end, Reading reading,
     const std::function<void(const Slab&)>& body,
     const std::function<void(const Slices&)>& ofOthers = nullptr) const;
 
 private:
-  /** In the volume's slices, padding included, what is given in the image's. */
+  /** Turns slices of the image into slices of the volume, padding included. */
   Slices InVolume(const Slices& slices) const;
   Slab Get(const Slices& slices) const;
   Slab Read(vtkImageData* image, const Slices& slices) const;
@@ -108,8 +108,8 @@ private:
   bool OtherArrays = false;
   ContentHash StampOfUpstream{};
   int Padding;
-  mutable std::optional<double> Minimum;         ///< what is padded by, once it is known
-  mutable std::optional<ControllerPeers> Others; ///< an interface to what is elsewhere
+  mutable std::optional<double> Minimum;         ///< what to pad with, once it is known
+  mutable std::optional<ControllerPeers> Others; ///< an interface to other processes
   bool HaveDispersed = false;
 };
 
@@ -117,7 +117,7 @@ private:
 isodiamond::StagedBuild BuildInSlabs(const Slabs& slabs, const isodiamond::Isoregion& region,
   const isodiamond::BuildOptions& options, Task& task);
 
-/** MakeStoredPointData() of a volume in slabs. */
+/** MakeStoredPointData() for a volume in slabs. */
 std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slabs,
   const VolumePointData& wanted, const isodiamond::IsodiamondHierarchy& hierarchy, Task& task);
 

@@ -168,7 +168,7 @@ int Dimension(std::int64_t value)
 
 using Header = std::array<std::int64_t, HeaderAt::Size>;
 
-/** The header of any version that is read. What an older one lacks is 0: so it was then. */
+/** The header, of any version that is read. What an older one lacks is 0, as it was then. */
 Header ReadHeader(Reader& reader)
 {
   const isodiamond::ArrayView<std::int64_t> stored = reader.Values<std::int64_t>(format::Header);
@@ -197,7 +197,7 @@ void CheckHeader(const Header& header)
   {
     throw std::invalid_argument("the hierarchy is of an unknown model, shape or metric");
   }
-  // Of an HD queries choose, and it holds all samples.
+  // With an HD queries choose, and it holds all samples.
   const bool isWhole = header[HeaderAt::PreservesTopology] == 0 &&
     header[HeaderAt::MinimumPieceSize] == 0 && header[HeaderAt::RemovedPieces] == 0;
   if (header[HeaderAt::MinimumPieceSize] < 0 || header[HeaderAt::RemovedPieces] < 0 ||

@@ -30,7 +30,7 @@ namespace vtkIsodiamond
 struct State
 {
   int Model = 0; ///< as isodiamond::Model
-  /** What RI and MI are of; of an HD the default of queries. */
+  /** What an RI or MI represents; for an HD, the default of queries. */
   Choice Chosen;
   isodiamond::ErrorMetric Metric = isodiamond::ErrorMetric::Field;
   bool ExactIsovertices = true; ///< of an HD: those that queries make
@@ -57,14 +57,14 @@ double FieldScale(vtkFieldData* fieldData);
 /** Reads and checks a hierarchy. @throws std::exception saying what is wrong with it. */
 std::shared_ptr<const State> ReadState(vtkFieldData* fieldData);
 
-/** Whether the state was read from just these arrays. */
+/** Whether the state was read from exactly these arrays. */
 bool IsCurrent(const State& state, vtkFieldData* fieldData);
 
-/** Takes a hierarchy, and the numbers that tell of it, out of field data that were passed on with
+/** Removes a hierarchy, and the numbers that describe it, from field data that were passed on with
  * it: a mesh would keep all of it alive, and be saved with it. */
 void RemoveState(vtkFieldData* fieldData);
 
-/** Puts an RI or MI into a data set; its geometry becomes the outline of the grid. @param
+/** Puts an RI or MI into a data set, whose geometry becomes the outline of the grid. @param
  *  pointArrays other arrays at stored points */
 void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
   const isodiamond::AffineMap& world, const std::string& arrayName,

@@ -121,7 +121,7 @@ void WriteHeader(const isodiamond::EncodingHeader& header, const Choice& choice,
   fieldData->AddArray(name);
 }
 
-/** Numbers for who looks at the field data, in ParaView's Information for instance. */
+/** Numbers for users who look at the field data, in ParaView's Information for instance. */
 void WriteNumbers(const isodiamond::Encoding& encoding, vtkFieldData* fieldData)
 {
   const isodiamond::EncodingHeader& header = encoding.Header;
@@ -217,7 +217,7 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choi
   header.FieldScale = encoding.ErrorScale;
   header.ExactIsovertices = exactIsovertices;
   WriteHeader(header, choice, world, volume.ArrayName, fieldData);
-  // The input's own array under another name: shared memory would rename it for the input too.
+  // A copy: the input's own array, if shared, would be renamed for the input, too.
   AddSamples(fieldData, format::Samples, volume.Array->GetDataType(),
     volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());
   AddArray<vtkTypeUInt16Array>(fieldData, format::Errors, encoding.Codes);

@@ -19,13 +19,13 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** At one change a surface may move by this part of the grid's smallest step, or of the tolerance
+/** In one change, a surface may move by this part of the grid's smallest step, or of the tolerance
  *  if that is more. */
 constexpr double MovePartOfStep = 0.25;
 constexpr double MovePartOfTolerance = 0.5;
 
-/** Finds what is left of the tolerance in each leaf: its diamond's error may be so far away
- * already. Leaves of full resolution cannot be finer. */
+/** Finds what is left of the tolerance in each leaf: its diamond's error may already use some of
+ * it. Leaves at full resolution cannot be made finer. */
 void FindAllowances(const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,
   isodiamond::StuffingInput& input)
 {
@@ -43,8 +43,9 @@ void FindAllowances(const isodiamond::IsodiamondHierarchy& hierarchy, const Mesh
   }
 }
 
-/** What to copy the attributes of a mesh's points from: points of before, for those that are
- * blended any that has a share. @param kept ids in the mesh @param before how many there were */
+/** What to copy the attributes of a mesh's points from: the points before; for added ones, any
+ * point that has a share in them. @param kept ids in the mesh @param before how many points there
+ * were */
 std::vector<vtkIdType> SourcesOf(
   const isodiamond::TetrahedronMesh& mesh, const std::vector<vtkIdType>& kept, std::size_t before)
 {
@@ -91,7 +92,7 @@ void Blend(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used, vtkP
   }
 }
 
-/** Where points are that were moved or added, and which of them on surfaces. */
+/** Writes the positions of moved and added points, and which surfaces they are on. */
 void WritePlaces(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used, Mesh& output)
 {
   vtkDataArray* surfaces = output.PointData->GetArray("Surface");

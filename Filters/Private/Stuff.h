@@ -13,8 +13,9 @@ namespace vtkIsodiamond
 {
 
 /**
- * Stuffs what a mesh of an extraction is of (see Stuffing/Stuffing.h), and hands points and cells
- * over, with their data: those of moved and added points are interpolated linearly in the mesh.
+ * Stuffs the volume that an extraction's mesh represents (see Stuffing/Stuffing.h), and hands over
+ * points and cells, with their data: those of moved and added points are interpolated linearly in
+ * the mesh.
  *
  * @param mesh with all data, nothing left out; afterwards without what is hidden
  */

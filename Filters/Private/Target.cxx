@@ -31,7 +31,7 @@ std::int64_t CellsAt(const std::vector<const isodiamond::CellCounts*>& counts, d
     [&](std::int64_t sum, const isodiamond::CellCounts* one) { return sum + one->At(tolerance); });
 }
 
-/** A tolerance that is the i-th from the largest one down of 1, 2 and 5 times powers of ten. */
+/** The i-th tolerance, from the largest one down, among 1, 2 and 5 times powers of ten. */
 double RoundTolerance(double largest, int i)
 {
   constexpr double digits[] = { 5.0, 2.0, 1.0 };
@@ -137,7 +137,7 @@ CountedTolerance LeastToleranceBelow(
   }
   if (tried.Cells <= target)
   {
-    tried = at(0.0); // triangles for simulations do not get more from some tolerance on
+    tried = at(0.0); // below some tolerance, simulation triangles no longer increase
     if (tried.Cells <= target)
     {
       return tried;

@@ -25,8 +25,8 @@ struct CountedTolerance
   std::int64_t Cells = 0;
 };
 
-/** The least tolerance with no more cells than a target, in the sum over hierarchies with errors of
- *  one scale; if there is none, the least one of those with as many as the coarsest mesh. */
+/** The least tolerance with no more cells than a target, summed over hierarchies with errors of one
+ *  scale; if there is none, the least one with as many as the coarsest mesh. */
 CountedTolerance LeastTolerance(
   const std::vector<const isodiamond::CellCounts*>& counts, std::int64_t target);
 
@@ -39,10 +39,11 @@ CountedTolerance LeastTolerance(const isodiamond::ErrorCode& codes, std::int64_t
   const std::function<std::int64_t(double tolerance)>& cellsAt);
 
 /**
- * The same for meshes that are simplified, whose number of cells only a trial tells: to about 2 %
+ * The same for meshes that are simplified, whose number of cells only trials reveal: to about 2 %
  * of the tolerance.
  *
- * @param guess the tolerance that would be found without simplification; most likely more
+ * @param guess the tolerance that would be found without simplification; most likely more than the
+ *        result
  */
 CountedTolerance LeastToleranceBelow(
   double guess, std::int64_t target, const std::function<std::int64_t(double tolerance)>& cellsAt);
@@ -51,8 +52,8 @@ CountedTolerance LeastToleranceBelow(
 void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64_t target);
 
 /**
- * Tells how many cells there would be, for who looks at the field data: an array with one value for
- * each of some tolerances that a person would type, and full resolution.
+ * Writes how many cells there would be, for users who look at the field data: an array with one
+ * value for each of some tolerances that a person would type, and for full resolution.
  *
  * @param cells their name, in capitals
  * @param largest tolerance that is worth trying

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 /** All threads stop together for progress and an abort. */
 constexpr std::chrono::milliseconds BatchLength(30);
-/** A step: long beside a look at the clock, short beside a batch. */
+/** A step: long compared to a look at the clock, short compared to a batch. */
 constexpr std::chrono::milliseconds StepLength(1);
 
 /** Takes step after step of what is left of a loop, until a time. */
@@ -46,7 +46,7 @@ void WorkUntil(Clock::time_point end, std::int64_t count, std::int64_t grain,
   }
 }
 
-/** Within a catch. */
+/** To be called within a catch. */
 void Report(vtkAlgorithm* filter)
 {
   try

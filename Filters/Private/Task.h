@@ -23,9 +23,9 @@ struct Aborted : std::exception
 
 /**
  * Work of a filter that its user can watch and stop. Its phases have names, and a part of the whole
- * each; its loops run in batches of about 30 ms, after which all threads wait. Progress is told
- * then and abortion asked for, both in the thread that runs the filter: observers may touch what
- * they like. How loops are cut does not change results (see Parallel.h).
+ * each; its loops run in batches of about 30 ms, after which all threads wait. Then progress is
+ * reported and a request to abort checked for, both in the thread that runs the filter: observers
+ * may touch what they like. How loops are cut does not change results (see Parallel.h).
  */
 class Task
 {
@@ -35,16 +35,16 @@ public:
   {
   }
 
-  /** What comes next, from its begin until its end of the whole, 0 to 1. @throws Aborted */
+  /** Begins the next phase, from begin until end of the whole, 0 to 1. @throws Aborted */
   void Begin(const char* phase, double begin, double end);
 
   /** A task that is a part of this one. */
   Task Part(double begin, double end) const;
 
-  /** Loops of this task. It must outlive them. @throws Aborted */
+  /** Loops of this task, which must outlive them. @throws Aborted */
   isodiamond::ParallelFor For();
 
-  /** Progress of the core as progress of this task. It must outlive it. */
+  /** The core's progress, as progress of this task, which must outlive the result. */
   isodiamond::Progress Report();
 
 private:
@@ -58,11 +58,12 @@ private:
   std::chrono::steady_clock::time_point Told;
 };
 
-/** Within a catch: tells a filter's user what went wrong, but for an abortion. No exception leaves
- *  it. */
+/** To be called within a catch: tells a filter's user what went wrong, unless it was an abort. No
+ *  exception leaves it. */
 void ReportException(vtkAlgorithm* filter) noexcept;
 
-/** Runs work(task) of a filter's execution. @return false after an error, whose output is empty */
+/** Runs work(task) of a filter's execution. @return false after an error; the output is then
+ *  empty */
 template <typename Work>
 bool Succeeds(vtkAlgorithm* filter, vtkDataObject* output, Work&& work)
 {
@@ -80,7 +81,7 @@ bool Succeeds(vtkAlgorithm* filter, vtkDataObject* output, Work&& work)
   }
 }
 
-/** The same. @return what RequestData does: a failed execution is one with an error and an empty
+/** The same. @return what RequestData returns: a failed execution is one with an error and an empty
  *  output */
 template <typename Work>
 int Execute(vtkAlgorithm* filter, vtkDataObject* output, Work&& work)

@@ -131,7 +131,7 @@ inline isodiamond::ParallelFor SMPFor()
 template <typename Functor>
 void RunScoped(const vtkSMPTools::Config& config, Functor&& f)
 {
-  // The scope must end before an exception goes on, or its backend would stay.
+  // The scope must end before an exception propagates, or its backend would stay set.
   ExceptionKeeper exceptions;
   vtkSMPTools::LocalScope(config, [&] { exceptions.Run(std::forward<Functor>(f)); });
   exceptions.Rethrow();
@@ -147,7 +147,7 @@ void RunThreaded(int numberOfThreads, Functor&& f)
   RunScoped(vtkSMPTools::Config{ numberOfThreads, backend, false }, std::forward<Functor>(f));
 }
 
-/** Runs f, whose loops are in VTK itself, without threads that may not start. */
+/** Runs f, whose loops are in VTK itself, without threads, which might fail to start. */
 template <typename Functor>
 void RunSerial(Functor&& f)
 {

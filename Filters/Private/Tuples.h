@@ -12,16 +12,16 @@ class vtkPoints;
 
 /**
  * @file Tuples.h
- * Some of what a mesh has for each point or cell: copies, in the order of the ids of what is kept.
- * VTK's own (GetPoints, CopyData) would end the program where there is no memory, see Arrays.h.
+ * Copies of some of a mesh's data per point or cell, in the order of the ids that are kept. VTK's
+ * own functions (GetPoints, CopyData) would end the program where there is no memory, see Arrays.h.
  */
 namespace vtkIsodiamond
 {
 
-/** Points with some ids. @throws std::bad_alloc */
+/** The points with given ids. @throws std::bad_alloc */
 vtkSmartPointer<vtkPoints> PointsOf(vtkPoints* points, const std::vector<vtkIdType>& ids);
 
-/** Leaves of a mesh's attributes, whose arrays are data arrays, the tuples with some ids.
+/** Keeps, of a mesh's attributes, whose arrays are all data arrays, the tuples with given ids.
  *  @throws std::bad_alloc */
 void KeepTuples(vtkDataSetAttributes* data, const std::vector<vtkIdType>& ids);
 

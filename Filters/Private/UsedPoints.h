@@ -15,7 +15,7 @@
 
 /**
  * @file UsedPoints.h
- * Meshes that the core was given, and gives back with other cells of some of the points.
+ * Meshes given to the core, which returns them with other cells that use some of the points.
  */
 namespace vtkIsodiamond
 {
@@ -30,7 +30,7 @@ inline std::vector<isodiamond::Vector> PositionsOf(vtkPoints* points)
   return positions;
 }
 
-/** The points that cells have, in their order. */
+/** The points that cells use, in their order. */
 class UsedPoints
 {
 public:
@@ -42,10 +42,10 @@ public:
   {
   }
 
-  /** Their ids before. */
+  /** Their previous ids. */
   std::vector<vtkIdType> Ids() const { return this->Points.Ids<vtkIdType>(); }
 
-  /** By id before; -1 of points that no cell has. */
+  /** By previous id; -1 for points that no cell uses. */
   vtkIdType NewId(std::uint32_t point) const
   {
     return this->Points.Contains(point) ? this->Points.NewId(point) : -1;

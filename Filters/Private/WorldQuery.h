@@ -35,28 +35,28 @@ struct WorldQuery
 {
   double ErrorTolerance = 0.0;
   bool HasTarget = false;    ///< whether that tolerance is yet to be found
-  bool OneTolerance = false; ///< whether errors are to be measured for this alone
+  bool OneTolerance = false; ///< whether errors are to be measured for it alone
   double InteriorTolerance = HUGE_VAL;
   /** In the world; the tolerances hold there. */
   std::optional<isodiamond::Box> Region;
   double OutsideErrorTolerance = HUGE_VAL; ///< 0: see OutsideOf()
   std::optional<vtkIsodiamond::View> View;
-  /** What to extract instead of the hierarchy's own; an HD can. */
+  /** What to extract instead of the hierarchy's own choice, from an HD. */
   std::optional<isodiamond::Shape> Shape;
   std::optional<double> Isovalue;
   std::optional<std::array<double, 2>> Isorange;
   bool PreserveTopology = false;   ///< of an HD
   bool Simplify = false;           ///< see Simplify.h
   bool SimulationQuality = false;  ///< of tetrahedra, see Stuff.h
-  bool AreTrianglesShaped = false; ///< whether Simplify sees to the shape of what it makes
+  bool AreTrianglesShaped = false; ///< whether Simplify cares for triangles' shapes
 
-  /** Whether it is for full resolution, whatever errors are. */
+  /** Whether it is for full resolution, whatever the errors are. */
   bool IsFull() const
   {
     return this->ErrorTolerance == 0.0 && !this->HasTarget && !this->Region && !this->View;
   }
 
-  /** Asks for triangles for simulations where tetrahedra were asked for: simplified ones. */
+  /** Asks for triangles for simulations, simplified ones, where it asked for such tetrahedra. */
   void TurnToTriangles()
   {
     this->Simplify = this->Simplify || this->SimulationQuality;
@@ -95,7 +95,7 @@ inline void CheckTolerances(const WorldQuery& query)
   }
 }
 
-/** Says so if the region of a query is a point, or nothing: VTK's bounds of nothing end before they
+/** Warns if the region of a query is a point, or empty: VTK's empty bounds end before they
  *  begin. */
 inline void WarnOfEmptyRegion(vtkAlgorithm* filter, const WorldQuery& query)
 {
@@ -131,7 +131,7 @@ struct Measure
   }
 };
 
-/** The tolerance outside of a query's region. */
+/** The tolerance outside a query's region. */
 inline double OutsideOf(
   const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
 {
@@ -144,8 +144,8 @@ inline double OutsideOf(
     4.0 * query.ErrorTolerance, isDistance ? world.SmallestStep() : 0.01 * measure.Extent);
 }
 
-/** The query in terms of the core. @param world from the grid's index space; for a
- *  view not that of a curvilinear grid */
+/** The query in terms of the core. @param world from the grid's index space; for a view, not that
+ *  of a curvilinear grid */
 template <typename Hierarchy>
 isodiamond::Query CoreQuery(
   const WorldQuery& query, const Hierarchy& hierarchy, const isodiamond::GridGeometry& world)
@@ -173,7 +173,7 @@ isodiamond::Query CoreQuery(
   return result;
 }
 
-/** Says so where a query asks for what its shape does not have. */
+/** Warns where a query asks for what its shape does not have. */
 inline void WarnOfOtherShape(vtkAlgorithm* filter, const State& state, const WorldQuery& query)
 {
   const bool isVolume = query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
@@ -194,7 +194,7 @@ inline void WarnOfOtherShape(vtkAlgorithm* filter, const State& state, const Wor
   }
 }
 
-/** Says so where a relevant or minimal hierarchy cannot do what the query asks. */
+/** Warns where a relevant or minimal hierarchy cannot do what the query asks. */
 inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, const WorldQuery& query)
 {
   const isodiamond::IsodiamondHierarchy& hierarchy = *state.Isodiamonds;
@@ -222,7 +222,7 @@ inline void WarnOfWhatHasNoEffect(vtkAlgorithm* filter, const State& state, cons
 }
 
 /**
- * Calls use(refined) with the refined set of an RI or MI, or of the answer of an HD to a query.
+ * Calls use(refined) with the refined set of an RI or MI, or of an HD's answer to a query.
  *
  * @throws std::exception that says what is wrong with the query
  */

@@ -12,7 +12,7 @@ namespace isodiamond
 namespace
 {
 
-/** The ranks of the parents that a diamond has below scale N. */
+/** The ranks of a diamond's parents below scale N. */
 class ParentRanks
 {
 public:
@@ -23,7 +23,7 @@ public:
     for (int i = 0; i < shape.ParentCount; ++i)
     {
       const std::int64_t rank = window.Rank(ParentPlace(shape, place, i).Position);
-      if (rank != DiamondSet::None) // else it lies outside of the grid
+      if (rank != DiamondSet::None) // otherwise it lies outside the grid
       {
         this->Ranks[this->Count++] = static_cast<std::uint32_t>(rank);
       }
@@ -46,7 +46,7 @@ struct Visit
   std::uint32_t Rank = 0;
   const BrickWindow& ParentWindow;
 
-  /** Takes most of the time. */
+  /** Takes most of the run time. */
   ParentRanks Parents() const { return ParentRanks(this->ParentWindow, this->Diamond); }
 };
 
@@ -62,10 +62,10 @@ struct Rise
 /**
  * Codes that rise to the least solution.
  *
- * A sweep down gives each diamond what it has by its parents alone, one up raises the ancestors.
- * Only the few diamonds whose parents a sibling's descendants have raised are left then; from them
- * the paper's own walk goes on, with a falling tolerance. Where few diamonds have anything by their
- * parents the walk does without the sweep down.
+ * A sweep down gives each diamond the code due to its parents alone, one up raises the ancestors.
+ * Then only the few diamonds are left whose parents were raised by a sibling's descendants; from
+ * these the paper's own walk goes on, with a falling tolerance. If few diamonds have a code due to
+ * their parents, the sweep down is not needed before the walk.
  */
 class RisingCodes
 {
@@ -80,7 +80,7 @@ public:
   {
   }
 
-  /** From codes that count wherever the parents are. */
+  /** Starts from codes that count whatever the parents' codes are. */
   RisingCodes(const Grid& grid, const DiamondSet& members, std::vector<ErrorCode::Type> own,
     const std::vector<ErrorCode::Type>& least, const ParallelFor& parallelFor)
     : RisingCodes(grid, members, std::move(own), parallelFor)
@@ -111,7 +111,7 @@ public:
   }
 
 private:
-  // Diamonds of one class raise parents that they share, in any order: the maximum is the same.
+  // Diamonds of one class raise shared parents in any order: the maximum is the same.
   ErrorCode::Type Code(std::int64_t rank) const
   {
     return this->Codes[rank].load(std::memory_order_relaxed);
@@ -126,7 +126,7 @@ private:
     }
   }
 
-  /** The code that a diamond has by its own error, once a parent is subdivided. */
+  /** The code that a diamond has from its own error, once a parent is subdivided. */
   ErrorCode::Type CodeBelowParents(const Visit& visit) const
   {
     ErrorCode::Type highest = 0;
@@ -167,7 +167,7 @@ private:
       });
   }
 
-  /** From the old to the young: parents are of an older class or of the next coarser scale. */
+  /** From old to young: parents are of an older class or of the next coarser scale. */
   void SweepDown()
   {
     for (int scale = this->Depth - 1; scale >= 0; --scale)
@@ -186,7 +186,7 @@ private:
     }
   }
 
-  /** From the young to the old. */
+  /** From young to old. */
   void SweepUp()
   {
     for (int scale = 0; scale < this->Depth; ++scale)
@@ -209,7 +209,7 @@ private:
     }
   }
 
-  /** Queues the diamonds that do not have yet what they have by their parents. */
+  /** Queues the diamonds that do not yet have the code due to their parents. */
   void FindRising()
   {
     for (int scale = 0; scale < this->Depth; ++scale)
@@ -261,7 +261,7 @@ private:
     }
   }
 
-  /** Queues a parent, which closure needs, or a child, which has to be refined by its own error. */
+  /** Queues a parent, needed for closure, or a child, which its own error may require to refine. */
   void Reach(const Place& place, ErrorCode::Type code, bool needed)
   {
     const bool isDiamond = place.Scale >= 0 && place.Scale < this->Depth;
@@ -284,7 +284,7 @@ private:
 
   int Depth;
   const DiamondSet& Members;
-  std::vector<ErrorCode::Type> Own; ///< in the end the result, to spare memory
+  std::vector<ErrorCode::Type> Own; ///< holds the result in the end, to save memory
   const ParallelFor& Parallel;
   std::vector<std::atomic<ErrorCode::Type>> Codes;
   std::priority_queue<Rise> Queue;
@@ -318,10 +318,11 @@ private:
 }
 
 /**
- * What all portions of a hierarchy come to. Each finds what its own diamonds lead to; then those
- * that several portions have rise to the greatest code of them, and each goes on from there, until
- * none rises any more. No code is ever higher than in the whole hierarchy, and in the end what
- * holds there holds here: a diamond and its parents are in one portion, whichever way a code goes.
+ * The codes that all portions of a hierarchy arrive at. Each finds what its own diamonds lead to;
+ * then diamonds that several portions have rise to the greatest of their codes, and each portion
+ * goes on from there, until none rises any more. No code is ever higher than in the whole
+ * hierarchy, and in the end the same conditions hold as there: a diamond and its parents are in one
+ * portion, whichever way a code travels.
  */
 std::vector<ErrorCode::Type> InRounds(const Grid& grid, const DiamondSet& members,
   const std::vector<ErrorCode::Type>& own, std::vector<ErrorCode::Type> codes,
@@ -377,7 +378,7 @@ std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& 
     own.assign(members.Size(), 0);
     for (const std::uint32_t rank : followers)
     {
-      own[rank] = ErrorCode::Always; // has the greatest code of its parents, however great
+      own[rank] = ErrorCode::Always; // gets the greatest code of its parents, however great
     }
   };
   if (portion != nullptr)

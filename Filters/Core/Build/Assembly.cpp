@@ -14,7 +14,7 @@ namespace isodiamond
 namespace
 {
 
-/** The lists of the diamonds of all portions. @param sizeOf as of ListSizes() */
+/** The lists of the diamonds of all portions. @param sizeOf as for ListSizes() */
 template <typename T, typename SizeOf>
 std::vector<T> AssembleLists(const PeerPortion& portion, const DiamondExchange& exchange,
   const DiamondSet& members, const std::vector<T>& own, const DiamondEdges& edges, SizeOf sizeOf)
@@ -40,7 +40,7 @@ Encoding Assemble(const PeerPortion& portion, Encoding own, const IsodiamondHier
   const DiamondSet& members = hierarchy.Diamonds();
   const auto owns = [&](int slice) { return portion.Diamonds().Owns(slice); };
   const DiamondExchange exchange(portion, members, kept, owns);
-  // What has been given is forgotten.
+  // Arrays are dropped once they have been given.
   EncodingArrays<OwnedArray>& from = own.Arrays;
   const auto give = [&](auto& values) { return exchange.Values(std::exchange(values, {})); };
   const auto giveLists = [&](auto& values, auto sizeOf)

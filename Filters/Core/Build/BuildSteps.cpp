@@ -25,10 +25,10 @@ namespace
 {
 
 /**
- * Own errors become thresholds; an interior tolerance subdivides whatever exceeds it, with the
- * ancestors, and what follows these.
- * @param portion that the members are of; null for all
- * @param haveFollowers without, what something else than a threshold leads to may have any error
+ * Turns own errors into thresholds; an interior tolerance subdivides whatever exceeds it, with all
+ * ancestors, and the followers of these.
+ * @param portion that the members make up; null for all
+ * @param haveFollowers if not, diamonds reached other than by a threshold may have any error
  */
 void RaiseToThresholds(const Grid& grid, const DiamondSet& members, const PeerPortion* portion,
   bool haveFollowers, const ParallelFor& parallelFor, DiamondCodes& codes)
@@ -254,7 +254,7 @@ DiamondCodes BuildSteps::MeasureDistances(
   return own;
 }
 
-/** Errors that peers have found. */
+/** Merges the errors that peers have found. */
 void BuildSteps::Merge(std::vector<ErrorCode::Type>& codes) const
 {
   if (this->Portion)
@@ -351,7 +351,7 @@ Encoding BuildSteps::CompleteOfPortions(Model model, Encoding relevant,
   return Assemble(*this->Portion, std::move(relevant), hierarchy, kept);
 }
 
-/** Work that is told first, which may stop it. Where peers have portions it asks them by itself. */
+/** Does work after reporting it, which may stop it. If peers have portions, work calls them. */
 template <typename Work>
 void BuildSteps::Do(const char* phase, double begin, double end, const Work& work) const
 {
@@ -382,7 +382,7 @@ void BuildSteps::SubdivideAlways(DiamondCodes& codes) const
     {
       if (const std::int64_t rank = this->Members.Rank(place); rank != DiamondSet::None)
       {
-        codes.Surface[rank] = ErrorCode::Always; // others have the others
+        codes.Surface[rank] = ErrorCode::Always; // other portions have the rest
       }
     });
 }

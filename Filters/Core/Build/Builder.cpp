@@ -19,17 +19,17 @@ Encoding BuildByField(Model model, const Source& source, const Isoregion& region
   const BuildSteps steps(source, region, options, source.FieldScale, parallelFor);
   DiamondCodes codes = steps.MeasureField();
   steps.FindThresholds(codes);
-  // Last: less memory at once.
+  // Isovertices last: takes less memory at a time.
   return steps.Complete(model, steps.PlaceIsovertices(0.9, 1.0, false).Encoding, std::move(codes));
 }
 
 Encoding BuildByDistance(Model model, const Source& source, const Isoregion& region,
   const BuildOptions& options, const ParallelFor& parallelFor)
 {
-  // First of all: it throws if there are no distances.
+  // First of all: throws if there are no distances.
   const double errorScale = DistanceErrorScale(source.SampleGrid, options.World);
   const BuildSteps steps(source, region, options, errorScale, parallelFor);
-  // Distances are measured on it.
+  // Distances are measured on this one.
   Encoded relevant = steps.PlaceIsovertices(0.2, 0.25);
   DiamondCodes codes = steps.MeasureDistances(
     IsodiamondHierarchy(relevant.Encoding, std::move(relevant.Edges)), Finiteness(source.Samples));
@@ -53,7 +53,7 @@ Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregio
   CheckOptions(options);
   const ErrorCode code(FieldErrorScale(samples, parallelFor));
   const Grid grid = GridOf(samples);
-  std::optional<FieldErrors> errors; // takes a pass over the samples, and is not always asked
+  std::optional<FieldErrors> errors; // take a pass over the samples, and are not always needed
   if (NeedsFieldErrors(region, options))
   {
     errors.emplace(grid, samples, parallelFor);

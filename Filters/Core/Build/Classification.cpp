@@ -16,7 +16,7 @@ struct KindMasks
 {
   Word Active{};
   Word Creation{};
-  Word Inside{}; ///< all vertices, and with the centre no surface: active if one passes below
+  Word Inside{}; ///< vertices and centre all inside: active if a descendant has a surface
 };
 
 struct ClassifiedBrick
@@ -25,7 +25,7 @@ struct ClassifiedBrick
   KindMasks<BrickMask> Kinds;
 };
 
-/** What the vertices of eight positions of a row say of one surface. */
+/** On which sides of one surface the vertices of eight positions of a row lie. */
 struct VertexSigns
 {
   std::uint32_t Above = 0; ///< some vertex lies above
@@ -50,7 +50,7 @@ KindMasks<std::uint32_t> ClassifyPositions(const SignBlock& block, int oddX, int
   }
   const SignLattice::Row& centre = block.Rows[z + 1][y + 1];
   constexpr int top = Surfaces - 1;
-  // All vertices below and the centre not, or the other way round.
+  // All vertices below but not the centre, or the other way round.
   KindMasks<std::uint32_t> kinds;
   kinds.Creation = ((centre.Above[0] >> 1) & vertices[0].Below & ~vertices[0].Above) |
     ((centre.Below(top) >> 1) & vertices[top].Above & ~vertices[top].Below);
@@ -70,7 +70,7 @@ KindMasks<std::uint32_t> ClassifyPositions(const SignBlock& block, int oddX, int
   return { kinds.Active & positions, kinds.Creation & positions, kinds.Inside & positions };
 }
 
-/** Of the positions that have all vertices inside, those that stick out of the grid. */
+/** Those positions with all vertices inside that stick out of the grid. */
 std::uint64_t StickingOut(
   const Grid& grid, int scale, const Point& origin, int z, std::uint64_t mask)
 {
@@ -133,7 +133,7 @@ public:
       }
       if (Surfaces == 2 && inside != 0)
       {
-        // Never a leaf of the mesh: their tetrahedra outside of the grid would be missing inside.
+        // Never leaves of the mesh: tetrahedra that reach out of the grid would be missing inside.
         brick.Kinds.Active[z] |=
           this->KeepInside ? inside : StickingOut(this->TheGrid, this->Scale, origin, z, inside);
       }
@@ -181,7 +181,7 @@ struct InsideBrick
   BrickMask Inside{};
 };
 
-/** The ancestors of one brick that have all vertices inside; all but isodiamonds have one sign. */
+/** The ancestors in one brick that have all vertices inside; all but isodiamonds have one sign. */
 InsideBrick FindInside(const Grid& grid, const SignLattice& signs, const Classification& all,
   int scale, std::int64_t index)
 {
@@ -204,7 +204,7 @@ InsideBrick FindInside(const Grid& grid, const SignLattice& signs, const Classif
   return brick;
 }
 
-/** Ancestors of isodiamonds that have all vertices inside are active: a surface passes below. */
+/** Ancestors of isodiamonds with all vertices inside are active: a descendant has a surface. */
 void ActivateInside(const Grid& grid, const SignLattice& signs, const ParallelFor& parallelFor,
   Classification& result)
 {

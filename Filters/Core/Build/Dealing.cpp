@@ -48,10 +48,10 @@ DiamondExchange Dealing::Exchange() const
 
 Encoded Dealing::Deal(Encoded told) const
 {
-  // What has been dealt is forgotten.
+  // Arrays are dropped once they have been dealt.
   const DiamondExchange exchange = this->Exchange();
   const auto deal = [&](auto& values) { values = exchange.Values(std::exchange(values, {})); };
-  const DiamondEdges& edges = told.Edges; // of what is told, and then of what is had
+  const DiamondEdges& edges = told.Edges; // first of what is told, then of what is had
   const auto dealLists = [&](auto& values, const std::vector<std::uint8_t>& sizes, auto sizeOf)
   {
     const std::vector<std::uint8_t> had = ListSizes(edges, sizeOf);

@@ -43,7 +43,7 @@ struct StagedBuild::State
     this->Hierarchy.emplace(this->Relevant, std::move(relevant.Edges));
   }
 
-  /** Goes on with the samples, wherever they are now. */
+  /** Resumes with the samples, wherever they are now. */
   void Resume(
     const AnySamples& samples, const ParallelFor& parallelFor, const BuildOptions& options)
   {
@@ -64,7 +64,7 @@ struct StagedBuild::State
   std::optional<FieldErrors> Errors;
   Source From;
   std::optional<BuildSteps> Done;
-  std::optional<Finiteness> IsFinite; ///< once distances are measured, or the samples came in slabs
+  std::optional<Finiteness> IsFinite; ///< once distances are measured, or if samples came in slabs
   Encoding Relevant;
   std::optional<IsodiamondHierarchy> Hierarchy;
 };
@@ -110,7 +110,7 @@ void StagedBuild::RefineTo(const std::function<double(const Place&)>& tolerated,
   }
   kept.Resume(samples, parallelFor, options);
   const ErrorCode code(kept.Relevant.Header.ErrorScale);
-  // The hierarchy reads them there; that some are the highest stays true enough.
+  // The hierarchy reads them there; which ones are the highest stays true enough.
   BuildSteps::SetThresholds(kept.Done->RefineTo(*kept.Hierarchy, *kept.IsFinite,
                               [&](const Place& place) { return code.Accepted(tolerated(place)); }),
     kept.Relevant);
@@ -148,8 +148,8 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
 namespace
 {
 
-/** The slices of the centres of a slab's diamonds: what has its centre behind the last slice comes
- *  with that. */
+/** The slices of the centres of a slab's diamonds: diamonds with their centre behind the last slice
+ *  belong to that slice. */
 SliceRange OfCentres(const Grid& grid, const StreamedBuild::Slices& slices)
 {
   const bool isLast = slices.End == grid.Dimensions()[2];
@@ -158,7 +158,7 @@ SliceRange OfCentres(const Grid& grid, const StreamedBuild::Slices& slices)
 
 }
 
-/** What slabs have told. */
+/** What is known from the slabs so far. */
 struct StreamedBuild::Progress
 {
   Progress(const Grid& grid, const Isoregion& region)
@@ -168,11 +168,11 @@ struct StreamedBuild::Progress
   }
 
   Isoregion Region;
-  std::optional<SignLattice> Signs; ///< until diamonds are classified: they have them then
+  std::optional<SignLattice> Signs; ///< until diamonds are classified: these have them from then on
   FiniteRangeOfSlabs Range;
-  std::vector<SliceRange> Own;            ///< of the slabs that are added here
-  std::optional<GatheredSamples> Coarse;  ///< where field errors are asked for, until then
-  std::optional<Dealing> ToPortions;      ///< where peers have portions, from then on
+  std::vector<SliceRange> Own;            ///< slices of the slabs that are added here
+  std::optional<GatheredSamples> Coarse;  ///< if field errors are needed, until then
+  std::optional<Dealing> ToPortions;      ///< if peers have portions, from then on
   std::optional<StreamedEncoder> Encoder; ///< from then on
   std::optional<StreamedFieldCodes> FieldCodes;
 };

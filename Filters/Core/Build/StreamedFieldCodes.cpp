@@ -8,7 +8,7 @@ namespace isodiamond
 namespace
 {
 
-/** Vertices of large domains are at its multiples. */
+/** Vertices of large domains are at multiples of this. */
 constexpr int CoarseStep = 2 * FieldErrors::Overlap;
 
 /** How many members have large domains; their ranks come first. */

@@ -27,11 +27,11 @@ public:
     this->SubdivideWaiting();
   }
 
-  /** Those that are to be tested next; none in the end. */
+  /** The diamonds that are to be tested next; none in the end. */
   std::vector<TestedDiamond> TakeMet()
   {
     std::vector<TestedDiamond> met = std::exchange(this->Met, {});
-    // Others have subdivided some since.
+    // Subdividing others has subdivided some of them since.
     met.erase(std::remove_if(met.begin(), met.end(),
                 [&](const TestedDiamond& tested)
                 { return this->States[this->RankOf(tested.Diamond)] == State::Subdivided; }),
@@ -39,7 +39,7 @@ public:
     return met;
   }
 
-  /** Subdivides a diamond, with all ancestors, and what they lead to that always is. */
+  /** Subdivides a diamond, all ancestors, and what they lead to that is always subdivided. */
   void Subdivide(const Place& diamond)
   {
     this->Waiting.push_back(diamond);
@@ -117,7 +117,7 @@ private:
   const ToleratedBy& By;
   std::vector<State> States; ///< by rank
   std::vector<TestedDiamond> Met;
-  std::vector<Place> Waiting; ///< for being subdivided
+  std::vector<Place> Waiting; ///< to be subdivided
 };
 
 }
@@ -127,7 +127,7 @@ std::vector<ErrorCode::Type> ToleratedSet(const IsodiamondHierarchy& relevant,
 {
   std::optional<Subdivision> subdivision;
   std::vector<TestedDiamond> met;
-  std::vector<std::uint8_t> exceed; // one each
+  std::vector<std::uint8_t> exceed; // one flag each
   InStep(peers, [&] { subdivision.emplace(relevant, by); });
   do
   {

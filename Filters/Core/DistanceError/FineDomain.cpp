@@ -12,7 +12,7 @@ namespace isodiamond
 namespace
 {
 
-/** Which of some tetrahedra hold the middle of an edge, and so all of it. */
+/** Which of some tetrahedra contain the middle of an edge, and so all of it. */
 std::uint16_t HoldersOf(
   const std::vector<ClosedTetrahedron>& tetrahedra, const FinePosition& middle)
 {
@@ -24,7 +24,7 @@ std::uint16_t HoldersOf(
   return holders;
 }
 
-/** Calls body(tetrahedron) for what a tetrahedron is bisected into in the end. */
+/** Calls body(tetrahedron) for the finest tetrahedra that a tetrahedron is bisected into. */
 template <typename Body>
 void ForEachFinest(const Grid& grid, const HalfPlace& whole, const Body& body)
 {
@@ -38,7 +38,7 @@ void ForEachFinest(const Grid& grid, const HalfPlace& whole, const Body& body)
     [&](const HalfPlace& half, const ExactPlane&) { ForEachFinest(grid, half, body); });
 }
 
-/** Where an owner is in a domain's list, by its place. */
+/** An owner's index in a domain's list, by its place. */
 class OwnerIndices
 {
 public:
@@ -59,7 +59,7 @@ private:
 void AddTetrahedra(const Place& diamond, FineDomain& domain)
 {
   const OwnerIndices indexOf(diamond, domain);
-  const Grid grid({ 65, 65, 65 }); // all around any example
+  const Grid grid({ 65, 65, 65 }); // surrounds any example
   ForEachParentHalf(diamond,
     [&](int number, const Place& parent, const HalfTetrahedron& half)
     {

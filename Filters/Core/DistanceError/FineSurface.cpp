@@ -244,7 +244,7 @@ void FineSurface::FetchAll(std::vector<std::uint64_t> indices)
     [&](std::uint64_t a, std::uint64_t b)
     { return a % layer != b % layer ? a % layer < b % layer : a < b; });
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-  // Some at once: nobody needs more memory for what others want.
+  // Some at a time: no process needs more memory for what others want.
   constexpr std::size_t some = 64;
   for (std::size_t first = 0; first < indices.size(); first += some)
   {
@@ -256,7 +256,7 @@ void FineSurface::FetchAll(std::vector<std::uint64_t> indices)
 
 FineSurface::SomeBricks FineSurface::Fetch(const std::vector<std::int64_t>& indices) const
 {
-  // How many triangles there are in each cell, and then these.
+  // How many triangles there are in each cell, and then the triangles.
   std::vector<std::array<std::uint8_t, CellBrick::Cells / 2>> counts;
   std::vector<std::size_t> places; // of those that are made here
   SomeBricks made;

@@ -56,7 +56,7 @@ void BitTiles::Set(int firstSlice, int sliceCount, const std::vector<std::uint64
   const std::int64_t last = this->TileIndex(0, (endSlice + 7) >> 3);
   const auto tileOf = [&](const Point& at)
   {
-    Tile tile{}; // bits of other slices are 0 until these are set
+    Tile tile{}; // bits of other slices are 0 until those are set
     for (int z = std::max(8 * at[2], firstSlice); z < std::min(8 * at[2] + 8, endSlice); ++z)
     {
       for (int y = 8 * at[1]; y < std::min(8 * at[1] + 8, this->Points[1]); ++y)
@@ -77,7 +77,7 @@ void BitTiles::Set(int firstSlice, int sliceCount, const std::vector<std::uint64
   const std::size_t most = this->Mixed.size() + std::count(states.begin(), states.end(), 0);
   if (most > this->Mixed.capacity())
   {
-    this->Mixed.reserve(std::max(most, this->Mixed.size() + this->Mixed.size() / 4)); // not twice
+    this->Mixed.reserve(std::max(most, this->Mixed.size() + this->Mixed.size() / 4)); // not doubled
   }
   for (std::int64_t i = 0; i < last - first; ++i)
   {
@@ -114,7 +114,7 @@ void BitTiles::Or(Peers& peers)
         });
     });
   peers.Or(states);
-  // What is mixed for any of them is so for all, in the same order.
+  // Tiles that are mixed for any peer are so for all, in the same order.
   std::vector<Tile> all;
   peers.Together(
     [&]
@@ -140,7 +140,7 @@ void BitTiles::Or(Peers& peers)
 
 void BitTiles::Compress()
 {
-  std::vector<std::int32_t> numbers(this->Mixed.size(), 0); // by number now: what it will be
+  std::vector<std::int32_t> numbers(this->Mixed.size(), 0); // by present number: the new one
   for (std::size_t i = 0; i < this->Lookup.size(); ++i)
   {
     if (const std::int32_t found = this->Lookup[i]; found >= 0)

@@ -25,7 +25,7 @@ public:
   {
   }
 
-  /** Those of eight positions along x. */
+  /** The critical ones of eight positions along x. */
   std::uint64_t CriticalOfRow(int y, int z) const
   {
     std::uint64_t critical = 0;
@@ -37,14 +37,14 @@ public:
   }
 
 private:
-  /** Positions whose spine's ends both are on the side where the centre is not. */
+  /** Positions whose spine has both ends on the side where the centre is not. */
   std::uint32_t Candidates(int y, int z) const
   {
     const SignLattice::Row& centre = this->Block.RowAt(y, z, { 0, 0, 0 });
     const std::uint32_t above = centre.Above[this->Surface] >> 1;
     const std::uint32_t below = centre.Below(this->Surface) >> 1;
     std::uint32_t candidates = 0;
-    for (int type = 0; type < 4; ++type) // which x are odd, and x >> 1
+    for (int type = 0; type < 4; ++type) // whether x is odd, and x >> 1
     {
       const int odd = type & 1;
       const int high = type >> 1;
@@ -66,7 +66,7 @@ private:
     return candidates;
   }
 
-  /** Whether the sides change along the ring of a candidate other than they should. */
+  /** Whether the sides change otherwise than they should along the ring of a candidate. */
   bool IsCritical(const Point& position) const
   {
     const SpineRing& ring = RingOf(position);

@@ -40,7 +40,7 @@ Vector DifferencesAt(const SampleView<T>& samples, const Point& point, const Val
   return gradient;
 }
 
-/** The same, with gaps where there are any: few samples are beside one. */
+/** The same, minding gaps only where there are any: few samples are beside one. */
 template <typename T, typename ValueOf>
 Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const ValueOf& valueOf)
 {
@@ -50,7 +50,7 @@ Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const V
   return isKnown ? gradient : DifferencesAt<true>(samples, point, valueOf);
 }
 
-/** Whether all samples next to a cell's corners are there. */
+/** Whether all samples next to a cell's corners exist. */
 bool IsInside(const CellPosition& position, const std::array<int, 3>& dimensions)
 {
   bool isInside = true;
@@ -61,8 +61,8 @@ bool IsInside(const CellPosition& position, const std::array<int, 3>& dimensions
   return isInside;
 }
 
-/** The interpolated differences in index space at a position inside, where there are no gaps: most
- *  are, and large meshes wait for this. */
+/** The interpolated differences in index space at a position inside, where there are no gaps: so
+ *  most positions are, and large meshes wait for this. */
 template <typename T, typename ValueOf>
 Vector IndexGradientInside(
   const SampleView<T>& samples, const CellPosition& position, const ValueOf& valueOf)
@@ -83,8 +83,8 @@ Vector IndexGradientInside(
   return 0.5 * sum;
 }
 
-/** Gradients in the world for steps in index space, by the derivatives of the position: the vectors
- *  whose products with these are 1 on their own axis, and 0 on the others. */
+/** Gradients in the world for steps in index space, from the derivatives of the position: the
+ *  vectors whose products with these are 1 on their own axis, and 0 on the others. */
 std::array<Vector, 3> GradientsOfSteps(const std::array<Vector, 3>& derivatives)
 {
   std::array<Vector, 3> gradients = { Cross(derivatives[1], derivatives[2]),
@@ -97,7 +97,7 @@ std::array<Vector, 3> GradientsOfSteps(const std::array<Vector, 3>& derivatives)
   return gradients;
 }
 
-/** A gradient in index space as one in the world. */
+/** Converts a gradient in index space to one in the world. */
 Vector ToWorld(const std::array<Vector, 3>& ofSteps, const Vector& gradient)
 {
   return gradient[0] * ofSteps[0] + gradient[1] * ofSteps[1] + gradient[2] * ofSteps[2];
@@ -151,7 +151,7 @@ Vector Gradients::operator()(const Vector& index) const
   return this->At(index, [](auto sample) { return static_cast<double>(sample); });
 }
 
-/** Of a field that is 0 where samples are finite, else -1 or 1. */
+/** The gradient of a field that is 0 where samples are finite, else -1 or 1. */
 Vector Gradients::OfGaps(const Vector& index) const
 {
   return this->At(index,
@@ -176,7 +176,7 @@ Vector NormalOf(const Vector& gradient)
   {
     return (-1.0 / std::sqrt(squared)) * gradient;
   }
-  // Too short or too long to be squared, or no number.
+  // Too short or too long to be squared, or not a number.
   const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
   if (!(length > 0.0) || !std::isfinite(length))
   {

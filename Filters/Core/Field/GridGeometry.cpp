@@ -19,7 +19,7 @@ Vector AlongAxes(const AxisCoordinates& coordinates, const CellPosition& positio
   {
     const double* from = coordinates[axis].data() + position.Cell[axis];
     const double fraction = position.Fraction[axis];
-    // What has no weight does not count, even if it is no number.
+    // What has no weight does not count, even if it is not a number.
     along[axis] = (fraction != 1.0 ? (1.0 - fraction) * from[0] : 0.0) +
       (fraction != 0.0 ? fraction * from[1] : 0.0);
   }

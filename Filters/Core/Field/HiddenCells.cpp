@@ -53,7 +53,7 @@ bool HiddenCells::At(int scale, const Point& block) const
   {
     return false;
   }
-  // Beyond the top of the pyramid there is its one block.
+  // Beyond the top of the pyramid there is only its one block.
   const int last = static_cast<int>(this->Levels.size()) - 1;
   const Level& level = this->Levels[std::min(scale, last)];
   Point at{};

@@ -6,7 +6,7 @@ namespace isodiamond
 namespace
 {
 
-/** How many diamonds of scale 0 the layers of bricks have. */
+/** How many diamonds of scale 0 each layer of bricks has. */
 std::vector<std::int64_t> SizesOfLayers(const DiamondMask& all)
 {
   const BrickBox& box = all.Box(0);
@@ -22,7 +22,7 @@ std::vector<std::int64_t> SizesOfLayers(const DiamondMask& all)
   return sizes;
 }
 
-/** The slices that portions begin with which have about as many diamonds. */
+/** The first slices of portions that have about equally many diamonds. */
 std::vector<int> CutEvenly(const DiamondMask& all, int portions)
 {
   std::vector<int> begins = EvenCuts(SizesOfLayers(all), portions);

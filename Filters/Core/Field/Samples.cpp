@@ -18,7 +18,7 @@ bool IsFinite(T value)
   return std::is_integral_v<T> || value - value == T{ 0 };
 }
 
-/** The least and the greatest of some values; of NaN nothing. */
+/** The least and the greatest of some values; NaN is ignored. */
 template <typename T>
 struct Ends
 {
@@ -32,7 +32,7 @@ struct Ends
   }
 };
 
-/** The same of an array. In lanes of their own, so that no value waits for the one before. */
+/** The same for an array. In separate lanes, so that no value waits for the one before. */
 template <typename T>
 Ends<T> EndsInLanes(const T* values, std::int64_t count)
 {
@@ -58,7 +58,7 @@ Ends<T> EndsInLanes(const T* values, std::int64_t count)
   return ends;
 }
 
-/** The least and the greatest of the finite ones among some values. */
+/** The least and the greatest of the finite values among some. */
 template <typename T>
 Ends<T> FiniteEnds(const T* values, std::int64_t count)
 {
@@ -180,7 +180,7 @@ void FiniteRangeOfSlabs::Add(const AnySamples& samples, const ParallelFor& paral
     [&](const auto& view)
     {
       using T = typename std::decay_t<decltype(view)>::Value;
-      constexpr std::int64_t most = 1 << 18; // at once
+      constexpr std::int64_t most = 1 << 18; // at a time
       std::vector<Ends<T>> parts((view.Size() + most - 1) / most);
       ForEachIndex(parallelFor, parts.size(), 1,
         [&](std::int64_t i) {

@@ -10,7 +10,7 @@ namespace isodiamond
 namespace
 {
 
-/** Threshold one row of samples into bits. */
+/** Thresholds one row of samples into bits. */
 template <typename T, typename IsAbove>
 void PackRow(const T* row, int count, const IsAbove& isAbove, std::uint64_t* words)
 {
@@ -88,7 +88,7 @@ void SignLattice::Complete(const ParallelFor& parallelFor, std::int64_t minimumP
   }
 }
 
-/** The samples' own scale: a threshold. */
+/** Packs the samples' own scale: by thresholding. */
 void SignLattice::PackSamples(const SampleSlab& slab, int surface, const ParallelFor& parallelFor)
 {
   BitTiles& finest = this->Levels[0][surface];
@@ -135,7 +135,7 @@ SignLattice::Row SignLattice::Load(int scale, int x0, int y, int z) const
     return row;
   }
   row.Sampled = (1U << std::min(10, count[0] - x0 + 1)) - (x0 == 0 ? 2U : 1U);
-  const std::int64_t word = x0 >> 6; // has the eight; one before or after may lie in another
+  const std::int64_t word = x0 >> 6; // holds the eight; the bit before or after may be in another
   const int bit = x0 & 63;
   for (int surface = 0; surface < this->Surfaces; ++surface)
   {

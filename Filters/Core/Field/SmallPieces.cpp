@@ -17,8 +17,8 @@ namespace
 constexpr std::int64_t RowGrain = 64;
 constexpr std::int64_t RunGrain = 4096;
 
-/** Calls body(word, changes) for the words of a row: bits of changes are where a run of a side
- *  begins or, after it, has ended. @return whether the last run reaches the end of the last word */
+/** Calls body(word, changes) for the words of a row: bits of changes are set where a run of a side
+ *  begins, and just after it. @return whether the last run reaches the end of the last word */
 template <typename Body>
 bool ForEachWordOfChanges(const SignRows& rows, std::int64_t row, bool above, Body&& body)
 {
@@ -50,7 +50,7 @@ void FlipSigns(std::uint64_t* words, int begin, int end)
 }
 
 /**
- * Disjoint sets of indices, which threads join at the same time without locks.
+ * Disjoint sets of indices, which threads join concurrently without locks.
  *
  * Each points to a smaller one of its set, the smallest to itself: so the sets and the indices that
  * stand for them do not depend on the order of joins. Whatever once was an ancestor remains one, so
@@ -97,7 +97,7 @@ public:
       const std::uint32_t smaller = std::min(a, b);
       if (this->Parents[larger].compare_exchange_strong(larger, smaller, std::memory_order_relaxed))
       {
-        return; // else another thread was faster: it is no root any more
+        return; // otherwise another thread was faster: it is no longer a root
       }
     }
   }
@@ -111,7 +111,7 @@ private:
   std::vector<std::atomic<std::uint32_t>> Parents;
 };
 
-/** Samples [Begin, End) of a row, all on the side that is looked at; those next to them are not. */
+/** Samples [Begin, End) of a row, all on the side in question; those next to them are not. */
 struct Run
 {
   std::int32_t Begin = 0;
@@ -136,7 +136,7 @@ public:
     this->AddUpSizes();
   }
 
-  /** Flips the signs of those that are too small. @return how many these are */
+  /** Flips the signs of pieces that are too small. @return how many there are */
   std::int64_t RemoveSmall()
   {
     std::atomic<std::int64_t> removed{ 0 };
@@ -154,7 +154,7 @@ public:
   }
 
 private:
-  /** For each row the number of runs before it, and that of all. */
+  /** For each row the number of runs before it, then the number of all. */
   std::vector<std::int64_t> CountRuns() const
   {
     std::vector<std::int64_t> first(this->Rows.RowCount() + 1);
@@ -202,7 +202,7 @@ private:
     return runs;
   }
 
-  /** Joins runs of all pairs of neighbouring rows. */
+  /** Joins the runs of all pairs of neighbouring rows. */
   void ConnectRuns()
   {
     ForEachIndex(this->Parallel, this->Rows.RowCount(), RowGrain,
@@ -233,8 +233,8 @@ private:
       });
   }
 
-  /** Joins runs that have an edge between them: those that overlap, and those one of which begins
-   *  where the other ends, if the edge that moves along x as well is there.
+  /** Joins runs that have an edge between them: those that overlap, and those of which one begins
+   *  where the other ends, if there is an edge that moves along x as well.
    *  @param parity of the row's coordinates on the axes on which the other row differs */
   void ConnectRows(std::int64_t row, std::int64_t otherRow, int parity)
   {
@@ -255,8 +255,8 @@ private:
     }
   }
 
-  /** Sizes of pieces, at their roots. What has reached the minimum is not added to: most runs are
-   *  in a few pieces, and all threads would write to these. */
+  /** Adds up sizes of pieces, at their roots. Those that have reached the minimum are not added to:
+   *  most runs are in a few pieces, and all threads would write to these. */
   void AddUpSizes()
   {
     ForEachIndex(this->Parallel, this->Runs.size(), RunGrain,
@@ -291,7 +291,7 @@ private:
   bool Above;
   std::int64_t MinimumSize;
   const ParallelFor& Parallel;
-  std::vector<std::int64_t> First; ///< run of each row, and the number of all
+  std::vector<std::int64_t> First; ///< run of each row, then the number of all
   std::vector<Run> Runs;
   DisjointSets Sets;
   std::vector<std::atomic<std::int64_t>> Sizes; ///< at least the minimum means large enough

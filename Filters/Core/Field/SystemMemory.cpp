@@ -19,7 +19,7 @@ void PreferLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_
   const std::size_t toFirst = (page - reinterpret_cast<std::uintptr_t>(memory) % page) % page;
   if (bytes >= toFirst + page)
   {
-    // Advice only: where it is not taken nothing is lost.
+    // Advice only: if it is not taken, nothing is lost.
     madvise(static_cast<char*>(memory) + toFirst, (bytes - toFirst) / page * page, MADV_HUGEPAGE);
   }
 #endif

@@ -13,7 +13,7 @@ namespace
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr int Edge = BlockFits::FinestEdge;
 
-/** Rounds a bound up; infinite if arithmetic has overflown. */
+/** Rounds a bound up; infinite if arithmetic has overflowed. */
 float UpperFloat(double bound)
 {
   return bound < std::numeric_limits<float>::max()
@@ -25,7 +25,7 @@ float UpperFloat(double bound)
 class Block
 {
 public:
-  /** @param dimensions of the volume @param firstSlice of those that there are samples of */
+  /** @param dimensions of the volume @param firstSlice the first one that has samples here */
   template <typename T>
   Block(const std::array<int, 3>& dimensions, const SampleView<T>& samples, int firstSlice,
     const Point& first)
@@ -93,7 +93,7 @@ private:
     }
   }
 
-  /** Least squares. */
+  /** Fits by least squares. */
   void FitSlopes(BlockFit& fit)
   {
     std::array<double, 3> moments{};
@@ -117,7 +117,7 @@ private:
     }
   }
 
-  /** The range of the samples less the slopes. */
+  /** The range of the samples minus the slopes. */
   ValueRange Residuals(const BlockFit& fit)
   {
     ValueRange range{ Infinity, -Infinity };
@@ -177,7 +177,7 @@ void BlockFits::AddLevel(const std::array<int, 3>& dimensions, const SliceRange&
   {
     level.Count[axis] = blocksIn(dimensions[axis] - 1, Edge << number);
   }
-  // Of the finest ones; and what holds these.
+  // The finest blocks; and those that contain them.
   const int begin = blocksIn(own.Begin, Edge);
   const int end = std::min(blocksIn(own.End, Edge), blocksIn(dimensions[2] - 1, Edge));
   const bool isAny = begin < end;

@@ -10,7 +10,7 @@ namespace isodiamond
 namespace
 {
 
-/** Visits the samples of a domain. @param isWhole whether all its lattice points have one */
+/** Visits the samples of a domain. @param isWhole whether all its lattice points have samples */
 template <bool isWhole, typename T>
 DomainSummary SummarizeInOrder(
   const Grid& grid, const SampleView<T>& samples, int firstSlice, const Place& place)

@@ -22,7 +22,7 @@ int TypeWithSpine(int type)
 
 }
 
-/** Lists the points that bisection meets. */
+/** Lists the points that bisection reaches. */
 class MidpointOrder::Builder
 {
 public:

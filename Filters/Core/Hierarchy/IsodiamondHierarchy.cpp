@@ -21,8 +21,8 @@ void Require(bool condition, const char* message)
   }
 }
 
-/** The grid of an encoding, if its bricks can be looked up in memory that is in proportion: a
- *  damaged header must not ask for all there is. */
+/** The grid of an encoding, if looking up its bricks takes memory in proportion: a damaged header
+ *  must not request all there is. */
 Grid CheckedGrid(const EncodingView& encoding)
 {
   const Grid grid(encoding.Header.Dimensions);
@@ -133,7 +133,7 @@ public:
       { this->Above[this->IndexOf(place.Position)] = AboveOf(hierarchy.Sign(rank)); });
   }
 
-  /** Of the vertices of a diamond that have samples. */
+  /** The signs of those vertices of a diamond that have samples. */
   DiamondSigns Of(const Place& diamond, std::int64_t rank)
   {
     const Grid& grid = this->Hierarchy.TheGrid;
@@ -148,9 +148,9 @@ public:
 
 private:
   static constexpr int Width = 10;
-  static constexpr std::uint8_t Unknown = 0x80; ///< beside the bits of AboveOf()
+  static constexpr std::uint8_t Unknown = 0x80; ///< in addition to the bits of AboveOf()
 
-  /** A bit for each surface that a point of a sign lies above. */
+  /** A bit for each surface that a point with this sign lies above. */
   static std::uint8_t AboveOf(int sign) { return static_cast<std::uint8_t>((1 << sign) - 1); }
 
   /** By surface, the vertices that lie above. */
@@ -236,8 +236,8 @@ void IsodiamondHierarchy::CountByKind()
     "there are more relevant isodiamonds than the header says");
 }
 
-/** Where an edge crosses both surfaces of an interval volume, they are in the order of the signs.
- */
+/** Where an edge crosses both surfaces of an interval volume, its isovertices are in the order of
+ *  the signs. */
 void IsodiamondHierarchy::CheckOrderOnEdges() const
 {
   bool valid = true;
@@ -359,7 +359,7 @@ void IsodiamondHierarchy::CheckRecords() const
   Require(records.Size == this->Set.Size(), "the number of records does not match the bricks");
   Require(this->View.Arrays.Isovertices.Size <= std::numeric_limits<std::uint32_t>::max(),
     "more than 2^32 - 1 isovertices");
-  // Without a surface below, only an interior tolerance subdivides a diamond.
+  // If no descendant has a surface, only an interior tolerance subdivides a diamond.
   const bool interior = this->RefinesInterior();
   Require(!interior ||
       (this->Region().IsVolume() && this->View.Arrays.InteriorCodes.Size == records.Size),
@@ -403,9 +403,9 @@ void IsodiamondHierarchy::CheckFollowers() const
 
 int IsodiamondHierarchy::SignAt(const Place& place) const
 {
-  // A diamond that is not stored has one sign, that of each of its vertices (theorem 7.1). Its
-  // vertex with the lowest bit cleared on every axis is sampled where its centre is; the corners
-  // of the base cube end the chain.
+  // A diamond that is not stored has one sign, that of each of its vertices (theorem 7.1). The
+  // vertex with the lowest bit cleared on every axis is sampled if the centre is; the chain ends
+  // at the corners of the base cube.
   Point position = place.Position;
   int scale = place.Scale;
   while (true)

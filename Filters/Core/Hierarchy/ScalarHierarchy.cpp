@@ -54,7 +54,7 @@ public:
   {
   }
 
-  /** @param always subdivided in any case; null for nothing */
+  /** @param always subdivided in any case; null for none */
   void RefineFront(const DiamondMask* always)
   {
     if (always != nullptr)
@@ -65,7 +65,7 @@ public:
     this->EmptyQueue();
   }
 
-  /** Adds what has all vertices inside and a greater code, with all ancestors. */
+  /** Adds diamonds that have all vertices inside and a greater code, with all ancestors. */
   void RefineInside(ErrorCode::Type accepted)
   {
     this->FollowsFront = false;
@@ -121,7 +121,7 @@ private:
     }
   }
 
-  /** Adds the diamond and its missing ancestors; their children come to the front. */
+  /** Adds the diamond and its missing ancestors; their children join the front. */
   void Subdivide(const Place& place)
   {
     const Grid& grid = this->Hierarchy.SampleGrid();
@@ -149,7 +149,7 @@ private:
   const ScalarHierarchy& Hierarchy;
   const Isoregion& Region;
   ErrorCode::Type Accepted;
-  bool FollowsFront = true; ///< whether the children of what is subdivided are looked at
+  bool FollowsFront = true; ///< whether children of subdivided diamonds are visited
   DiamondMask Seen;
   std::vector<Place> Queue;
   ScalarHierarchy::WalkResult Result;

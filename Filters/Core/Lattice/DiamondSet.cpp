@@ -21,16 +21,16 @@ constexpr std::uint64_t OddY = 0xff00ff00ff00ff00U;
 constexpr std::uint64_t FirstX = 0x0101010101010101U;
 constexpr std::uint64_t LastX = 0x8080808080808080U;
 
-/** From each diamond of a class (1 or 2) one step both ways on each axis on which its position is
- *  even. */
+/** Takes one step both ways from each diamond of a class (1 or 2), on each axis on which its
+ *  position is even. */
 Neighbours StepOnEvenAxes(const BrickMask& mask, int diamondClass)
 {
-  const bool oneIsOdd = diamondClass == 2; // else two are
+  const bool oneIsOdd = diamondClass == 2; // otherwise two are
   Neighbours result{};
   for (int z = 0; z < 8; ++z)
   {
     const bool isOdd = (z & 1) != 0;
-    // Even on the one axis; of the other two one is odd, or both are.
+    // Even on this axis; of the other two, one or both are odd.
     const std::uint64_t onX =
       mask[z] & ~OddX & (isOdd == oneIsOdd ? ~OddY : OddY) & (isOdd || oneIsOdd ? ~0ULL : 0);
     const std::uint64_t onY =
@@ -47,7 +47,7 @@ Neighbours StepOnEvenAxes(const BrickMask& mask, int diamondClass)
   return result;
 }
 
-/** The bits of a brick's mask that are positions of the scale. */
+/** The bits of a brick's mask that are valid positions of the scale. */
 BrickMask Within(BrickMask mask, const Point& origin, const std::array<int, 3>& positions)
 {
   const std::uint64_t bits = BitsBetween(

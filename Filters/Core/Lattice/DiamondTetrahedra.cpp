@@ -17,7 +17,7 @@ Corners Sorted(Corners corners)
   return corners;
 }
 
-/** The corners of a half, with its diamond's centre replaced by the other end of the spine. */
+/** A half's corners, with its diamond's centre replaced by the other end of the spine. */
 Corners CornersOfWhole(const Point& position, const HalfTetrahedron& half)
 {
   const TypeTable& shape = ShapeOf(position);

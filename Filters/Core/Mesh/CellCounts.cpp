@@ -18,7 +18,7 @@ namespace
 /** Differences of the counts from one code to the next. */
 using Changes = std::vector<std::int64_t>;
 
-/** Counts the cells in the leaves that the diamonds of a brick are ever the parents of. */
+/** Counts the cells in all leaves that ever have a diamond of a brick as parent. */
 class BrickCounter
 {
 public:
@@ -56,7 +56,7 @@ public:
   }
 
 private:
-  /** The largest code at which a diamond is refined, and one more. */
+  /** One more than the largest code at which a diamond is refined. */
   ErrorCode::Type Threshold(std::int64_t rank) const
   {
     return this->Hierarchy.RefinesInterior() &&
@@ -65,7 +65,7 @@ private:
       : this->Hierarchy.Threshold(rank);
   }
 
-  /** The same of a child; 0 if it is never refined. */
+  /** The same for a child; 0 if it is never refined. */
   ErrorCode::Type ChildThreshold(const Place& child) const
   {
     const std::int64_t rank =

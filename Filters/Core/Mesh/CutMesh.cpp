@@ -12,7 +12,7 @@ namespace isodiamond
 namespace
 {
 
-/** Numbers lattice points in the order in which they come: a hash table with open addresses. */
+/** Numbers lattice points in the order in which they come: a hash table with open addressing. */
 class VertexNumbers
 {
 public:
@@ -45,7 +45,7 @@ private:
   Slot& Find(std::uint64_t key)
   {
     const std::size_t last = this->Slots.size() - 1;
-    // The product's highest bits are those that all coordinates have a say in.
+    // The product's highest bits depend on all coordinates.
     std::size_t i = (key * 0x9e3779b97f4a7c15U) >> (64 - this->Bits);
     while (this->Slots[i].Key != key && this->Slots[i].Key != NoKey)
     {
@@ -80,7 +80,7 @@ struct FoundLeaf
   std::array<CutMesh::Vertex, 4> Corners;
 };
 
-/** Whether a leaf lies in a hidden cell: it is of full resolution there, and lies in one cell. */
+/** Whether a leaf lies in a hidden cell: there it is of full resolution, and in a single cell. */
 bool LiesIn(const HiddenCells& hidden, const FoundLeaf& leaf)
 {
   Point least = leaf.Corners[0].Position;
@@ -233,7 +233,7 @@ std::optional<Place> DiamondOf(const CutMesh& mesh, std::size_t leaf, const Grid
 CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden)
 {
   const bool anyHidden = hidden != nullptr && hidden->Any();
-  // Bricks are read one by one on their own; then vertices are numbered in their order.
+  // Bricks are read independently; then vertices are numbered in the bricks' order.
   const std::int64_t bricks = passes.BrickCount();
   std::vector<std::vector<FoundLeaf>> leaves(bricks);
   passes.ForEachBrickWithCells(passes.AllCells(),

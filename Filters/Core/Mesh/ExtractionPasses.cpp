@@ -25,7 +25,7 @@ std::vector<CellRange> OwnCells(const std::vector<DealtCells>& dealt)
   return ranges;
 }
 
-/** Bricks of a level, from one layer in z to another, as numbers among all. */
+/** The bricks of a level from one layer in z to another, numbered among all bricks. */
 ExtractionPasses::BrickRange ExtractionPasses::BricksBetween(
   const BrickLevel& level, int first, int last)
 {
@@ -100,7 +100,7 @@ std::vector<ExtractionPasses::BrickRange> ExtractionPasses::BricksAround(
     {
       continue;
     }
-    // As far as the windows of vertices reach from those that have any.
+    // As far as the windows of vertices reach from bricks that have any.
     const int from = this->BrickAt(bricks[scale].First).Origin()[2] - 1;
     const int to = this->BrickAt(bricks[scale].Last - 1).Origin()[2] + 8;
     for (int step = 0; step <= std::min(this->Step, diamonds.ScaleCount() - 1 - scale); ++step)
@@ -157,7 +157,7 @@ std::int64_t ExtractionPasses::CountPoints(const RefinedBrick& brick)
   return points;
 }
 
-/** Counts become sums of all before. */
+/** Turns counts into the sums of all before. */
 void ExtractionPasses::SumUp()
 {
   for (std::size_t i = 0; i < this->Bricks.size(); ++i)

@@ -24,7 +24,7 @@ constexpr int MaximumTetrahedra = 6;
 /** A case of IntervalPatches() with every point listed once. */
 struct PatchTable
 {
-  /** A point: where AgePointPlaces has it, and how many bits after that. */
+  /** A point: where in AgePointPlaces it is, and how many bits after that. */
   struct TablePoint
   {
     std::uint8_t Index = 0;

@@ -18,7 +18,7 @@ PatchPointPlace PlaceOf(const Point& offset, int bit)
   return place;
 }
 
-/** On the edges of a half-tetrahedron, numbered as SurfacePatch.h does. */
+/** Places on the edges of a half-tetrahedron, numbered as in SurfacePatch.h. */
 using EdgePointPlaces = std::array<PatchPointPlace, 6>;
 
 EdgePointPlaces PlacesOnEdges(const TypeTable& shape, const HalfTetrahedron& half)

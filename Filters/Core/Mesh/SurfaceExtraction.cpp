@@ -16,7 +16,7 @@ namespace
 /** How much coarser than a leaf's parent the owner of one of its edges can be. */
 constexpr int MaximumOwnerStep = 1;
 
-/** The vertices that lie on the other side than the centre. */
+/** The vertices on the opposite side from the centre. */
 HalfTetrahedronMask CrossedVertices(const IsodiamondHierarchy& hierarchy, const LeafParent& parent)
 {
   return tables::MasksAsListed[parent.Type](hierarchy.Edges(parent.Rank));
@@ -26,11 +26,11 @@ HalfTetrahedronMask CrossedVertices(const IsodiamondHierarchy& hierarchy, const 
  * first one of its patch, bit 1 for the second. */
 HalfTetrahedronMask TrianglesOf(const LeafParent& parent, HalfTetrahedronMask crossed)
 {
-  // There are two where two vertices lie on the other side than the third and the centre.
+  // There are two where two vertices lie on the opposite side from the third and the centre.
   return parent.Leaves | ((parent.Leaves & HalvesWithTwo(crossed)) << 1);
 }
 
-/** Of the diamond that a leaf with triangles lies in; 0 at full resolution. */
+/** The threshold of the diamond that a leaf with triangles lies in; 0 at full resolution. */
 ErrorCode::Type ThresholdOfLeaf(
   const IsodiamondHierarchy& hierarchy, const LeafParent& parent, int half)
 {

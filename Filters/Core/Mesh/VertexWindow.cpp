@@ -16,12 +16,12 @@ VertexWindow::VertexWindow(const ExtractionPasses& passes, std::int64_t number)
   }
 }
 
-/** Adds the diamonds of a scale. @param step that scale minus the brick's */
+/** Adds the diamonds of a scale. @param step this scale minus the brick's */
 void VertexWindow::Fill(const ExtractionPasses& passes, int scale, int step)
 {
   const BrickLevel& level = passes.Refined().Diamonds().Level(scale);
-  // A vertex of the diamond's own scale is odd where the diamond is even, if they differ on an
-  // axis: it lies in the brick or before it.
+  // On axes where a vertex of the diamond's own scale differs from the diamond, it is odd and the
+  // diamond even: it lies in the brick or before it.
   const int width = step == 0 ? Width - 1 : Width;
   Point first{};
   Point last{};

@@ -57,7 +57,7 @@ void AddFan(std::vector<PatchPoint> polygon, std::vector<Triangle>& triangles)
   }
 }
 
-/** The polygon on a surface: the edges there that only one face's polygon has, turned round. */
+/** The polygon on a surface: the edges there that only one face's polygon has, reversed. */
 std::vector<PatchPoint> SurfacePolygon(const PatchStates& states, int surface)
 {
   using Edge = std::array<PatchPoint, 2>;
@@ -111,7 +111,7 @@ public:
     this->Points.erase(std::unique(this->Points.begin(), this->Points.end()), this->Points.end());
   }
 
-  /** Looks for a filling of at most so many tetrahedra. */
+  /** Looks for a filling of at most this many tetrahedra. */
   bool Run(int most) { return this->Fill(most); }
 
   const std::vector<PatchTetrahedron>& Result() const { return this->Tetrahedra; }
@@ -149,7 +149,7 @@ private:
     return false;
   }
 
-  /** Takes a tetrahedron off: its faces on the front go, the others become the front. */
+  /** Removes a tetrahedron: its faces on the front go, its others join the front. */
   void Remove(const Triangle& base, const PatchPoint& apex)
   {
     this->Front.pop_back();
@@ -217,7 +217,7 @@ bool HasDiagonals(const PatchStates& states, int surface)
 }
 
 /** The fewest safe tetrahedra, over both diagonals of every quadrilateral on a surface: all choices
- *  that get by with so few, the first one first. */
+ *  that need no more, in order. */
 std::vector<std::vector<PatchTetrahedron>> FindPatches(const PatchStates& states)
 {
   const auto [low, high] = std::minmax_element(states.begin(), states.end());
@@ -256,8 +256,8 @@ std::vector<std::vector<PatchTetrahedron>> FindPatches(const PatchStates& states
 int SafeOrientation(const PatchStates& states, const PatchTetrahedron& points)
 {
   // The orientation is linear in the place of every isovertex on its edge, so its sign is constant
-  // if it is at all combinations of the edges' ends, where the points are vertices again and it is
-  // that of a permutation. Two points of one edge leave only its direction, which is constant.
+  // if it is the same at all combinations of the edges' ends; there the points are vertices, and it
+  // is that of a permutation. Two points of one edge leave only its direction, which is constant.
   int orientation = 0;
   for (int ends = 0; ends < 16; ++ends)
   {
@@ -275,7 +275,7 @@ int SafeOrientation(const PatchStates& states, const PatchTetrahedron& points)
         if (!point.IsVertex() && point.Younger() == other.Younger() &&
           point.Older() == other.Older() && point.Surface() < other.Surface())
         {
-          // The lower isovertex at the end that lies lower, the upper one at the other.
+          // The lower isovertex goes to the end that lies lower, the upper one to the other.
           const bool oldIsLower = states[point.Older()] < states[point.Younger()];
           valid = valid && old == oldIsLower && (((ends >> j) & 1) != 0) == !oldIsLower;
         }

@@ -14,8 +14,8 @@ namespace
 
 using Triangle = std::array<PatchPoint, 3>;
 
-/** The triangles of a case's tetrahedra whose corners all lie on a surface. Inner faces have two
- *  tetrahedra; the others are the surface. */
+/** The triangles of a case's tetrahedra whose corners all lie on a surface. Inner faces belong to
+ *  two tetrahedra; the others form the surface. */
 std::vector<Triangle> TrianglesOnSurface(
   const std::vector<PatchTetrahedron>& tetrahedra, int surface)
 {

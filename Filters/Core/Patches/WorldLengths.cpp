@@ -105,7 +105,7 @@ AxesLengths::AxesLengths(AxisCoordinates coordinates, int padding)
 {
   for (std::vector<double>& axis : this->Coordinates)
   {
-    // A grid far from the origin would lose digits.
+    // Otherwise a grid far from the origin would lose digits.
     const double first = axis.front();
     std::transform(axis.begin(), axis.end(), axis.begin(), [=](double c) { return c - first; });
     this->AbsoluteError += 1e-14 * std::abs(axis.back());
@@ -122,7 +122,7 @@ double AxesLengths::Along(int axis, std::int32_t position) const
   const std::vector<double>& coordinates = this->Coordinates[axis];
   const std::int32_t inGrid = position - FineUnits * this->Padding;
   const int last = static_cast<int>(coordinates.size()) - 2;
-  const int cell = std::clamp(inGrid / FineUnits, 0, last); // a negative one comes to 0, too
+  const int cell = std::clamp(inGrid / FineUnits, 0, last); // also takes negative ones to 0
   const double part = 1.0 / FineUnits * (inGrid - FineUnits * cell);
   return coordinates[cell] + part * (coordinates[cell + 1] - coordinates[cell]);
 }

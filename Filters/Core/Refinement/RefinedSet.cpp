@@ -50,7 +50,7 @@ private:
   bool Interior;
 };
 
-/** The diamonds of a brick that exceed. */
+/** The diamonds of a brick that exceed what is tolerated. */
 BrickMask ExceedingIn(const Brick& brick, const Exceeds& exceeds)
 {
   BrickMask mask{};
@@ -63,7 +63,7 @@ BrickMask ExceedingIn(const Brick& brick, const Exceeds& exceeds)
   return mask;
 }
 
-/** Of a brick's candidates those that are no relevant ones, and exceed what is tolerated of them.
+/** Those of a brick's candidates that are not relevant and exceed what is tolerated of them.
  *  @param areSure whether they exceed that wherever they are in the brick */
 BrickMask ExceedingLocally(const IsodiamondHierarchy& hierarchy, const BrickPlace& place,
   const BrickMask& candidates, const LocalTolerance& tolerance, bool areSure)
@@ -99,8 +99,8 @@ bool HasParentIn(const DiamondMask& set, const Place& place)
   return has;
 }
 
-/** Adds a diamond to a closed set, which stays so. Few at a time: CloseOverParents() goes over all.
- */
+/** Adds a diamond to a closed set, which stays closed. For few diamonds: CloseOverParents() goes
+ *  over all. */
 void InsertWithAncestors(const Grid& grid, const Place& place, DiamondMask& set)
 {
   if (place.Scale == grid.Depth() || !grid.IsValid(place.Position, place.Scale) ||
@@ -115,7 +115,7 @@ void InsertWithAncestors(const Grid& grid, const Place& place, DiamondMask& set)
   }
 }
 
-/** Adds to a closed set what follows, with all ancestors, until nothing does. */
+/** Adds followers to a closed set, with all ancestors, until there are none to add. */
 void AddFollowers(const IsodiamondHierarchy& hierarchy, DiamondMask& set)
 {
   const ArrayView<std::uint64_t>& followers = hierarchy.Followers();
@@ -134,9 +134,9 @@ void AddFollowers(const IsodiamondHierarchy& hierarchy, DiamondMask& set)
 }
 
 /**
- * What is wanted beyond the diamonds that exceed what is tolerated everywhere, with all ancestors,
- * those that an MI does not store, too, and with what follows these. Of followers whose parents
- * exceed what is tolerated everywhere nothing has to be known: they have the same threshold.
+ * The diamonds wanted beyond those that exceed what is tolerated everywhere, with all ancestors,
+ * even those that an MI does not store, and with the followers of these. Followers whose parents
+ * exceed what is tolerated everywhere need no care: they have the same threshold.
  */
 DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalTolerance& tolerance,
   const Exceeds& exceedsEverywhere, const ParallelFor& parallelFor)
@@ -180,7 +180,7 @@ DiamondMask WantedLocally(const IsodiamondHierarchy& hierarchy, const LocalToler
   return wanted;
 }
 
-/** The stored diamonds that exceed, and those that are wanted. @param wanted may be null */
+/** The stored diamonds that exceed what is tolerated, and wanted ones. @param wanted may be null */
 DiamondSet Select(const IsodiamondHierarchy& hierarchy, const Exceeds& exceeds,
   const DiamondMask* wanted, const ParallelFor& parallelFor)
 {
@@ -261,7 +261,7 @@ std::int64_t RefinedSet::CountFront() const
       grid.IsValid(child.Position, child.Scale) && !this->Contains(child) &&
       !(onlyStored && !this->Source.Diamonds().Contains(child));
   };
-  // The first of its refined parents counts a child.
+  // A child is counted by the first of its refined parents.
   const auto isFirst = [&](const Place& parent, const Place& child)
   {
     const TypeTable& shape = ShapeOf(child.Position);

@@ -15,7 +15,7 @@ namespace
 {
 
 /** The smallest box in the world around a box of lattice points. Each coordinate grows or falls
- * with each index, whose sign tells at which corners it is least and greatest; so it does rounded.
+ * with each index, and the sign tells at which corners it is least and greatest; also if rounded.
  */
 Box BoundsOf(const Point& minimum, const Point& maximum, const AffineMap& world)
 {
@@ -36,8 +36,8 @@ Box BoundsOf(const Point& minimum, const Point& maximum, const AffineMap& world)
   return bounds;
 }
 
-/** For each side of the box whether a point lies beyond it: what has a side in common with all
- *  corners of a cell is apart from the cell. */
+/** For each side of the box, whether a point lies beyond it: if all corners of a cell lie beyond
+ *  the same side, the box is apart from the cell. */
 unsigned SidesBeyond(const Box& box, const Vector& point)
 {
   unsigned sides = 0;
@@ -103,7 +103,7 @@ RegionOfInterest::RegionOfInterest(const Box& box, const Grid& grid, const Affin
       throw std::invalid_argument("The region of interest has a bound that is not a number.");
     }
   }
-  // Bounds beyond the base cube, infinite ones too, come to the cube's: no diamond is outside.
+  // Bounds beyond the base cube, even infinite ones, become the cube's: no diamond is outside.
   const int last = 1 << grid.Depth();
   const Box cube = BoundsOf({ 0, 0, 0 }, { last, last, last }, world);
   for (int axis = 0; axis < 3; ++axis)
@@ -155,7 +155,7 @@ bool RegionOfInterest::Touches(const Place& place) const
   {
     return relation == Relation::Within;
   }
-  // The tetrahedra: half of each, and the other end of the spine instead of the centre.
+  // The tetrahedra: a half of each, with the other end of the spine instead of the centre.
   const TypeTable& shape = ShapeOf(place.Position);
   const auto vertexAt = [&](int vertex) { return centre + h * shape.Offsets[vertex]; };
   for (int i = 0; i < shape.HalfTetrahedronCount; ++i)
@@ -172,7 +172,7 @@ bool RegionOfInterest::Touches(const Place& place) const
 }
 
 /** By separating axes: two convex polyhedra are apart if and only if they are so along a normal of
- *  a face of one of them, or along the product of an edge of the one and an edge of the other. */
+ *  a face of one of them, or along the cross product of an edge of one and an edge of the other. */
 bool RegionOfInterest::TouchesTetrahedron(const std::array<Point, 4>& corners) const
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -190,7 +190,7 @@ bool RegionOfInterest::TouchesTetrahedron(const std::array<Point, 4>& corners) c
     points[i] = this->World(corners[i][0], corners[i][1], corners[i][2]);
     if (SidesBeyond(this->Bounds, points[i]) == 0)
     {
-      return true; // as most do that touch it
+      return true; // as do most that touch it
     }
   }
   const auto isSeparating = [&](const Vector& axis)

@@ -8,7 +8,7 @@ namespace isodiamond
 namespace
 {
 
-/** The cosine between the normals of two triangles at an edge; sharper ones are not made, unless
+/** The cosine between the normals of two triangles at an edge; sharper edges are not made, unless
  *  one as sharp was there before. */
 constexpr double SharpestCosine = -0.7;
 
@@ -29,7 +29,7 @@ private:
 
 }
 
-/** Whether what would fill a hole is sharper, in it or with what is around, than all was before. */
+/** Whether filling a hole makes a crease, in it or at its border, sharper than any before. */
 bool EdgeCollapses::MakesCrease(std::uint32_t vertex, const Hole& hole) const
 {
   Sharpest before(SharpestCosine);
@@ -63,7 +63,7 @@ bool EdgeCollapses::MakesCrease(std::uint32_t vertex, const Hole& hole) const
   return after.IsSharperThan(before);
 }
 
-/** The same of a flip. */
+/** The same for a flip. */
 bool EdgeCollapses::MakesCrease(const Flip& flip) const
 {
   Sharpest before(SharpestCosine);
@@ -77,7 +77,7 @@ bool EdgeCollapses::MakesCrease(const Flip& flip) const
       const std::uint32_t outer = this->Neighbours[triangle][edge];
       if (outer != None && outer != flip.First && outer != flip.Second)
       {
-        // The first one has A afterwards, the second one B.
+        // Afterwards the first triangle has A, the second one B.
         const std::uint32_t from = this->Triangles[triangle][edge];
         const std::uint32_t to = this->Triangles[triangle][(edge + 1) % 3];
         const bool hasA = from == flip.A || to == flip.A;

@@ -82,7 +82,7 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuar
   }
 }
 
-/** What goes along the border is to stay near to its line: to the plane through that, upright. */
+/** What moves along the border is to stay near its line: near the upright plane through it. */
 void EdgeCollapses::AddBorder(std::uint32_t from, std::uint32_t to, const Vector& normal)
 {
   const Vector along = this->Positions[to] - this->Positions[from];
@@ -161,14 +161,14 @@ bool EdgeCollapses::FindHole(std::uint32_t vertex, std::uint32_t first, Hole& ho
   return hole.Count > 2;
 }
 
-/** The link condition, and nothing new between fixed vertices. The hole is filled from its first
- *  point. */
+/** Checks the link condition, and that nothing new is between fixed vertices. The hole is filled
+ *  from its first point. */
 bool EdgeCollapses::KeepsTopology(const Hole& hole)
 {
   const std::uint32_t target = hole.Points[0];
   if (hole.Count == 3 && !hole.IsOpen())
   {
-    // The one new triangle must not be there on the other side, which may be another part's.
+    // The one new triangle must not exist on the other side, which may belong to another part.
     const std::uint32_t opposite = hole.Triangles[1];
     const std::uint32_t beyond =
       this->Neighbours[opposite][PlaceOf(this->Triangles[opposite], hole.Points[1])];
@@ -202,7 +202,7 @@ bool EdgeCollapses::KeepsTopology(const Hole& hole)
 
 void EdgeCollapses::Offer(std::uint32_t vertex, double cost, std::uint32_t target)
 {
-  // The next one after the one that was refused.
+  // The next candidate after the one that was refused.
   Candidate best{ HUGE_VAL, vertex, None, this->Versions[vertex] };
   const Quadric& quadric = this->Quadrics[vertex];
   const bool isAtBorder = this->IsAtBorder[vertex];
@@ -234,7 +234,7 @@ void EdgeCollapses::Offer(std::uint32_t vertex, double cost, std::uint32_t targe
   }
 }
 
-/** What is offered of a vertex may be another one after a neighbour went into a target. */
+/** The best collapse of a vertex may be another one after a neighbour collapsed into a target. */
 void EdgeCollapses::OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::uint32_t target)
 {
   Price& best = this->Best[vertex];
@@ -246,7 +246,7 @@ void EdgeCollapses::OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::ui
   }
   else if (vertex == target || best.Target == gone)
   {
-    best.IsOld = true; // not less, most likely: seen to in its turn
+    best.IsOld = true; // most likely not cheaper: seen to in its turn
   }
 }
 
@@ -265,7 +265,7 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
     }
   }
   this->RemovedIn[vertex] = number;
-  // The first and the last triangle go: what was beyond them becomes neighbours.
+  // The first and the last triangle go: triangles beyond them become neighbours of the rest.
   const auto close = [&](std::uint32_t gone, std::uint32_t stays, int edge)
   {
     const std::uint32_t beyond = gone == None

@@ -9,19 +9,19 @@ namespace isodiamond
 namespace
 {
 
-/** The least cosine between the normals of a triangle at a ridge and of what takes its place. */
+/** The least cosine between the normals of a triangle at a ridge and of the one replacing it. */
 constexpr double LeastCosineAtRidges = 0.25;
 
 }
 
-/** Lets a sample go with what fills a part of the hole. */
+/** Assigns a sample to what fills a part of the hole. */
 void EdgeCollapses::Take(Filling& filling, std::uint32_t sample)
 {
   this->Samples[sample].NextOver = filling.FirstSample;
   filling.FirstSample = sample;
 }
 
-/** Whether a sample is near enough to what fills the hole; then it goes with that. */
+/** Whether a sample is near enough to what fills the hole; then it is assigned to that. */
 bool EdgeCollapses::IsNear(
   const Hole& hole, const Watched& sample, std::uint32_t number, const Hole::Place& place)
 {
@@ -31,7 +31,7 @@ bool EdgeCollapses::IsNear(
     ++at;
   }
   Filling& filling = this->Fillings[at];
-  // Over a hole that is closed the plane's distance will do; beside it, or the new border, it would
+  // Over a closed hole the distance to the plane will do; beside it, or the new border, it would
   // not.
   double distance = 0.0;
   if (hole.IsOpen())
@@ -77,13 +77,13 @@ bool EdgeCollapses::KeepsShape(std::uint32_t vertex, const Hole& hole) const
   return true;
 }
 
-/** From a triangle that fills a part of a hole. */
+/** The distance from a triangle that fills a part of a hole. */
 TriangleDistance EdgeCollapses::DistanceFrom(int i, const Hole& hole) const
 {
   return { this->Corner, this->Positions[hole.Points[i]], this->Positions[hole.Points[i + 1]] };
 }
 
-/** Puts a triangle into a hole. @return whether it faces a direction, at the least by a cosine */
+/** Puts a triangle into a hole. @return whether it faces a direction, by at least a cosine */
 bool EdgeCollapses::Put(int i, const Hole& hole, const Vector& direction, double leastCosine)
 {
   const Vector across = Cross(this->Positions[hole.Points[i]] - this->Corner,
@@ -94,8 +94,8 @@ bool EdgeCollapses::Put(int i, const Hole& hole, const Vector& direction, double
   return Dot(across, direction) > leastCosine * length;
 }
 
-/** Fills a hole by triangles from its first point: the i-th one has the points 0, i and i + 1.
- *  @return whether they are seen as the hole is */
+/** Fills a hole with triangles from its first point: the i-th one has the points 0, i and i + 1.
+ *  @return whether they are seen from the side that the hole is */
 bool EdgeCollapses::Fill(const Hole& hole)
 {
   this->FillingCount = hole.Count - 1;
@@ -142,8 +142,8 @@ bool EdgeCollapses::TakesSamples(std::uint32_t vertex, const Hole& hole)
   return true;
 }
 
-/** Whether a sample is near enough to what fills the hole of a ridge and faces as it does; then it
- *  goes with the nearest such triangle. @param normal of what it lay over; 0 of the vertex */
+/** Whether a sample is near enough to a triangle that fills the hole of a ridge and faces as it
+ *  does; then it is assigned to the nearest. @param normal of what it lay over; 0 for the vertex */
 bool EdgeCollapses::IsNearRidge(std::uint32_t number, const Vector& normal)
 {
   const Watched& sample = this->Samples[number];
@@ -166,9 +166,9 @@ bool EdgeCollapses::IsNearRidge(std::uint32_t number, const Vector& normal)
   return nearest != nullptr;
 }
 
-/** Fills a hole that is not seen as one polygon, or hardly, as around a vertex on the edge of a
- * thin wall: each triangle has to face nearly as the one whose place it takes.
- *  @return whether all samples over it are near enough to what faces as they do */
+/** Fills a hole that is not, or hardly, seen as one polygon, as around a vertex on the edge of a
+ * thin wall: each triangle has to face nearly as the one that it replaces does.
+ *  @return whether all samples over it are near enough to a triangle that faces as they do */
 bool EdgeCollapses::FillRidge(std::uint32_t vertex, const Hole& hole)
 {
   if (hole.IsOpen())
@@ -198,7 +198,7 @@ bool EdgeCollapses::FillRidge(std::uint32_t vertex, const Hole& hole)
   return isNear;
 }
 
-/** Fills the hole of a vertex that is where its target is: by triangles that are where the old ones
+/** Fills the hole of a vertex that coincides with its target: with triangles where the old ones
  *  were. */
 void EdgeCollapses::FillWithTheSame(std::uint32_t vertex, const Hole& hole)
 {
@@ -221,8 +221,8 @@ void EdgeCollapses::FillWithTheSame(std::uint32_t vertex, const Hole& hole)
   }
 }
 
-/** Whether a hole can be filled from its first point by what is seen, near and shaped as it has to
- *  be; then it is. */
+/** Whether a hole can be filled from its first point with triangles seen, near and shaped as they
+ *  have to be; then it is. */
 bool EdgeCollapses::CanFill(std::uint32_t vertex, Hole& hole)
 {
   if (this->Positions[vertex] == this->Positions[hole.Points[0]])

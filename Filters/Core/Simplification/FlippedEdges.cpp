@@ -10,23 +10,23 @@ namespace isodiamond
 namespace
 {
 
-/** Sweeps over what may be worth it; most is done in two. */
+/** Sweeps over edges that may be worth a flip; most is done in two. */
 constexpr int MostSweeps = 4;
 
-/** What a flip may leave of the sum of squared distances, at the most; and if it makes a sliver. */
+/** The part of the sum of squared distances that a flip may leave; and one that makes a sliver. */
 constexpr double WorthPart = 0.95;
 constexpr double WorthPartOfSliver = 0.75;
 
-/** The sine of the smallest angle of what is no sliver: of 10 degrees. */
+/** The sine of the smallest angle of a triangle that is no sliver: of 10 degrees. */
 constexpr double SliverSine = 0.17;
 
-/** Of what could be better: of 30 degrees; how much better that is; and what the mean squared
- *  distance may grow by for it, as a part of what is allowed. */
+/** The sine below which a shape could be better: of 30 degrees; how much better it has to get; and
+ *  how much the mean squared distance may grow for that, as a part of what is allowed. */
 constexpr double ShapelySine = 0.5;
 constexpr double BetterShape = 1.2;
 constexpr double PriceOfShape = 0.05;
 
-/** An edge, whichever way. */
+/** A key of an edge, in either direction. */
 std::uint64_t KeyOf(std::uint32_t a, std::uint32_t b)
 {
   return (std::uint64_t{ std::min(a, b) } << 32U) | std::max(a, b);
@@ -66,8 +66,8 @@ void EdgeCollapses::FlipEdges()
   }
 }
 
-/** Finds what the flip of an edge would be. @return whether it may be: seen along the mean normal
- *  of both triangles they stay the same polygon, and neither is one that has to stay */
+/** Finds what the flip of an edge would be. @return whether it is allowed: along the mean normal of
+ *  both triangles they are still seen as the same polygon, and neither is one that has to stay */
 bool EdgeCollapses::SeeFlip(std::uint32_t triangle, int edge, Flip& flip) const
 {
   flip.First = triangle;
@@ -104,8 +104,8 @@ bool EdgeCollapses::SeeFlip(std::uint32_t triangle, int edge, Flip& flip) const
     turn({ flip.D, flip.B, flip.C }, flip.SecondNormal);
 }
 
-/** Whether the samples are nearer to the surface after a flip, all in all, or not much farther
- * where the shape gets better; and each near enough, and no angle less than wanted, unless one was.
+/** Whether after a flip the samples are nearer to the surface overall, or not much farther if the
+ * shape gets better; and each is near enough, and no angle less than wanted, unless one was before.
  */
 bool EdgeCollapses::IsWorthIt(const Flip& flip) const
 {
@@ -193,8 +193,8 @@ void EdgeCollapses::UndoFlip(const Step& step)
   this->ShareSamples(first, second, a, Cross(firstAcross + secondAcross, along));
 }
 
-/** Makes two triangles that have an edge of a quadrangle's in common those on both sides of the
- *  edge from its point a to b: (a, b, c) and (b, a, d). @param points a to d */
+/** Makes two triangles that share a diagonal of a quadrangle those on both sides of the edge from
+ *  its point a to b: (a, b, c) and (b, a, d). @param points a to d */
 void EdgeCollapses::SetSides(
   std::uint32_t first, std::uint32_t second, const std::array<std::uint32_t, 4>& points)
 {
@@ -230,8 +230,8 @@ void EdgeCollapses::SetSides(
   this->AnyTriangle[d] = second;
 }
 
-/** Puts what lies over two triangles over the one where it is seen: over the second what lies from
- *  a point in a direction, across their common edge. */
+/** Puts the samples of two triangles over the one where they are seen: over the second, those that
+ *  lie from a point in a direction, across their common edge. */
 void EdgeCollapses::ShareSamples(
   std::uint32_t first, std::uint32_t second, std::uint32_t point, const Vector& towardSecond)
 {

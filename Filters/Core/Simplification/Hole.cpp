@@ -31,7 +31,7 @@ bool Hole::SeeFromAbove(
     return false;
   }
   this->Normal = (1.0 / length) * across;
-  // Two axes across.
+  // Two axes across the normal.
   const Vector& n = this->Normal;
   const Vector other = std::abs(n[0]) < 0.6 ? Vector{ 1.0, 0.0, 0.0 } : Vector{ 0.0, 1.0, 0.0 };
   const Vector scaled = Cross(n, other);

@@ -26,8 +26,8 @@ std::vector<double> AreasAround(const TriangleMesh& mesh)
   return areas;
 }
 
-/** How much of a place belongs to each corner of a triangle: its barycentric coordinates, as it is
- *  seen from above; of one beside the triangle as much as is not negative. */
+/** How much of a place belongs to each corner of a triangle: its barycentric coordinates, seen from
+ *  above; beside the triangle, only those that are not negative. */
 std::array<double, 3> SharesOf(const Vector& place, const std::array<Vector, 3>& corners)
 {
   const Vector across = Cross(corners[1] - corners[0], corners[2] - corners[0]);

@@ -10,7 +10,7 @@ namespace isodiamond
 namespace
 {
 
-/** So many triangles are worth a thread. */
+/** This many triangles are worth a thread. */
 constexpr std::size_t GroupSize = 1024;
 
 std::size_t GroupsOf(std::size_t count)
@@ -45,7 +45,7 @@ PartDistance::PartDistance(MeshPart& part, bool isStartNear)
 {
 }
 
-/** Of one mesh: what threads that look at it share. */
+/** What the threads that look at one mesh share. */
 class PartDistance::Comparison
 {
 public:
@@ -115,7 +115,7 @@ public:
   /** @return what has been found of all that was looked at */
   Result Take() { return std::move(this->Made); }
 
-  /** A triangle of the original, if it was near to what is another one now. */
+  /** Looks at a triangle of the original, if what it was near to has changed. */
   void Look(std::uint32_t original)
   {
     const IdRange near = this->Part.Near[original];
@@ -158,7 +158,7 @@ private:
     const std::array<Vector, 3> corners =
       this->Part.Original.Corners(this->Part.Positions, original);
     const double allowance = this->Part.Allowances[original];
-    // What is near to a triangle is convex: one that all corners are near to will do.
+    // The region near a triangle is convex: one that all corners are near to will do.
     std::uint32_t start = None;
     const auto isNear = [&](std::uint32_t number)
     {
@@ -215,7 +215,7 @@ private:
     return isNear;
   }
 
-  /** Nothing is near to a triangle of the original. */
+  /** Marks what is at fault if nothing is near to a triangle of the original. */
   void Mark(std::uint32_t original)
   {
     const auto mark = [&](const IdRange& triangles)
@@ -228,7 +228,7 @@ private:
     if (std::all_of(near.begin(), near.end(),
           [&](std::uint32_t number) { return this->Whole.IsAsAtStart(number); }))
     {
-      mark(this->Whole.All.NearAtStart[original]); // of which something is another one
+      mark(this->Whole.All.NearAtStart[original]); // something of which has changed
     }
     const Triangle& points = this->Part.Original.Triangles[original];
     std::copy_if(points.begin(), points.end(), std::back_inserter(this->Made.Found.Points),
@@ -278,7 +278,7 @@ private:
       (this->IsInShadow(simple, corners) || this->IsNearInPieces(corners));
   }
 
-  /** What of the original may be near to a triangle. */
+  /** Finds which triangles of the original may be near to a triangle. */
   void FindAround(std::uint32_t simple)
   {
     const auto add = [&](std::uint32_t number)
@@ -304,8 +304,8 @@ private:
     }
   }
 
-  /** Whether the shadow of what is around a triangle of the simpler mesh tells that it is near.
-   * Seen along its normal, or where the surface bends along that of the original, or of what is
+  /** Whether the shadow of what is around a triangle of the simpler mesh shows that it is near.
+   * Seen along its normal or, where the surface bends, along that of the original or of what is
    * beside it: one of these ways may be short where another one is not. */
   bool IsInShadow(std::uint32_t simple, const std::array<Vector, 3>& corners)
   {
@@ -355,10 +355,11 @@ private:
   Covering& SimpleCover;
   Covering& Cover;
   ShadowTest& Shadow;
-  std::vector<std::uint32_t> Around; ///< one triangle
+  std::vector<std::uint32_t> Around; ///< around one triangle
 };
 
-/** Each triangle of the original. Lists are told in the triangles' order, whoever found them. */
+/** Looks at all triangles of the original. Lists are in these triangles' order, whoever found them.
+ */
 void PartDistance::Comparison::GoForth(const ParallelFor& parallelFor)
 {
   MeshPart& part = this->All.Part;
@@ -393,7 +394,7 @@ void PartDistance::Comparison::GoForth(const ParallelFor& parallelFor)
   }
 }
 
-/** Each triangle that is another one now. */
+/** Looks at all triangles that have changed. */
 void PartDistance::Comparison::GoBack(const ParallelFor& parallelFor)
 {
   const std::size_t count = this->Simple.Triangles.size();

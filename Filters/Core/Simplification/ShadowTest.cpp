@@ -55,7 +55,7 @@ bool ShadowTest::Reset(const std::array<Vector, 3>& corners, const Vector& direc
   }
   this->Middle = { (this->Corners[1][0] + this->Corners[2][0]) / 3.0, this->Corners[2][1] / 3.0 };
   this->Slack = SlackPart * longest;
-  // What is beside a side may be in a corner, whose angle has a sine of this and more.
+  // What is beside a side may be in a corner, whose angle has a sine of at least this.
   const double sine = area / (longest * longest);
   this->Strip = 2.0 * this->Slack / sine;
   return sine > 3.0 * SlackPart && up > LeastUp; // the middle is a third of the height away
@@ -90,7 +90,7 @@ bool ShadowTest::Enters(const Shadow& a, const Shadow& b) const
   {
     return false;
   }
-  // Else the edge's own line separates them, or nothing does.
+  // Otherwise the edge's own line separates them, or nothing does.
   const Place along = { b.At[0] - a.At[0], b.At[1] - a.At[1] };
   const double slack = this->Slack * std::hypot(along[0], along[1]);
   bool anyLeft = false;
@@ -119,7 +119,7 @@ int ShadowTest::CrossesRay(const Shadow& a, const Shadow& b) const
   return left > 0.0 ? (isAbove ? -1 : 1) : 0;
 }
 
-/** Whether what a triangle has over the other one is near to its plane. */
+/** Whether the part of a triangle over the other one is near to the other's plane. */
 bool ShadowTest::IsLow(std::uint32_t triangle)
 {
   const Triangle& points = this->Mesh.Triangles[triangle];
@@ -130,7 +130,7 @@ bool ShadowTest::IsLow(std::uint32_t triangle)
   if ((shadows[0]->Beyond & shadows[1]->Beyond & shadows[2]->Beyond) != 0 ||
     std::all_of(shadows.begin(), shadows.end(), isLow))
   {
-    return true; // what is so near is convex: corners tell
+    return true; // the region so near is convex: corners decide
   }
   ClippedCorners corners;
   int count = 0;
@@ -146,7 +146,7 @@ bool ShadowTest::IsLow(std::uint32_t triangle)
     [&](const Clipped& corner) { return std::abs(corner[2]) <= allowance; });
 }
 
-/** Leaves what lies inside of a side of the triangle. @return how many corners that has */
+/** Keeps what lies inside a side of the triangle. @return how many corners that has */
 int ShadowTest::Clip(int side, ClippedCorners& corners, int count) const
 {
   const ClippedCorners all = corners;
@@ -185,7 +185,7 @@ bool ShadowTest::Covers(const std::array<Vector, 3>& corners, const Vector& dire
   {
     this->Chosen[triangle] = this->Test;
   }
-  // What is beyond an edge that enters is to be one of them, too.
+  // The triangle beyond an edge that enters has to be one of them, too.
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     if (!this->IsLow(triangles[i]))

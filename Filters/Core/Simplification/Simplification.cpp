@@ -14,7 +14,7 @@ namespace isodiamond
 namespace
 {
 
-/** Allowances of less than this part of a triangle's length are none. */
+/** Allowances of less than this part of a triangle's length count as none. */
 constexpr double LeastOfTypical = 1e-3;
 
 /** The root of a triangle's mean area. */
@@ -28,7 +28,7 @@ double TypicalLength(const TriangleMesh& mesh)
   return std::sqrt(area / static_cast<double>(mesh.Triangles.size()));
 }
 
-/** A pass, and where it cuts: what was at the border of parts in one is inside in the next. */
+/** A pass, and where it cuts: what is at the border of parts in one is inside one in the next. */
 struct Pass
 {
   double Cut;
@@ -46,7 +46,7 @@ SimplerMesh Simplify(
     !(*std::max_element(mesh.Allowances.begin(), mesh.Allowances.end()) >
       LeastOfTypical * TypicalLength(mesh.Mesh)))
   {
-    // Nothing to be saved, but much to be tried.
+    // There would be nothing to save, but much to try.
     return { mesh.Mesh, std::vector<std::uint32_t>(mesh.Mesh.Positions.size(), None) };
   }
   SimplifiedMesh simplified(mesh);

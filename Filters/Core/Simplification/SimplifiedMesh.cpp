@@ -28,8 +28,8 @@ std::size_t CountThere(const LinkedTriangles& mesh)
 }
 
 /** Makes a part simpler: collapses edges, measures, and undoes what leads too far, until nothing
- *  does. The part's triangles, near lists and samples are those of the result.
- *  @return whether much had to be undone: a collapse takes all with it that builds on it */
+ *  does. The part's triangles, near lists and samples become those of the result.
+ *  @return whether much had to be undone: with a collapse goes all that builds on it */
 bool CollapseOnce(MeshPart& part, double usedPart)
 {
   PartDistance distance(part, true);
@@ -69,7 +69,7 @@ void CollapseEdges(MeshPart& part, double usedPart)
   }
 }
 
-/** What belongs to each part. @param partOf (number) -> part, or None */
+/** The numbers that belong to each part. @param partOf (number) -> part, or None */
 template <typename PartOf>
 CellsAtPoints ByPart(std::size_t parts, std::size_t count, PartOf&& partOf)
 {
@@ -114,7 +114,7 @@ struct SimplifiedMesh::Division
   std::vector<std::uint32_t> Number;         ///< in its part
   std::vector<bool> IsHeld;                  ///< by triangle of the simpler mesh
   CellsAtPoints Originals;                   ///< by part
-  std::vector<std::uint32_t> OwnerOf;        ///< by original triangle: the part; None of several
+  std::vector<std::uint32_t> OwnerOf;        ///< by original triangle: the part; None if several
   std::vector<std::uint32_t> OriginalNumber; ///< in its part
   CellsAtPoints Samples;                     ///< that lie over triangles, by part
 };
@@ -259,8 +259,8 @@ MeshPart SimplifiedMesh::Take(
   return part;
 }
 
-/** The points of a part, and its samples: these, the middles of its original triangles, and what
- * else lies over its own ones. */
+/** The points of a part, and its samples: these points, the middles of its original triangles, and
+ * what else lies over its own triangles. */
 void SimplifiedMesh::AddPoints(const Division& division, std::uint32_t number,
   const PointNumbers& numbers, std::vector<std::uint32_t>& ids, MeshPart& part) const
 {
@@ -296,8 +296,8 @@ void SimplifiedMesh::AddPoints(const Division& division, std::uint32_t number,
   part.IsFixed = this->FixedPoints(division, number, ids, part);
 }
 
-/** What is held stays, and what other parts have, too: of a point where sheets meet a part may have
- *  one only. */
+/** What is held stays, and so does what other parts also have: where sheets meet at a point, a part
+ *  may have only one of them. */
 std::vector<bool> SimplifiedMesh::FixedPoints(const Division& division, std::uint32_t number,
   const std::vector<std::uint32_t>& ids, const MeshPart& part) const
 {
@@ -374,7 +374,7 @@ void SimplifiedMesh::Simplify(
   this->PutTogether(division, made);
 }
 
-/** Triangles that are left get new numbers, by which all else goes. */
+/** Gives new numbers to the triangles that are left, and all else follows these. */
 void SimplifiedMesh::PutTogether(const Division& division, const std::vector<Made>& made)
 {
   std::vector<std::uint32_t> renamed(this->Triangles().size(), None);

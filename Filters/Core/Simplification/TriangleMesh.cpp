@@ -65,7 +65,7 @@ bool Connectivity::IsPinched(std::uint32_t point) const
     const int place = PlaceOf(this->Links.Triangles[triangle], point);
     return this->Links.Neighbours[triangle][(place + edge) % 3];
   };
-  // Around it from any of them; if that ends at the border, the other way, too.
+  // Around it from any of them; if that ends at the border, also the other way.
   const std::uint32_t first = *this->At(point).begin();
   std::size_t seen = 0;
   std::uint32_t at = first;

@@ -79,7 +79,7 @@ void EdgeCollapses::TakeAway(std::uint32_t sample)
   this->Homes[sample] = None;
 }
 
-/** What lies over the triangles that filled a hole lies over those that are there again. */
+/** Puts what lies over the triangles that filled a hole over those that are back. */
 void EdgeCollapses::GiveBackSamples(const Step& step)
 {
   Hole hole;
@@ -183,7 +183,7 @@ std::vector<bool> EdgeCollapses::Undo(
       mark(this->RemovedIn[vertex]);
     }
   }
-  // What builds on it, forwards; then back.
+  // Forwards to find what builds on it; then back.
   std::vector<bool> isTouched(this->Triangles.size());
   for (std::size_t i = 0; i < this->Steps.size(); ++i)
   {
@@ -216,7 +216,7 @@ std::vector<bool> EdgeCollapses::Undo(
   return isTouched;
 }
 
-/** Steps that are left get new numbers. */
+/** Gives new numbers to the steps that are left. */
 void EdgeCollapses::Forget(const std::vector<bool>& isUndone)
 {
   std::size_t kept = 0;

@@ -17,21 +17,21 @@ namespace isodiamond
 namespace
 {
 
-/** Less of what a tetrahedron lacks is no improvement. */
+/** Gaining less than this part of what a tetrahedron lacks is no improvement. */
 constexpr double LeastGain = 0.01;
-/** Where fewer are wanted, a change has to gain so many times what one before it does. */
+/** Where fewer are wanted, a change has to gain this many times what an earlier one does. */
 constexpr double ClearlyBetter = 1.05;
 /** How far a point on a surface may move, as a part of its edge. */
 constexpr double MostOfEdge = 0.25;
 
-/** Changes by chance leave tetrahedra of this part of the wanted sine, or more. */
+/** Random changes leave tetrahedra with at least this part of the wanted sine. */
 constexpr double LeastPartByChance = 0.1;
 
 /** Tries all changes around one tetrahedron after the other. */
 class ChangeSearch
 {
 public:
-  /** @param chance picks any change instead of the best one, if it is there */
+  /** @param chance picks any change instead of the best one, if not null */
   ChangeSearch(
     const LocalMesh& mesh, const ImprovementOptions& options, std::minstd_rand* chance = nullptr)
     : Mesh(mesh)
@@ -41,7 +41,7 @@ public:
   {
   }
 
-  /** All in an order by chance, until one can be done. */
+  /** Tries all in random order, until one can be done. */
   Change FindAny(std::uint32_t tetrahedron)
   {
     const Corners corners = this->Mesh.CornersOf(tetrahedron);
@@ -129,7 +129,7 @@ private:
     }
   }
 
-  /** Those that may change a surface, the others, or both. */
+  /** Edges that may change a surface, the others, or both. */
   enum class Edges
   {
     All,
@@ -175,7 +175,7 @@ private:
     return sum;
   }
 
-  /** Of the tetrahedra of a star with its point at a place. */
+  /** What the tetrahedra of a star lack with its point at a place. */
   Shortfall LackAt(const PointStar& star, const Vector& place) const
   {
     Shortfall sum(this->Wanted);
@@ -193,7 +193,7 @@ private:
   }
 
   /** Whether a change would be the best one so far: the worst gets no worse, and all together
-   *  better. By chance, whether it could be done. */
+   *  better. If chance picks, whether it could be done. */
   bool IsBetter(const Shortfall& before, const Shortfall& after) const
   {
     return this->Chance == nullptr
@@ -206,7 +206,7 @@ private:
     const bool isAfterAnother = this->Options.LeavesFewer && this->Best.Kind != Change::None;
     return (isAfterAnother ? ClearlyBetter : 1.0) * this->Best.Gain;
   }
-  /** Begins the best change so far. */
+  /** Begins a new best change. */
   Change& Take(Change::Kinds kind, const Shortfall& before, const Shortfall& after)
   {
     this->Best = Change();
@@ -291,7 +291,7 @@ private:
   }
 
   /** Whether edges, and a lone triangle, between points around an edge are not in the mesh yet, and
-   *  everybody can tell what is on a surface. */
+   *  it is clear what is on a surface. */
   bool AreNew(const LocalMesh::Ring& ring, const std::vector<Corners>& fresh) const
   {
     const std::vector<std::uint32_t>& points = ring.Points;
@@ -317,7 +317,7 @@ private:
     return points.size() > 3 || this->Mesh.CountAt(points[0], points[1], points[2]) == 0;
   }
 
-  /** Two tetrahedra on both sides of the face opposite to a point become three. */
+  /** Turns the two tetrahedra at the face opposite to a point into three. */
   void TryToRemoveFace(std::uint32_t tetrahedron, std::uint32_t apex)
   {
     const Corners& corners = this->Mesh.CornersOf(tetrahedron);

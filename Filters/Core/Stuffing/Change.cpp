@@ -21,7 +21,7 @@ void Split(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& ch
   mesh.Move(point, change.Place);
 }
 
-/** The old point stays known: it tells where the surface was. Attributes are those of before. */
+/** The old point stays known: it tells where the surface was. Attributes stay as they were. */
 void Shift(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& changed)
 {
   const std::uint32_t old = change.Point;

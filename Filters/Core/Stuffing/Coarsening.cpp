@@ -13,11 +13,11 @@ namespace isodiamond
 namespace
 {
 
-/** The dihedral angle in degrees that tetrahedra have at the least, and by which they have less
- *  than 180, unless what they replace has worse ones. The less, the fewer tetrahedra. */
+/** The least distance in degrees of the tetrahedra's dihedral angles from 0 and from 180, unless
+ *  what they replace has worse ones. The less, the fewer tetrahedra. */
 constexpr double LeastAngle = 16.0;
 
-/** Passes over inside and surfaces; what one leaves lets the other one go on. */
+/** Passes over the inside and the surfaces; what one leaves lets the other go on. */
 constexpr int CollapsePasses = 6;
 
 /** How often edges inside that could not collapse are tried again, where points have moved. */
@@ -104,7 +104,7 @@ std::vector<std::uint32_t> Coarsen(
       distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched, parallelFor);
     isTouched = faults.Any() ? edges.Undo(faults.Triangles, faults.Points) : std::vector<bool>();
   } while (std::find(isTouched.begin(), isTouched.end(), true) != isTouched.end());
-  // All that is left changes the inside alone, and nothing has to be undone any more.
+  // All that is left to do changes only the inside, and nothing has to be undone any more.
   if (!input.KeepsInside)
   {
     tetrahedra.RelaxInside(input.Axes, parallelFor);

@@ -15,13 +15,13 @@ namespace isodiamond
 namespace
 {
 
-/** Most is done in the first pass; what is left is tried with other chances, and more of them. */
+/** Most is done in the first pass; what is left is tried with other random choices, and more. */
 constexpr int DetourPasses = 4;
 ///@{
-/** Changes that are tried at one place, and in all: some, and so many more for each tetrahedron
- * that is good thanks to them; they take half of that. Where a mesh can be no better, as it is
- * coarse, it ends soon; and where steps on the axes differ, and much is bad, it takes no longer
- * than single changes do. */
+/** Changes that are tried at one place, and in all: some, and this many more for each tetrahedron
+ * that is good thanks to them; they take half of that. Where a mesh is too coarse to be better, it
+ * ends soon; and where steps on the axes differ, and much is bad, it takes no longer than single
+ * changes do. */
 constexpr std::int64_t TriesAtOnePlace(int pass)
 {
   return std::int64_t{ 1000 } << pass;
@@ -33,14 +33,14 @@ constexpr std::int64_t MostTries(std::size_t tetrahedra)
   return 2000 + static_cast<std::int64_t>(tetrahedra / 5);
 }
 ///@}
-/** Changes by chance at the beginning of an attempt, 1 to that. */
+/** Random changes at the beginning of an attempt: 1 to this many. */
 constexpr int MostByChance = 3;
 /** Improvements after that. */
 constexpr int MostImprovements = 40;
 /** Tetrahedra whose surroundings are searched at the same time, if they are apart. */
 constexpr std::size_t LooksAtOnce = 16;
 
-/** Changes of what is around a tetrahedron. */
+/** Changes to what is around a tetrahedron. */
 struct Detour
 {
   std::vector<Surroundings::Step> Steps;
@@ -123,7 +123,7 @@ private:
 
   std::size_t Draw(std::size_t count) { return this->Random() % count; }
 
-  /** Changes something that touches a bad tetrahedron, several times. @return whether it could */
+  /** Makes several random changes that touch a bad tetrahedron. @return whether it could */
   bool ChangeByChance(State& state, int times)
   {
     for (; times > 0; --times)
@@ -149,7 +149,7 @@ private:
     return true;
   }
 
-  /** What is bad, as far as single changes help: the worst first, each time. */
+  /** Improves what is bad, as far as single changes help: the worst first, each time. */
   void Improve(State& state)
   {
     bool goesOn = true;
@@ -193,7 +193,7 @@ public:
   {
   }
 
-  /** Of the first ones of some tetrahedra. @param waiting loses those */
+  /** Takes those of the first of some tetrahedra. @param waiting loses these */
   std::vector<Surroundings> Take(std::vector<std::uint32_t>& waiting)
   {
     ++this->Turn;
@@ -226,7 +226,7 @@ private:
   const LocalMesh& Mesh;
   const ImprovementOptions& Options;
   int Turn = 0;
-  std::vector<int> TakenIn; ///< by point: the last turn in which it was
+  std::vector<int> TakenIn; ///< by point: the last turn that it was in
 };
 
 }

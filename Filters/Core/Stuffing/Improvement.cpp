@@ -18,8 +18,8 @@ namespace
 
 /** Passes over what is bad; most is done in two. */
 constexpr int MostPasses = 10;
-/** Tries in all passes, of so many that are bad at first: where it is hopeless, for a coarse mesh
- *  can be no better, they would become ever more. */
+/** Tries in all passes, for this many that are bad at first: where it is hopeless, as a coarse mesh
+ *  can be no better, there would be ever more. */
 constexpr std::size_t MostTries(std::size_t bad)
 {
   return 1000 + 4 * bad;
@@ -64,7 +64,7 @@ public:
     }
   }
 
-  /** What is left, for which no single change does anything. */
+  /** Improves what is left, for which no single change does anything. */
   void TakeDetours(const ParallelFor& parallelFor)
   {
     isodiamond::TakeDetours(this->Mesh, this->Options, parallelFor);
@@ -74,8 +74,8 @@ public:
 
 private:
   /** Finds the best changes for some tetrahedra at once, and does them one after the other. A
-   *  change that is found by what another one has changed is found again: so all are as if each
-   *  had been found when it was its turn. */
+   *  change found from what another one has changed since is searched for again: so all are as if
+   *  each had been found when its turn came. */
   void Improve(const std::uint32_t* tetrahedra, std::size_t count, const ParallelFor& parallelFor,
     std::vector<std::uint32_t>& changed)
   {

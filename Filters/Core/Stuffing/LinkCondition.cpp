@@ -13,7 +13,7 @@ namespace isodiamond
 namespace
 {
 
-/** Few points: to look at all of them is faster than any order. */
+/** A set of few points: looking at all of them is faster than any order. */
 class PointSet
 {
 public:
@@ -63,8 +63,8 @@ public:
 
   bool IsEmpty() const { return this->Edges.empty(); }
 
-  /** Whether anything of a triangle of the other end's link is of the first end's link, too, but
-   *  not of the edge's. */
+  /** Whether anything of a triangle in the other end's link is also in the first end's link, but
+   *  not in the edge's. */
   bool IsMoreInCommon(const Face& face) const
   {
     const std::array<bool, 3> isOnRing = { this->Ring.Has(face[0]), this->Ring.Has(face[1]),
@@ -104,12 +104,12 @@ private:
   const LocalMesh& Mesh;
   PointSet Around;                  ///< the first end's link, and both ends
   PointSet Ring;                    ///< the edge's link
-  std::vector<Edge> Edges;          ///< of the ring, sorted ends
+  std::vector<Edge> Edges;          ///< of the ring, with sorted ends
   std::vector<std::uint32_t> Apart; ///< tetrahedra at the first end that do not have the other
 };
 
-/** The edges opposite to a point of the triangles of the boundary there: of all edges opposite to
- *  it those that one tetrahedron has. */
+/** The edges opposite to a point in the boundary's triangles there: of all edges opposite to it,
+ *  those that only one tetrahedron has. */
 std::vector<Edge> BoundaryLink(const LocalMesh& mesh, std::uint32_t point)
 {
   const LocalMesh::Star star = mesh.StarOf(point);
@@ -160,7 +160,7 @@ std::vector<std::uint32_t> Common(
   return common;
 }
 
-/** What of the boundary a point's triangles lie on. */
+/** Which places of the boundary a point's triangles lie on. */
 int PlacesAround(const LocalMesh& mesh, std::uint32_t point, const std::vector<Edge>& link)
 {
   int places = 0;

@@ -178,7 +178,7 @@ bool LocalMesh::FindRing(std::uint32_t a, std::uint32_t b, std::size_t most, Rin
   return true;
 }
 
-/** What a point is made of. */
+/** The points that a point is blended from. */
 std::vector<Share> LocalMesh::SharesOf(std::uint32_t point) const
 {
   return this->BlendOf[point] == None ? std::vector<Share>{ { point, 1.0 } }
@@ -214,7 +214,7 @@ void LocalMesh::NoteShares(std::uint32_t point, const std::vector<Share>& shares
 
 void LocalMesh::Move(std::uint32_t point, const Vector& to)
 {
-  // Attributes are those that the tetrahedra around it have there now.
+  // Attributes are those that the tetrahedra around it now have there.
   double best = -HUGE_VAL;
   std::vector<Share> shares;
   for (const std::uint32_t tetrahedron : this->StarOf(point))

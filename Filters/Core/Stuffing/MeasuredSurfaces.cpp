@@ -23,7 +23,7 @@ struct OwnedTriangle
   std::uint32_t Owner = 0;
 };
 
-/** Walks over a mesh to what is nearest. */
+/** Walks over a mesh to the nearest triangle. */
 class Walker
 {
 public:
@@ -33,8 +33,8 @@ public:
   {
   }
 
-  /** From the nearest of some triangles, of which any may be None, to one beside it, as long as one
-   *  is nearer. @return None if there is none to start from */
+  /** Goes from the nearest of some triangles, any of which may be None, to one beside it, as long
+   *  as one is nearer. @return None if there is none to start from */
   template <typename Starts>
   std::uint32_t NearestTo(const Vector& position, const Starts& starts)
   {
@@ -46,7 +46,7 @@ public:
       nearest = this->NearerOf(this->Mesh.Linked().Neighbours[at], position, at);
       if (nearest == at && !this->Cover.IsOver(at, position))
       {
-        // The way to another one may lead around a point to which all between are as near.
+        // The way to a nearer one may lead around a point where all triangles between are as near.
         for (const std::uint32_t point : this->Mesh.Linked().Triangles[at])
         {
           nearest = this->NearerOf(this->Mesh.At(point), position, nearest);
@@ -92,8 +92,8 @@ public:
   {
   }
 
-  /** First of triangles in a leaf where there is one, or with a point that both meshes have; the
-   *  rest from what is beside it. */
+  /** First for triangles in a leaf that still has one, or with a point that both meshes have; for
+   *  the rest from what is beside them. */
   void Find(const ParallelFor& parallelFor)
   {
     const std::vector<Triangle>& originals = this->Part.Original.Triangles;
@@ -125,7 +125,7 @@ private:
     return this->Part.Samples[this->Part.Positions.size() + triangle];
   }
 
-  /** In the same leaf, and at the points that are still there. */
+  /** Triangles in the same leaf, and at the points that are still there. */
   std::array<std::uint32_t, 4> StartsOf(std::size_t original) const
   {
     const auto [a, b, c] = this->Part.Original.Triangles[original];
@@ -169,7 +169,7 @@ private:
           SurfaceSample& sample = this->MiddleOf(neighbour);
           sample.Home = walker.NearestTo(
             sample.Position, std::array<std::uint32_t, 1>{ this->MiddleOf(waiting[at]).Home });
-          if (sample.Home != None) // no distance is finite, if it is
+          if (sample.Home != None) // if it is None, no distance is finite
           {
             waiting.push_back(neighbour);
           }
@@ -184,7 +184,7 @@ private:
   std::vector<std::uint32_t> AnyIn; ///< by triangle of the original, see above
 };
 
-/** Points, and then the middles of the original's triangles. */
+/** Adds points, and then the middles of the original's triangles. */
 void AddSamples(const std::vector<double>& allowances, MeshPart& part)
 {
   for (const Vector& position : part.Positions)
@@ -221,7 +221,7 @@ Surfaces SurfacesOf(const TetrahedronMesh& mesh)
       }
     }
   }
-  // What two tetrahedra have is inside. Each look is at the few triangles with one least point.
+  // Faces of two tetrahedra are inside. Each look is at the few triangles with one least point.
   const CellsAtPoints byLeast(mesh.Positions.size(), all.size(),
     [&](std::size_t i) { return std::array<std::uint32_t, 1>{ all[i].Sorted[0] }; });
   Surfaces result;

@@ -16,7 +16,7 @@ constexpr double NearPart = 0.25;
 /** Moves between two looks at whether to go on. */
 constexpr std::size_t MovesOfStep = 1024;
 
-/** So many vertices, or leaves, are worth a thread. */
+/** This many vertices, or leaves, are worth a thread. */
 constexpr std::int64_t LeastRange = 2048;
 
 /** The least sine of a dihedral angle that a move may leave in a whole tetrahedron. */
@@ -59,7 +59,7 @@ void MovedVertices::MoveAll(const ParallelFor& parallelFor)
   InSteps(parallelFor, goals.size(), MovesOfStep,
     [&](std::size_t i)
     {
-      // Moves of others took isovertices away.
+      // Other moves have taken isovertices away.
       if (const Goal goal = this->NearestTo(goals[i].Vertex); goal.Distance < NearPart)
       {
         this->TryToMove(goal);
@@ -111,8 +111,8 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
   return nearest;
 }
 
-/** Whether all tetrahedra around a vertex are round enough, and the pieces of those that a surface
- *  cuts on a line that is not straight any more positive. */
+/** Whether all tetrahedra around a vertex are round enough, and those that a surface cuts on a line
+ *  that is no longer straight have positive pieces. */
 bool MovedVertices::AreAllRound(std::uint32_t vertex) const
 {
   const CellsAtPoints::Cells star = this->Mesh.StarOf(vertex);
@@ -210,7 +210,7 @@ Corners MovedVertices::CornersOf(std::uint32_t tetrahedron, const PatchTetrahedr
     this->PointOf(tetrahedron, piece[flip ? 2 : 3]) };
 }
 
-/** Of several ways to cut a leaf the one whose worst piece is best. */
+/** Of several ways to cut a leaf, the one whose worst piece is best. */
 std::uint8_t MovedVertices::BestPatch(std::uint32_t tetrahedron) const
 {
   const std::vector<std::vector<PatchTetrahedron>>& patches = this->PatchesOf(tetrahedron);

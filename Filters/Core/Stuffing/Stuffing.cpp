@@ -15,10 +15,10 @@ namespace isodiamond
 namespace
 {
 
-/** In degrees; a little more than what is promised to be tried, for coordinates get rounded. */
+/** In degrees; a little more than is promised to be tried for, as coordinates get rounded. */
 constexpr double WantedAngle = 15.5;
 
-/** Where more than this part of the tetrahedra is bad, to improve them takes longer than to measure
+/** Where more than this part of the tetrahedra is bad, improving them takes longer than measuring
  *  the surfaces once more. */
 constexpr double ManyBad = 0.1;
 
@@ -56,7 +56,7 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
   return axes;
 }
 
-/** By point, of isovertices. */
+/** The cut edges of isovertices, by point. */
 std::vector<CutSide> CutEdgesOf(const Background& background)
 {
   std::vector<CutSide> edges(background.AllCrossings().size());
@@ -104,7 +104,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   result.Mesh = vertices.Cut(parallelFor);
   if (getsCoarser && AreManyBad(result.Mesh, options))
   {
-    // Nearly all that will be too far away is so by now: to improve it would be for nothing.
+    // Nearly all that will be too far away already is: improving it would be for nothing.
     result.FarLeaves = FarLeaves(result.Mesh, coarsening, parallelFor);
   }
   if (result.FarLeaves.empty())

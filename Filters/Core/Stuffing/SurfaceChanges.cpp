@@ -11,11 +11,11 @@ namespace isodiamond
 namespace
 {
 
-/** The least cosine between the normals of a surface's triangles whose common edge is turned. */
+/** The least cosine between the normals of a surface's triangles whose common edge is flipped. */
 constexpr double LeastCosine = 0.5;
 
-/** Two edges at a vertex of the lattice have at least 35.26 degrees between them; the tangent of
- *  less than half of that. */
+/** The tangent of less than half of the least angle between two edges at a vertex of the lattice,
+ *  35.26 degrees. */
 constexpr double SpindleSlope = 0.3;
 
 Vector NormalOf(const std::array<Vector, 3>& corners)

@@ -10,7 +10,7 @@ namespace isodiamond
 namespace
 {
 
-/** Walks from a triangle, given by the two of its edges where sides change, over one of these.
+/** Walks from a triangle over one of the two edges where its sides change, which stand for it.
  *  @return how many triangles it passes, negative if it does not come back */
 int Walk(const std::vector<std::array<Edge, 2>>& triangles, int side)
 {
@@ -56,7 +56,7 @@ bool SurfaceLinks::HasOneCycle(std::uint32_t vertex, int surface) const
     const auto others = Without(this->Mesh.CornersOf(tetrahedron), vertex);
     for (int i = 0; i < 3; ++i)
     {
-      // The one whose side is not that of the two others.
+      // The one that is not on the side of the two others.
       const std::uint32_t lone = others[i];
       const std::uint32_t a = others[(i + 1) % 3];
       const std::uint32_t b = others[(i + 2) % 3];
@@ -80,8 +80,8 @@ bool SurfaceLinks::HasOneCycle(std::uint32_t vertex, int surface) const
   return around < 0 && -around + -Walk(mixed, 1) - 1 == count;
 }
 
-/** Whether vertices inside make at most one run around an edge on a surface, and are on one side
- *  only of each triangle there. */
+/** Whether vertices inside make at most one run around an edge on a surface, and are on only one
+ *  side of each triangle there. */
 bool SurfaceLinks::HasOneRun(std::uint32_t vertex, std::uint32_t other, int surface) const
 {
   const Walls::Type walls = this->Mesh.WallsOf(vertex) & this->Mesh.WallsOf(other);
@@ -115,7 +115,7 @@ bool SurfaceLinks::HasOneRun(std::uint32_t vertex, std::uint32_t other, int surf
   return !anyInside || (isOneSided && changes == (walls == 0 ? 2 : 1));
 }
 
-/** The same of all edges on a surface opposite to a vertex, in its tetrahedra. */
+/** The same for all edges on a surface opposite to a vertex, in its tetrahedra. */
 bool SurfaceLinks::HaveOneRunEach(std::uint32_t vertex, int surface) const
 {
   for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))

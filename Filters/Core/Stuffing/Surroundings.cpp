@@ -11,7 +11,7 @@ namespace isodiamond
 namespace
 {
 
-/** The tetrahedron of a mesh with these corners, in any order, which is there. */
+/** The tetrahedron of a mesh with these corners, in any order; it must exist. */
 std::uint32_t TetrahedronOf(const LocalMesh& mesh, const Corners& corners)
 {
   const LocalMesh::Star star = mesh.StarOf(corners[0]);
@@ -79,7 +79,7 @@ TetrahedronMesh Surroundings::CopyOf(
     copy.Origins.push_back(whole.Mesh().Origins[each]);
   }
 
-  // Where a surface was is told by points that may not be in the mesh any more.
+  // Points that may no longer be in the mesh tell where a surface was.
   const std::size_t points = this->TheIds.size();
   for (std::uint32_t i = 0; i < points; ++i)
   {

@@ -12,8 +12,8 @@ namespace
 {
 
 ///@{
-/** How many times as long as the longest edge that one of its ends had an edge may get, by where
- * the vertex that goes is: a solution needs cells inside, a surface that is flat hardly any. */
+/** How long an edge may get, in times the longest edge that one of its ends had, by where the
+ * vertex that goes is: a solution needs cells inside, a flat surface hardly any. */
 constexpr double MostTimesInside = 1.25;
 constexpr double MostTimesOnSurfaces = 2.0;
 ///@}
@@ -21,7 +21,7 @@ constexpr double MostTimesOnSurfaces = 2.0;
 /** The part of the volume that may come or go. */
 constexpr double MostOfVolume = 0.005;
 
-/** A point stays where it is if all angles around it are at least so many degrees. */
+/** A point stays where it is if all angles around it are at least this many degrees. */
 constexpr double RelaxedAngle = 30.0;
 
 /** Vertices between two looks at whether to go on. */
@@ -90,8 +90,8 @@ double TetrahedronCollapses::SineNeeded(std::uint32_t vertex) const
   return std::min(this->LeastSine, this->Mesh.WorstAround(vertex));
 }
 
-/** The smallest sine of what a collapse makes; any that is less than what is needed if it is, or
- *  an edge is too long. */
+/** The smallest sine after a collapse; if less than needed, or if an edge is too long, any value
+ *  less than needed. */
 double TetrahedronCollapses::SineAfter(
   std::uint32_t vertex, std::uint32_t target, double needed) const
 {
@@ -122,7 +122,7 @@ double TetrahedronCollapses::GainOf(std::uint32_t vertex, std::uint32_t target) 
 {
   if (this->Mesh.Mesh().Surfaces[vertex] == 0)
   {
-    return 0.0; // nothing but boundaries of the grid, along which it goes
+    return 0.0; // on boundaries of the grid at most, along which it goes
   }
   double gain = 0.0;
   for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
@@ -178,7 +178,7 @@ void TetrahedronCollapses::LookAgainAround(const LocalMesh::Star& changed)
   }
 }
 
-/** What was refused for the volume of the whole may be allowed soon, whatever there is around. */
+/** What was refused because of the whole volume may soon be allowed, whatever is around it. */
 void TetrahedronCollapses::NoteRefusal(std::uint32_t vertex)
 {
   this->IsTried[vertex] = !this->IsShortOfVolume[vertex];
@@ -210,7 +210,7 @@ void TetrahedronCollapses::FindTargets(std::uint32_t vertex, double needed)
 
 void TetrahedronCollapses::CollapseInside(const ParallelFor& parallelFor)
 {
-  // In an order that knows nothing of places: else one after the other would go into one vertex.
+  // In an order unrelated to places: otherwise one after the other would go into one vertex.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
   const TetrahedronMesh& mesh = this->Mesh.Mesh();
   for (std::uint32_t point = 0; point < mesh.Positions.size(); ++point)
@@ -257,7 +257,7 @@ std::vector<std::uint32_t> TetrahedronCollapses::Undo(const std::vector<std::uin
   {
     isAsked[vertex] = true;
   }
-  // What builds on it, forwards: around either end of its edge the mesh was another one. Then back.
+  // Forwards to find what builds on it: where the mesh at an end of its edge differed. Then back.
   std::vector<bool> isUndone(this->Steps.size());
   std::vector<bool> isChanged(this->IsTried.size());
   std::vector<std::uint32_t> back;
