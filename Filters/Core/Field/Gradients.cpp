@@ -61,8 +61,8 @@ bool IsInside(const CellPosition& position, const std::array<int, 3>& dimensions
   return isInside;
 }
 
-/** The interpolated differences in index space at a position inside, where there are no gaps: so
- *  most positions are, and large meshes wait for this. */
+/** The interpolated differences in index space at a position inside, where there are no gaps: most
+ *  positions are such, and most of the time for normals is spent here. */
 template <typename T, typename ValueOf>
 Vector IndexGradientInside(
   const SampleView<T>& samples, const CellPosition& position, const ValueOf& valueOf)
