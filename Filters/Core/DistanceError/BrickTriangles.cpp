@@ -102,7 +102,7 @@ BrickTriangles::BrickTriangles(
     });
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Size[axis] = std::min(hierarchy.SampleGrid().Last(axis) - this->Origin[axis], 8);
+    this->There.High[axis] = std::min(hierarchy.SampleGrid().Last(axis) - this->Origin[axis], 8);
   }
 }
 

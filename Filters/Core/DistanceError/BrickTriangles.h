@@ -2,6 +2,7 @@
 #ifndef isodiamond_BrickTriangles_h
 #define isodiamond_BrickTriangles_h
 
+#include "DistanceError/CellBox.h"
 #include "Field/HiddenCells.h"
 #include "Lattice/HalfTetrahedronMasks.h"
 #include "Patches/ExactPlane.h"
@@ -162,22 +163,16 @@ private:
 
   bool IsThere(const Point& cell) const
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      if (cell[axis] < 0 || cell[axis] >= this->Size[axis])
-      {
-        return false;
-      }
-    }
-    return this->Hidden == nullptr || !(*this->Hidden)(this->Origin + cell);
+    return this->There.Holds(cell) &&
+      (this->Hidden == nullptr || !(*this->Hidden)(this->Origin + cell));
   }
 
   const IsodiamondHierarchy& Hierarchy;
   int Surface;
   const HiddenCells* Hidden;
   const CellHalves& Halves;
-  Point Origin; ///< the brick's first sample
-  Point Size{}; ///< the number of cells along each axis
+  Point Origin;  ///< the brick's first sample
+  CellBox There; ///< the brick's cells that are in the grid
   std::array<Owner, Width * Width * Width> Owners{};
 };
 

@@ -182,15 +182,6 @@ private:
     star.ForEachSine(place, [&](double sine) { sum.Add(sine); });
     return sum;
   }
-  PointStar FacesAround(std::uint32_t point) const
-  {
-    PointStar star;
-    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
-    {
-      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
-    }
-    return star;
-  }
 
   /** Whether a change would be the best one so far: the worst gets no worse, and all together
    *  better. If chance picks, whether it could be done. */
@@ -228,7 +219,7 @@ private:
     {
       return;
     }
-    PointStar star = this->FacesAround(point);
+    PointStar star = FacesAround(this->Mesh, point);
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Wanted);
     const Shortfall after = this->LackAt(star, best.Place);
@@ -421,7 +412,7 @@ private:
     const Reach reach{ 0.5 * most,
       [&](const Vector& place)
       { return Dot(place - from, place - from) <= most * most && IsBeside(edge, from, place); } };
-    PointStar star = this->FacesAround(point);
+    PointStar star = FacesAround(this->Mesh, point);
     const Shortfall before = this->LackOf(this->Mesh.StarOf(point));
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Wanted, reach);

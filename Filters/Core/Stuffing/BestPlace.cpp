@@ -36,6 +36,16 @@ std::vector<Vector> Directions(Walls::Type walls, const std::array<Vector, 3>& a
 
 }
 
+PointStar FacesAround(const LocalMesh& mesh, std::uint32_t point)
+{
+  PointStar star;
+  for (const std::uint32_t tetrahedron : mesh.StarOf(point))
+  {
+    star.Add(mesh.Mesh(), mesh.CornersOf(tetrahedron), point);
+  }
+  return star;
+}
+
 PlacedPoint BestPlace(PointStar& star, const Vector& from, Walls::Type walls,
   const std::array<Vector, 3>& axes, double wanted, const Reach& reach)
 {

@@ -3,7 +3,7 @@
 #define isodiamond_BestPlace_h
 
 #include "Patches/IntervalPatches.h"
-#include "Stuffing/TetrahedronMesh.h"
+#include "Stuffing/LocalMesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,6 +145,9 @@ private:
   };
   std::vector<Look> Looks; ///< in the order in which they are done
 };
+
+/** The faces opposite to a point of a mesh. */
+PointStar FacesAround(const LocalMesh& mesh, std::uint32_t point);
 
 /** A place for a point, and the smallest sine around it there. */
 struct PlacedPoint

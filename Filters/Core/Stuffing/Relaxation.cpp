@@ -47,8 +47,7 @@ public:
   }
 
 private:
-  /** In an order that has nothing to do with where they are, so that those searched for at the same
-   *  time are mostly far from each other. */
+  /** Scattered, so that those searched for at the same time are mostly far from each other. */
   std::vector<std::uint32_t> PointsInside() const
   {
     std::vector<std::uint32_t> points;
@@ -60,8 +59,7 @@ private:
         points.push_back(point);
       }
     }
-    std::sort(points.begin(), points.end(),
-      [](std::uint32_t a, std::uint32_t b) { return a * 2654435761U < b * 2654435761U; });
+    Scatter(points);
     return points;
   }
 
@@ -74,11 +72,7 @@ private:
     {
       return now;
     }
-    PointStar star;
-    for (const std::uint32_t tetrahedron : this->Mesh.StarOf(point))
-    {
-      star.Add(this->Mesh.Mesh(), this->Mesh.CornersOf(tetrahedron), point);
-    }
+    PointStar star = FacesAround(this->Mesh, point);
     const PlacedPoint best = BestPlace(star, now, this->Mesh.Mesh().OnWalls[point],
       this->Options.Axes, this->Options.Wanted,
       { 0.0, [&](const Vector& place) { return this->Options.Allows(point, place); } });

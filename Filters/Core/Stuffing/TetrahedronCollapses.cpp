@@ -210,21 +210,21 @@ void TetrahedronCollapses::FindTargets(std::uint32_t vertex, double needed)
 
 void TetrahedronCollapses::CollapseInside(const ParallelFor& parallelFor)
 {
-  // In an order unrelated to places: otherwise one after the other would go into one vertex.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+  // Scattered: otherwise one after the other would go into one vertex.
+  std::vector<std::uint32_t> order;
   const TetrahedronMesh& mesh = this->Mesh.Mesh();
   for (std::uint32_t point = 0; point < mesh.Positions.size(); ++point)
   {
     if (mesh.Surfaces[point] == 0 && !this->IsTried[point])
     {
-      order.emplace_back(point * 2654435761U, point);
+      order.push_back(point);
     }
   }
-  std::sort(order.begin(), order.end());
+  Scatter(order);
   InSteps(parallelFor, order.size(), TriesOfStep,
     [&](std::size_t i)
     {
-      const std::uint32_t vertex = order[i].second;
+      const std::uint32_t vertex = order[i];
       const double needed = this->SineNeeded(vertex);
       this->FindTargets(vertex, needed);
       this->IsTried[vertex] = true;

@@ -58,4 +58,11 @@ std::array<double, 2> DihedralAngles(const TetrahedronMesh& mesh)
   return all;
 }
 
+void Scatter(std::vector<std::uint32_t>& points)
+{
+  const auto hash = [](std::uint32_t point) { return point * 2654435761U; };
+  std::sort(points.begin(), points.end(),
+    [&](std::uint32_t a, std::uint32_t b) { return hash(a) < hash(b); });
+}
+
 }

@@ -141,6 +141,10 @@ std::array<double, 2> DihedralAngles(
 /** The same over all tetrahedra of a mesh; 180 and 0 if there are none. */
 std::array<double, 2> DihedralAngles(const TetrahedronMesh& mesh);
 
+/** Sorts points into an order unrelated to where they are: those that follow each other are mostly
+ *  far apart. */
+void Scatter(std::vector<std::uint32_t>& points);
+
 }
 
 #endif
