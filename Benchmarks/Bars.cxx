@@ -11,7 +11,7 @@ namespace benchmark
 namespace
 {
 
-/** Collects bars of one volume at a time; those that have no measured figure are left out. */
+/** Collects bars of one volume at a time; bars without a measured figure are left out. */
 class Judge
 {
 public:
@@ -48,15 +48,15 @@ double Time(const Table& table, const std::string& contestant, double tolerance 
   return table.Get(contestant, "milliseconds", tolerance);
 }
 
-/** Extraction to a tenth by the metric that simplification is brought to: distance, if it was
- *  measured. */
+/** The time of extraction to a tenth by the metric whose count of triangles simplification has to
+ *  match: distance, if it was measured. */
 double TenthTime(const Table& table)
 {
   const double time = Time(table, "MI extract a tenth, distance");
   return std::isfinite(time) ? time : Time(table, "MI extract a tenth, field");
 }
 
-/** 1: extraction at tolerance 0, by the filter that can do without scalars and normals. */
+/** 1: extraction at tolerance 0, by the one-step filter without scalars and normals. */
 void JudgeExtraction(const VolumeResult& volume, double bandwidth, Judge& judge)
 {
   const std::string ours = "one step, new tolerance";
@@ -67,7 +67,7 @@ void JudgeExtraction(const VolumeResult& volume, double bandwidth, Judge& judge)
   judge.AtMost(1, std::string("extraction / flying edges, ") + (isSparse ? "sparse" : "dense"),
     time / Time(table, "vtkFlyingEdges3D"), isSparse ? 0.25 : 1.0);
   judge.AtMost(1, "ns a triangle", 1e6 * time / table.Get(ours, "cells"), 30.0);
-  // Two threads gain enough, or all that the memory gives.
+  // Two threads gain either enough or all that the memory's bandwidth allows.
   constexpr double enough = 1.6;
   const double twoThreads = Time(table, ours + ", 2 threads");
   const double gain = time / twoThreads;
@@ -182,7 +182,7 @@ void JudgeGrowth(const VolumeResult& small, const VolumeResult& large, Judge& ju
     ratio("milliseconds") / ratio("cells"), 1.3);
 }
 
-/** The median front of MI relative to HD at tolerances above 0, at which MI has one. */
+/** The median front of MI relative to HD at tolerances above 0 for which MI has one. */
 double RelativeFront(const Table& table)
 {
   std::vector<double> ratios;

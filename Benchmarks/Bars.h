@@ -10,8 +10,9 @@ namespace benchmark
 {
 
 /**
- * Judges what Isodiamonds must hold, one line for each demand and volume that the run has figures
- * for. They are demanded of volumes of 256^3 samples or more; smaller ones are judged all the same.
+ * Judges what must hold of Isodiamonds: a bar for each demand and each volume that the run has
+ * figures for. The demands are for volumes of 256^3 samples or more; smaller ones are judged all
+ * the same.
  */
 std::vector<Bar> JudgeBars(const Report& report);
 

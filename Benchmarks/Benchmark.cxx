@@ -13,9 +13,9 @@ namespace
 
 using Hierarchy = vtkSmartPointer<vtkIsodiamondHierarchy>;
 
-// More samples than these need the option for all.
+// For more samples than these, --all is needed.
 constexpr vtkIdType SlowSamples = 300 * 300 * 300;    // decimation, clipping
-constexpr vtkIdType TetrahedraSamples = 40 * 40 * 40; // cutting what was clipped into tetrahedra
+constexpr vtkIdType TetrahedraSamples = 40 * 40 * 40; // cutting clipped cells into tetrahedra
 
 constexpr double PaperTolerances[] = { 0.0, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0 }; // % of the range
 constexpr double DistanceTolerances[] = { 0.0, 0.1, 0.25, 0.5, 1.0, 2.0 };    // voxels
@@ -81,7 +81,7 @@ void AddExtractions(const Task& task, const Model& model, vtkIsodiamondHierarchy
   }
 }
 
-/** Extraction to a tenth by one metric. @return what it kept; no cells if that cannot be */
+/** Extraction to a tenth by one metric. @return what it kept; NaN if there is no such level */
 Level AddTenth(const Task& task, const Model& model, vtkIsodiamondHierarchy* hierarchy,
   std::vector<Contestant>& contestants)
 {

@@ -27,8 +27,8 @@ struct BenchmarkOptions
 /** What a volume is, without anything measured yet. */
 VolumeResult DescribeVolume(const Volume& volume);
 
-/** Peak memory of all contestants that start from the volume. For all volumes before any times:
- *  see MeasureMemory(). */
+/** Peak memory of all contestants that start from the volume. To be measured for all volumes before
+ *  any times: see MeasureMemory(). */
 void MeasureMemoryOf(const Volume& volume, const BenchmarkOptions& options, VolumeResult& result);
 
 /** Times of all contestants, and what they made. */

@@ -3,9 +3,9 @@
 //
 //   IsodiamondCGALMesher SAMPLES NX NY NZ ISOVALUE DISTANCE SIZE OUTPUT
 //
-// SAMPLES are floats, x fastest; OUTPUT is Medit's format; prints the seconds of meshing and of
-// optimizing. DISTANCE and SIZE are voxels: how far facets may be from the surface, and how large
-// they may be; cells inside may be of any size.
+// SAMPLES is a file of floats, x fastest; OUTPUT is written in Medit's format. Prints the seconds
+// of meshing and of optimizing. DISTANCE and SIZE, in voxels, are how far facets may be from the
+// surface, and how large they may be; cells inside may be of any size.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Labeled_mesh_domain_3.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
@@ -36,11 +36,11 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 namespace params = CGAL::parameters;
 
-/** In degrees: of facets, and the dihedral angle below which a cell is a sliver. */
+/** In degrees: the least angle of facets, and the dihedral angle below which a cell is a sliver. */
 constexpr double FacetAngle = 25.0;
 constexpr double SliverBound = 12.0;
 
-/** Samples on a grid, and between them the trilinear function. */
+/** Samples on a grid, interpolated trilinearly between them. */
 struct Field
 {
   std::array<int, 3> Dims{};
@@ -51,7 +51,7 @@ struct Field
     return this->Samples[(static_cast<std::size_t>(z) * this->Dims[1] + y) * this->Dims[0] + x];
   }
 
-  /** Far below everything beyond the grid. */
+  /** Outside the grid, less than any value. */
   double operator()(const Kernel::Point_3& point) const
   {
     std::array<int, 3> cell{};

@@ -16,7 +16,7 @@ namespace benchmark
 /** Describes a filter's output: "points", "cells" and "output bytes". */
 void DescribeMesh(vtkAlgorithm* filter, Figures& figures);
 
-/** A contestant that runs filters, of which each is the input of the next. */
+/** A contestant that runs filters, each of which is the input of the next. */
 Contestant FilterContestant(
   const std::string& name, const std::vector<vtkSmartPointer<vtkAlgorithm>>& filters);
 

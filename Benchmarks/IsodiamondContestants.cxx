@@ -25,14 +25,14 @@ const char* MetricName(int metric)
   return metric == vtkIsodiamondHierarchy::FIELD ? "field" : "distance";
 }
 
-/** "MI build, field" of "build". */
+/** "MI build, field" and the like, for "build". */
 std::string NameOf(const Model& model, const std::string& what)
 {
   static const char* const kinds[] = { "HD", "RI", "MI" };
   return std::string(kinds[model.Kind]) + " " + what + ", " + MetricName(model.Metric);
 }
 
-/** In the units of a metric's filters, from those that people are told. */
+/** From the unit that is shown to people to that of the metric's filters. */
 double AbsoluteTolerance(const Volume& volume, int metric, double tolerance)
 {
   const std::array<double, 2> range = volume.Range();
@@ -40,7 +40,7 @@ double AbsoluteTolerance(const Volume& volume, int metric, double tolerance)
                                                  : tolerance * volume.Voxel();
 }
 
-/** In the units that people are told: the whole range, or the image's diagonal. */
+/** In the unit that is shown to people: the whole range, or the image's diagonal. */
 double LargestTolerance(const Volume& volume, int metric)
 {
   return metric == vtkIsodiamondHierarchy::FIELD ? 100.0
@@ -70,7 +70,7 @@ vtkSmartPointer<vtkIsodiamondExtractor> MakeExtractor(
   return extractor;
 }
 
-/** The arrays that hold the hierarchy: all of its own but its header. */
+/** The bytes of the arrays that hold the hierarchy: all its own arrays but those of its header. */
 double BytesOfArrays(vtkFieldData* arrays)
 {
   double bytes = 0.0;

@@ -28,7 +28,7 @@ struct Model
   int Kind;   ///< of vtkIsodiamondHierarchy::Models
   int Metric; ///< of vtkIsodiamondHierarchy::ErrorMetrics
 
-  /** A tolerance in the unit that people are told for the metric. */
+  /** A tolerance in the unit that is shown to people for the metric. */
   Tolerance ToleranceOf(double value) const;
 };
 
@@ -49,15 +49,15 @@ struct Level
   double Cells = NAN;
 };
 
-/** The smallest tolerance that keeps no more than a fraction of the full resolution's cells; NaN
- *  if every tolerance keeps more, or there are none. */
+/** About the smallest tolerance that keeps no more than a fraction of the full resolution's cells;
+ *  NaN if every tolerance keeps more, or there are no cells. */
 Level FindLevel(
   const Task& task, const Model& model, vtkIsodiamondHierarchy* hierarchy, double fraction);
 
 /** Builds from the volume. "MI build, field" and the like. */
 Contestant BuildContestant(const Task& task, const Model& model);
 
-/** Checks a hierarchy and derives what queries want, as after a reload; on all cores. */
+/** Checks a hierarchy and derives what queries need, as after a reload; on all cores. */
 Contestant CheckContestant(const Model& model, vtkIsodiamondHierarchy* hierarchy);
 
 /** Extracts from a hierarchy. "MI extract, field" and the like, or what name says. */

@@ -11,7 +11,7 @@ namespace benchmark
 
 using Json = nlohmann::ordered_json;
 
-// The library finds these by name, so not in an unnamed namespace. It writes NaN as null.
+// The library finds these by name, so they are in no unnamed namespace. It writes NaN as null.
 
 static void to_json(Json& json, const Row& row)
 {

@@ -41,7 +41,7 @@ void Prepare(const Contestant& contestant)
   }
 }
 
-/** The most that this process has had in memory, in bytes. */
+/** The peak memory of this process, in bytes. */
 double PeakOfThisProcess()
 {
   rusage usage{};
@@ -49,8 +49,8 @@ double PeakOfThisProcess()
   return 1024.0 * static_cast<double>(usage.ru_maxrss); // Linux counts kilobytes
 }
 
-/** Brings all pages of the program and its libraries into memory, so that those do not count as
- *  what a contestant took. */
+/** Brings all pages of the program and its libraries into memory, so that they do not count as
+ *  memory of a contestant. */
 void LoadPrograms()
 {
   std::ifstream maps("/proc/self/maps");
@@ -68,10 +68,10 @@ void LoadPrograms()
   }
 }
 
-/** The most that a child process has in memory which calls f; NaN if it failed. */
+/** The peak memory, in bytes, of a child process that calls f; NaN if it failed. */
 double PeakOfChild(const std::function<void()>& f)
 {
-  malloc_trim(0); // what is free here must not be a reserve of the child's
+  malloc_trim(0); // free memory here must not be a reserve for the child
   int ends[2];
   if (pipe(ends) != 0)
   {

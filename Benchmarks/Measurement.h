@@ -32,22 +32,22 @@ struct Contestant
 /** NaN if there are none. */
 double Median(std::vector<double> values);
 
-/** Runs f with a number of threads in VTK's filters; ours are told theirs besides. */
+/** Runs f with a number of threads in VTK's filters; ours are told theirs separately. */
 void RunOnThreads(int threads, const std::function<void()>& f);
 
 /**
- * Runs all contestants in turn, round by round, so that a machine's drift is the same for all, and
- * puts the median of each one's "milliseconds", "runs" and what it tells of itself into its row.
- * One that has taken six seconds in all does not run again.
+ * Runs all contestants in turn, round by round, so that a machine's drift is the same for all. Puts
+ * into the row of each its median "milliseconds", how many "runs" there were, and what it tells of
+ * itself. One that has taken more than six seconds in all does not run again.
  */
 void MeasureTimes(
   const std::vector<Contestant>& contestants, int repetitions, int threads, Table& table);
 
 /**
- * Puts the "peak bytes" of those contestants that start from the volume into their rows: the most
- * that a process had in memory which ran only that one, once, above the most of a process that
- * only held the volume. Both are forked: this process must have run nothing else so far that
- * leaves threads behind.
+ * Puts the "peak bytes" of those contestants that start from the volume into their rows: the peak
+ * memory of a process that ran only the one contestant, once, less that of a process that only held
+ * the volume. Both are forked: this process must not have run anything so far that leaves threads
+ * behind.
  */
 void MeasureMemory(const std::vector<Contestant>& contestants, int threads, Table& table);
 

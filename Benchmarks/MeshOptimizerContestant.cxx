@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiled where meshoptimizer is there.
+// Compiled only if meshoptimizer is found.
 #include "OtherContestants.h"
 
 #include "vtkCellArray.h"
@@ -16,7 +16,7 @@ namespace
 
 using Indices = std::vector<unsigned int>;
 
-/** The vertex ids of a surface's triangles as meshoptimizer wants them. */
+/** The vertex ids of a surface's triangles, as meshoptimizer needs them. */
 Indices IndicesOf(vtkPolyData* surface)
 {
   Indices indices;
@@ -29,7 +29,8 @@ Indices IndicesOf(vtkPolyData* surface)
   return indices;
 }
 
-/** The triangles of a simplified surface, on its own points; at most the goal. */
+/** The triangles of a simplified surface, on the points of the original; down to the goal if
+ *  possible. */
 Indices Simplify(vtkPolyData* surface, double goal)
 {
   const Indices indices = IndicesOf(surface);

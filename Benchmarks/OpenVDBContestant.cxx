@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiled where OpenVDB is there.
+// Compiled only if OpenVDB is found.
 #include "OtherContestants.h"
 
 #include "vtkFloatArray.h"
@@ -18,8 +18,8 @@ namespace benchmark
 namespace
 {
 
-/** The volume as a grid without empty parts. Outside of it is less than inside, so the surface is
- *  closed at the boundary. */
+/** The volume as a grid without empty parts. Values outside are less than all inside, so the
+ *  surface is closed at the boundary. */
 openvdb::FloatGrid::Ptr MakeGrid(const Volume& volume)
 {
   openvdb::initialize();

@@ -16,13 +16,13 @@
 namespace benchmark
 {
 
-/** The filter without normals and scalars. */
+/** vtkFlyingEdges3D without normals and scalars. */
 vtkSmartPointer<vtkFlyingEdges3D> MakeFlyingEdges(const Task& task);
 
 /** vtkFlyingEdges3D. @param threads 0 for the task's */
 Contestant FlyingEdgesContestant(const Task& task, int threads = 0);
 
-/** vtkContourFilter, without normals and scalars too: what ParaView's Contour calls. */
+/** vtkContourFilter, also without normals and scalars: what ParaView's Contour calls. */
 Contestant ContourFilterContestant(const Task& task);
 
 /** A number of triangles, set when it is known; 0 for a tenth of the contour's. */
@@ -31,12 +31,11 @@ using Goal = std::shared_ptr<double>;
 /** vtkFlyingEdges3D, then vtkQuadricDecimation. */
 Contestant DecimationContestant(const Task& task, const Goal& triangles);
 
-/** vtkFlyingEdges3D, then meshoptimizer's meshopt_simplify; none if it was not there to build
- *  with. */
+/** vtkFlyingEdges3D, then meshoptimizer's meshopt_simplify; none if the build did not find it. */
 std::vector<Contestant> MeshOptimizerContestants(const Task& task, const Goal& triangles);
 
-/** OpenVDB's volumeToMesh, uniform and adaptive, from a grid that is ready (but counts in the peak
- *  memory); none if OpenVDB was not there to build with. */
+/** OpenVDB's volumeToMesh, uniform and adaptive, from a grid made beforehand (but counted in the
+ *  peak memory); none if the build did not find OpenVDB. */
 std::vector<Contestant> OpenVDBContestants(const Task& task);
 
 /** What ParaView's IsoVolume does: vtkTableBasedClipDataSet twice. */

@@ -11,7 +11,7 @@ namespace benchmark
 struct PaperFigures
 {
   double Isovertices = NAN; ///< v_i
-  double Relevant = NAN;    ///< m_r, creation ones included
+  double Relevant = NAN;    ///< m_r, including creation ones
   double Creation = NAN;    ///< m_c
   double Active = NAN;      ///< m_a
   double Points = NAN;      ///< v, of the full resolution

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a hierarchy costs that many processes build together, each a portion of it: how many
-// diamonds the largest portion has, and what each process exchanges. They are threads here, so it
-// takes the time of all of them.
+// Measures what it costs if many processes build a hierarchy together, each a portion of it: how
+// many diamonds the largest portion has, and how much each process exchanges. The processes are
+// threads here, so a run takes the time of all of them together.
 //
 // Usage: IsodiamondPortions [samples on an axis, or XxYxZ] [period of the gyroid, or 0 for an
 // ellipsoid] [portions ...]
@@ -22,7 +22,7 @@ using namespace isodiamond;
 namespace
 {
 
-/** @param text samples on all axes, or those on each, with an x between */
+/** @param text the number of samples on all axes, or those on each, as XxYxZ */
 std::array<int, 3> DimensionsOf(const char* text)
 {
   std::array<int, 3> dimensions{};
@@ -30,7 +30,7 @@ std::array<int, 3> DimensionsOf(const char* text)
   return count == 3 ? dimensions : std::array{ dimensions[0], dimensions[0], dimensions[0] };
 }
 
-/** A surface that is dense, or that is not. */
+/** A dense surface, the gyroid, if there is a period; else an ellipsoid. */
 std::vector<float> MakeVolume(const std::array<int, 3>& dimensions, double period)
 {
   const double angle = period > 0.0 ? 2.0 * std::acos(-1.0) / period : 0.0;
@@ -57,7 +57,7 @@ std::vector<float> MakeVolume(const std::array<int, 3>& dimensions, double perio
   return values;
 }
 
-/** The diamonds of the largest of some portions, of all. */
+/** The diamonds of the largest portion, as a fraction of all. */
 double LargestPortion(const AnySamples& samples, const Isoregion& region, int portions)
 {
   const Grid grid(std::visit([](const auto& view) { return view.Dimensions(); }, samples));

@@ -12,12 +12,12 @@
 /**
  * @file Results.h
  * What was measured: figures with names, in rows by contestant, in a table for each shape of each
- * volume. What is not there is NaN.
+ * volume. Missing figures are NaN.
  */
 namespace benchmark
 {
 
-/** Named numbers, in the order in which they came. */
+/** Named numbers, in the order in which they were set. */
 class Figures
 {
 public:
@@ -29,7 +29,7 @@ private:
   std::vector<std::pair<std::string, double>> Values;
 };
 
-/** An error tolerance as it is told to people; NaN for contestants that have none. */
+/** An error tolerance as it is shown to people; NaN for contestants that have none. */
 struct Tolerance
 {
   enum class Unit
@@ -70,7 +70,7 @@ struct Table
   /** The row of a contestant, a new one if need be. */
   Row& At(const std::string& contestant, const Tolerance& tolerance);
 
-  /** A contestant's figure; of a contestant with tolerances at one of them. */
+  /** A contestant's figure; if it ran at several tolerances, that at one of them. */
   double Get(
     const std::string& contestant, const std::string& figure, double tolerance = NAN) const;
 };

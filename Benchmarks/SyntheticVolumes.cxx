@@ -33,7 +33,7 @@ struct Field
   double (*Function)(const Location& at);
   double Isovalue;
   std::array<double, 2> Isorange;
-  bool IsOdd; ///< sampled with an odd number of samples on every axis, a different one on each
+  bool IsOdd; ///< an odd number of samples on every axis, a different one on each
 };
 
 /** Marschner & Lobb, "An Evaluation of Reconstruction Filters for Volume Rendering", 1994. */
@@ -86,7 +86,7 @@ double GyroidWithMetaballs(const Location& at)
   return value;
 }
 
-/** About normally distributed with deviation 1, a function of the index alone. */
+/** Approximately normally distributed, with standard deviation 1; depends on the index alone. */
 double Noise(std::uint64_t index)
 {
   std::uint64_t bits = (index + 1) * 0x9e3779b97f4a7c15ULL; // splitmix64
@@ -123,7 +123,7 @@ double Coverage(const Organ& organ, const Location& at)
   return 0.5 + 0.5 * std::tanh(depth);
 }
 
-/** CT of a head: skin, skull, brain, ventricles and air, with noise. Later organs cover earlier. */
+/** CT of a head: skin, skull, brain, ventricles, air and noise. Later organs cover earlier ones. */
 double NoisyPhantom(const Location& at)
 {
   static const Organ organs[] = {

@@ -24,7 +24,7 @@ std::string Fixed(double value, int decimals)
   return text;
 }
 
-/** Three significant digits where there are decimals at all. */
+/** With three decimals below 1, and fewer above: none from 100 on. */
 std::string Short(double value)
 {
   const double size = std::abs(value);

@@ -16,7 +16,7 @@ namespace benchmark
 /** All contestants on a volume, with ratios. */
 void PrintVolume(const VolumeResult& volume, std::ostream& out);
 
-/** The paper's Table 2 of all volumes. */
+/** The paper's Table 2 for all volumes. */
 void PrintTable2(const Report& report, std::ostream& out);
 
 /** The paper's figure 15 in numbers: front and time of RI and MI relative to HD. */

@@ -22,14 +22,14 @@ namespace benchmark
 namespace
 {
 
-/** What stands behind a file's name on the command line. */
+/** What follows a file's name on the command line. */
 struct Choice
 {
   std::optional<double> Isovalue;
   std::optional<std::array<double, 2>> Isorange;
 };
 
-/** Those of the paper's Table 2 and others that have been used with a volume. */
+/** Choices of the paper's Table 2, and others that have been used with a volume. */
 const std::map<std::string, Choice>& KnownChoices()
 {
   static const std::map<std::string, Choice> known = {
@@ -138,7 +138,7 @@ vtkSmartPointer<vtkImageData> Read(vtkImageReader2* reader, const std::string& p
   return image;
 }
 
-/** The middle of the range; of integers half way between two, so that no sample equals it. */
+/** The middle of the range; for integers, half way between two, so that no sample equals it. */
 double MiddleValue(const Volume& volume)
 {
   const std::array<double, 2> range = volume.Range();

@@ -17,7 +17,7 @@
 namespace benchmark
 {
 
-/** A volume with the values that are extracted from it. */
+/** A volume, and the values of the surface and the interval volume to extract from it. */
 struct Volume
 {
   std::string Name; ///< of the field or file
@@ -40,8 +40,8 @@ struct VolumeSource
 std::vector<std::string> FieldNames();
 
 /**
- * A synthetic field, sampled. Deterministic, noise too; the field is a function of the position
- * in the cube, so that sizes can be compared.
+ * A synthetic field, sampled. Deterministic, even its noise; the field is a function of the
+ * position in the cube, so that sizes can be compared.
  *
  * @throws std::invalid_argument for an unknown name
  */
@@ -51,9 +51,9 @@ VolumeSource SyntheticVolume(const std::string& field, int size);
  * A volume from a file: NAME_XxYxZ_TYPE.raw (little endian; uint8, int16, uint16 or float32),
  * .nrrd, .nhdr, .nii or .nii.gz.
  *
- * @param argument FILE, FILE:ISOVALUE or FILE:ISOVALUE:LOWER:UPPER; what is left out is the
- *        paper's for its volumes, else taken from the samples' range
- * @throws std::invalid_argument, when made std::runtime_error, saying what is wrong
+ * @param argument FILE, FILE:ISOVALUE or FILE:ISOVALUE:LOWER:UPPER; for what is left out, the
+ *        paper's values for its volumes are taken, else some from the samples' range
+ * @throws std::invalid_argument, or std::runtime_error from Make(), saying what is wrong
  */
 VolumeSource VolumeFile(const std::string& argument);
 

@@ -7,24 +7,24 @@
 RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are a phantom made here and, where Debian's
 mricron-data is installed, an MRI head. Needs scipy, Debian's python3-scipy.
 
-Full resolution is Isodiamonds' own surface at tolerance 0 for its two metrics, that of
-vtkFlyingEdges3D for vtkQuadricDecimation and meshopt_simplify, which start from it, and for OpenVDB's
-adaptive mesher (Debian's python3-openvdb), which starts from the volume. The distance
-metric's mesh sets the number of triangles for the others; "-" is what was not run, as where
-vtkFlyingEdges3D's surface has no more triangles than that. One thread each.
+For Isodiamonds' two metrics, full resolution is its own surface at tolerance 0. For
+vtkQuadricDecimation and meshopt_simplify it is the surface of vtkFlyingEdges3D, from which they
+start; also for OpenVDB's adaptive mesher (Debian's python3-openvdb), which starts from the volume.
+The distance metric's mesh sets the number of triangles for the others; "-" is for what was not run,
+for instance where vtkFlyingEdges3D's surface has no more triangles than that. One thread each.
 
-Once the triangles are counted, points at the same place are made one, and triangles left with fewer
-than three points dropped. The table has, with the smallest side of a voxel as unit of length:
+Once the triangles are counted, points at the same place are merged, and triangles left with fewer
+than three points are dropped. The table has, with the smallest side of a voxel as unit of length:
 
-- full -> mesh: distances of all vertices of full resolution from the mesh: root of the mean square
-  over the vertices, and maximum;
-- mesh -> full: distances of samples of the mesh from full resolution: root of the mean square over
-  the mesh's area, and maximum. Samples are the centers of equal parts of each triangle, at most
-  half a voxel apart, for the maximum also its corners; where there are more than a million, means
-  are over about a million of them, drawn by chance;
+- full -> mesh: distances of all vertices of full resolution from the mesh: root mean square over
+  the vertices, and maximum;
+- mesh -> full: distances of samples of the mesh from full resolution: root mean square over the
+  mesh's area, and maximum. Samples are the centres of equal parts of each triangle, at most half a
+  voxel apart, for the maximum also its corners; where there are more than a million, means are over
+  about a million of them, drawn at random;
 - normals: the mean angle over the mesh's area, in degrees, between a triangle's normal and that of
-  full resolution's triangle nearest to the sample: of several equally near, that with the smallest
-  angle;
+  full resolution's triangle nearest to the sample: of several equally near, the one with the
+  smallest angle;
 - folded: the share of the mesh's area where that angle is above 90 degrees. Where a wall is thinner
   than twice the deviation, the nearest triangle may be on its other side: that counts as well;
 - slivers: the share of triangles with an angle below 10 degrees;
@@ -33,7 +33,7 @@ than three points dropped. The table has, with the smallest side of a voxel as u
   ends; branching: edges with more than two triangles;
 - full's vertices beyond: how many of full resolution are farther from the mesh than the tolerance.
 
-Pictures show the meshes close up, inner sides in red; a raw volume's need --camera.
+Pictures show the meshes close up, inner sides in red; those of a raw volume need --camera.
 """
 import argparse
 import collections
@@ -51,8 +51,8 @@ TOLERANCES = (2, 1, 0.5, 0.25, 0.1)  # voxels
 PICTURED = (1,)
 DECIMATION_LIMIT = 1_000_000  # triangles
 
-# For pictures: a part of the volume, or all, and where to look at it from. Here the bone of the
-# forehead, cut open.
+# For pictures: a part of the volume, or None for all, and from where to look at it. Here the bone
+# of the forehead, cut open.
 HEAD_VIEW = ((50, 130, 150, 216, 70, 150), View((99, 200, 100.5), (0.3, 1, 0.3), (0, 0, 1), 28))
 
 Volume = collections.namedtuple("Volume", "name image isovalue crop view", defaults=(None, None))
@@ -86,7 +86,7 @@ def slashed(numbers, form):
     return " / ".join(format(n, form) for n in numbers)
 
 
-# What the table has of a result, in its order.
+# What the table shows of a result, in this order.
 FIGURES = {
     "triangles": lambda r: f"{r.triangles:,}",
     "full -> mesh: rms / max": lambda r: slashed(r.there, ".3f"),
@@ -125,7 +125,7 @@ def print_tables(contest, results, tolerances):
 
 
 def print_surface(name, mesh, milliseconds):
-    """Full resolution; points are those that are left where others at the same place are merged."""
+    """Prints full resolution; points at the same place are merged before they are counted."""
     print(
         f"- {name}: {len(mesh.triangles):,} triangles, {len(mesh.points):,} points, "
         f"{100 * slivers(mesh):.1f} % slivers, {milliseconds:.1f} ms; pieces / Euler number / "
@@ -158,7 +158,7 @@ def compare(volume, topologies, tolerances, limit, simplifies, plot):
 
 
 def draw_errors(methods, results, path):
-    """Errors over triangles."""
+    """A plot of errors over numbers of triangles."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -196,7 +196,7 @@ def draw(volume, topologies, tolerances, folder):
 
 
 def numbers(kind):
-    """Of an option: several, with commas between."""
+    """Parses an option's numbers, with commas between them."""
     return lambda text: [kind(number) for number in text.split(",")]
 
 

@@ -3,7 +3,7 @@
 
     PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/extraction.py [SIZE]
 
-Prints medians of interleaved runs and their ratios; the ratios are what can be compared between
+Prints medians of interleaved runs and their ratios; only the ratios can be compared between
 machines. Fields: a smooth ball, a ball with noise, and a gyroid that fills the volume.
 """
 import statistics

@@ -4,13 +4,14 @@
     PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/first_apply.py [OPTIONS] [RAW ...]
 
 For each volume: the first Apply at full resolution; then the first tolerance, half a voxel, which
-measures errors; then another one, a voxel; a first Apply at half a voxel at once; and one with
-OneTolerance. All as the panel starts them, but without normals and scalars, which vtkContourFilter
-makes none of here, either; full resolution with both, too, beside vtkContourFilter with both. And
-Contour and Decimate (vtkDecimatePro) for as many triangles as half a voxel has. Medians of some
-runs, each with a new filter; in times of vtkContourFilter, which has one thread, as vtkDecimatePro
-has. RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are synthetic and, where
-Debian's mricron-data is installed, an MRI head.
+measures errors; then another one, a voxel; with a new filter, a first Apply that starts at half a
+voxel; and the same with OneTolerance. All run as the panel starts them, but without normals and
+scalars, which vtkContourFilter does not make here, either. Full resolution is also measured with
+both, against vtkContourFilter with both. Last come Contour and Decimate (vtkDecimatePro), run once,
+for as many triangles as there are at half a voxel. All other figures are medians of several runs,
+ours each with a new filter. Figures are multiples of the time of vtkContourFilter, which has one
+thread, as has vtkDecimatePro. RAW is NAME_XxYxZ_uint8.raw:ISOVALUE; the other volumes are synthetic
+and, where Debian's mricron-data is installed, an MRI head.
 """
 import argparse
 import os
@@ -37,8 +38,8 @@ def at(contour, tolerance):
 
 
 def waits(image, isovalue, threads):
-    """Milliseconds: full resolution first, the same with normals and scalars; the first tolerance,
-    the next one; a tolerance first; the same as the only one."""
+    """Milliseconds: a first Apply at full resolution, and with normals and scalars; the first
+    tolerance, and the next; a first Apply at a tolerance, and with OneTolerance."""
     voxel = min(image.GetSpacing())
     first, second, only = (configured(vtkIsodiamondContour(), image, isovalue) for _ in range(3))
     shaded = configured(vtkIsodiamondContour(), image, isovalue, shaded=True)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Hashes of hierarchies and of meshes from them: the same on every system, and before and after a
-change that is to change no result.
+change that should change no result.
 
     PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/hashes.py [FILE:ISOVALUE ...]
 
-FILE is NAME_XxYxZ_TYPE.raw or a NIfTI file, whose surface and what lies above the value count; without
-any, Debian's MRI head if it is installed. A volume made here of integers comes first, as integers and
-as floats, with uneven spacing. A line for each hierarchy: volume, shape, model, metric, the hash of its
-arrays, and one for each mesh.
+FILE is NAME_XxYxZ_TYPE.raw or a NIfTI file, of which the surface and what lies above the value are
+hashed; the default is Debian's MRI head if it is installed. First come volumes made here: the same
+integers as 16-bit integers and as floats, with uneven spacing. There is a line for each hierarchy:
+volume, shape, model, metric, the hash of its arrays, and a hash for each mesh.
 """
 import hashlib
 import itertools
@@ -24,7 +24,7 @@ from vtkmodules.vtkIOImage import vtkImageReader2, vtkNIFTIImageReader
 HEAD = "/usr/share/mricron/templates/ch2.nii.gz:40.5"
 SIZE = (45, 38, 41)
 SPACING = (1.0, 0.75, 1.5)
-TOLERANCES = (0, 0.5, 2)  # times the smallest spacing, or 2 % of the values
+TOLERANCES = (0, 0.5, 2)  # times the smallest spacing, or 2 % of the range of values
 RAW_TYPES = {"uint8": "UnsignedChar", "uint16": "UnsignedShort", "int16": "Short", "float32": "Float"}
 
 

@@ -3,9 +3,9 @@
 
     PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/interval_volume.py [SIZE]
 
-One thread each, each in a process of its own, build (by the field metric) included; medians of
-seconds, and the peak of memory above what the input took. vtkIsoVolume returns cells of several
-kinds, Isodiamonds tetrahedra only.
+One thread each, each in a process of its own, build (by the field metric) included; medians of the
+seconds, and of the peak memory above what the input took. vtkIsoVolume returns cells of several
+kinds, Isodiamonds only tetrahedra.
 """
 import json
 import statistics

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Builds and extracts a surface of a volume that comes in slabs, and prints how much memory and time
-that takes: 2048 x 2048 x 1024 floats by default, 16 GiB, of which no more than a slab is anywhere.
+that takes: by default 2048 x 2048 x 1024 floats, 16 GiB, never more than a slab of it at a time.
 
 Usage: larger_than_memory.py [--size X Y Z] [--blocks N] [--threads N] [--gyroid]
-or with several processes, which share the volume: mpiexec -n N pvbatch --symmetric larger_than_memory.py ...
+or, with several processes that share the volume:
+  mpiexec -n N pvbatch --symmetric larger_than_memory.py ...
 """
 import argparse
 import resource

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What deviation.py measures of triangle meshes: deviations, angles, topology. Lengths: voxels.
+"""What deviation.py measures of triangle meshes: deviations, angles, topology; lengths in voxels.
 
-Distances are exact, from points to triangles. A mesh is sampled where its triangles are cut into
-equal parts, at the parts' centers; those of neighbors are at most half a voxel apart. A center
-stands for its part's area.
+Distances from points to triangles are exact. To sample a mesh, its triangles are cut into equal
+parts; samples are the parts' centres, those of neighbours at most half a voxel apart. Each centre
+stands for the area of its part.
 
 Needs scipy, Debian's python3-scipy.
 """
@@ -21,11 +21,11 @@ from vtkmodules.vtkCommonCore import reference, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkGenericCell, vtkPolyData
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 
-# The longest edge of a part: centers on both sides of an edge are 2/3 of a median apart, and no
+# The longest edge of a part: centres on both sides of an edge are 2/3 of a median apart, and no
 # median is longer than the longest edge.
 PART = 0.75
-MEAN_SAMPLES = 1_000_000  # of a mesh with more, means are over about so many of them, by chance
-EQUALLY_NEAR = 1e-6  # distances that differ by rounding
+MEAN_SAMPLES = 1_000_000  # if a mesh has more, means are over about so many, drawn at random
+EQUALLY_NEAR = 1e-6  # distances that differ by no more count as equal
 SLIVER = 10  # degrees
 FIRST_CANDIDATES = 24
 BATCH = 1 << 16  # points
@@ -35,8 +35,8 @@ Topology = collections.namedtuple("Topology", "pieces euler loops branching")
 
 
 class Mesh:
-    """Triangles as arrays. Points at the same place are one; triangles that have one of them twice
-    are left out, as are points without triangles."""
+    """Triangles as arrays. Points at the same place are merged; triangles with fewer than three
+    points are left out, as are points without triangles."""
 
     def __init__(self, points, triangles):
         order = numpy.lexsort(points.T)
@@ -74,7 +74,7 @@ class Mesh:
 
     @functools.cached_property
     def parts(self):
-        """Of all triangles: number of each part's triangle, centers, areas."""
+        """The parts of all triangles: the number of each part's triangle, centres, areas."""
         edges = numpy.linalg.norm(self.corners - numpy.roll(self.corners, 1, axis=1), axis=2)
         cuts = numpy.ceil(edges.max(axis=1) / PART).astype(int)
         owners, centers = [], []
@@ -87,7 +87,7 @@ class Mesh:
 
 
 def centers_of_parts(n):
-    """Barycentric coordinates, where each edge of a triangle is cut into n."""
+    """Barycentric coordinates of the parts' centres if each edge of a triangle is cut into n."""
     i, j = numpy.indices((n, n)).reshape(2, -1)
     upright, inverted = i + j < n, i + j < n - 1
     second = numpy.concatenate((i[upright] + 1 / 3, i[inverted] + 2 / 3)) / n
@@ -102,9 +102,9 @@ def dot(a, b):
 class NearestTriangle:
     """Finds the triangle of a mesh that is nearest to a point.
 
-    Candidates come from a k-d tree of the parts' centers. What it leaves out is no nearer than the
-    last candidate's center less the largest radius of a part: it is asked for more until that is
-    beyond the nearest.
+    Candidates come from a k-d tree of the parts' centres. All other triangles are no nearer than
+    the last candidate's centre less the largest radius of a part: the tree is asked for more until
+    that is beyond the nearest triangle.
     """
 
     def __init__(self, mesh):
@@ -112,7 +112,7 @@ class NearestTriangle:
         self.owners, centers, _ = mesh.parts
         self.tree = cKDTree(centers, balanced_tree=False)
         cuts = numpy.sqrt(numpy.bincount(self.owners, minlength=len(mesh.triangles)))
-        # A part is its triangle, smaller by the cuts.
+        # A part is its triangle, reduced by the number of cuts.
         spokes = mesh.corners - mesh.corners.mean(axis=1, keepdims=True)
         self.radii = numpy.linalg.norm(spokes, axis=2).max(axis=1) / cuts
         a, b, c = mesh.corners.transpose(1, 0, 2)
@@ -121,7 +121,7 @@ class NearestTriangle:
 
     def find(self, points, directions=None):
         """Distances, and the nearest triangles; of equally near ones, as on both sides of an edge,
-        that with the smallest angle between its normal and the point's direction."""
+        the one with the smallest angle between its normal and the point's direction."""
         if directions is None:
             directions = numpy.zeros_like(points)
         distances, nearest = numpy.empty(len(points)), numpy.empty(len(points), dtype=int)
@@ -136,8 +136,8 @@ class NearestTriangle:
         return distances, nearest
 
     def largest_distance(self, points, known=0.0):
-        """Of the points, or a known one. Only those are searched for whose distance from the
-        triangle with the nearest center is larger."""
+        """The largest distance of points, or a known one if that is larger. The nearest triangle
+        is searched only for points farther than that from the triangle with the nearest centre."""
         bounds = numpy.empty(len(points))
         for start in range(0, len(points), BATCH):
             batch = slice(start, start + BATCH)
@@ -151,7 +151,7 @@ class NearestTriangle:
         return known
 
     def check(self, points, found):
-        """The 1000 largest distances and 1000 others, against VTK's locator."""
+        """Checks the 1000 largest distances and 1000 others against VTK's locator."""
         some = numpy.linspace(0, len(found) - 1, 1000).astype(int)
         cell, squared = vtkGenericCell(), reference(0.0)
         cell_id, sub_id = reference(0), reference(0)
@@ -199,7 +199,7 @@ class NearestTriangle:
         return distances, nearest
 
     def _distances(self, points, triangles):
-        """Of each point from one triangle: from its plane or, beside it, from an edge."""
+        """Of each point from one triangle: from its plane or, if beside it, from an edge."""
         rows = self.rows[triangles]
         w = points - rows[:, :3]
         uw, vw, ww = dot(rows[:, 3:6], w), dot(rows[:, 6:9], w), dot(w, w)
@@ -222,7 +222,7 @@ class NearestTriangle:
 
 
 def deviation_of_points(points, mesh):
-    """Of points from a mesh, and the distances."""
+    """The deviation of points from a mesh, and the distances."""
     nearest = NearestTriangle(mesh)
     found, _ = nearest.find(points)
     nearest.check(points, found)
@@ -230,8 +230,9 @@ def deviation_of_points(points, mesh):
 
 
 def deviation_of_mesh(mesh, nearest):
-    """Of a mesh from the triangles that are searched. And from the mesh's normals to those of the
-    nearest triangles: the mean angle in degrees, and the share of the area with more than 90."""
+    """The deviation of a mesh from the triangles that are searched; of the angles between its
+    normals and those of the nearest triangles, the mean, in degrees, and the share of the area with
+    more than 90."""
     owners, centers, areas = mesh.parts
     some = slice(None)
     if len(owners) > MEAN_SAMPLES:
@@ -260,7 +261,7 @@ def slivers(mesh):
 
 
 def count_pieces(first, second):
-    """Of a graph of edges, all of whose nodes have one."""
+    """The pieces of a graph that is given by its edges; all nodes have one."""
     nodes, ids = numpy.unique(numpy.concatenate((first, second)), return_inverse=True)
     first, second = ids.reshape(2, -1)
     graph = coo_matrix((numpy.ones(len(first), bool), (first, second)), (len(nodes), len(nodes)))
@@ -269,7 +270,7 @@ def count_pieces(first, second):
 
 def topology(mesh):
     """Pieces, each connected by points; Euler number, points - edges + triangles; loops, the
-    connected sets of edges with one triangle; number of edges with more than two."""
+    connected sets of edges with one triangle; the number of edges with more than two."""
     a, b, c = mesh.triangles.T
     ends = numpy.sort(numpy.concatenate(((a, b), (b, c), (c, a)), axis=1), axis=0)
     keys, triangles = numpy.unique(ends[0] * len(mesh.points) + ends[1], return_counts=True)

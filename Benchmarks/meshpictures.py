@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of meshes side by side, close up: deviation.py --pictures. Needs a screen, or xvfb-run.
 
-What faces outwards is grey, what faces inwards is red: a speck of it on a closed wall is a flipped
-or folded triangle, or what is seen through a hole.
+Outer sides are grey, inner sides are red: a red speck on a closed wall is a flipped or folded
+triangle, or an inner side that is seen through a hole.
 """
 import collections
 import os
@@ -16,8 +16,8 @@ import vtkmodules.vtkRenderingOpenGL2
 
 SIDE = 640  # pixels of a mesh's picture
 
-# In the world: a point, the way from there to the camera, what is upwards, and how much is seen
-# from top to bottom. What is behind the camera is not seen: from nearby one looks inside.
+# In the world: the point to look at, the way from there to the camera, the direction upwards, and
+# how much is seen from top to bottom. Nothing behind the camera is seen: a near one looks inside.
 View = collections.namedtuple("View", "focus way up height")
 
 
@@ -71,7 +71,7 @@ def renderer_of(name, mesh, view):
 
 
 def save_picture(path, meshes, view):
-    """Pairs of a name and a mesh, from left to right."""
+    """Draws meshes, given as pairs of a name and a mesh, from left to right."""
     window = vtkRenderWindow()
     window.OffScreenRenderingOn()
     window.SetMultiSamples(8)

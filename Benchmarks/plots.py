@@ -4,8 +4,8 @@
     /usr/bin/python3 Benchmarks/plots.py benchmark.json FOLDER
 
 For each volume and shape, as PNG files in FOLDER: the paper's figure 15, which is front size and
-time of RI and MI relative to HD over the tolerance (of a run with --paper);
-and cells and time of MI over the tolerance, by both metrics.
+time of RI and MI relative to HD over the tolerance (of a run with --paper); and cells and time of
+MI over the tolerance, by both metrics.
 """
 import argparse
 import json
@@ -22,7 +22,7 @@ REFERENCES = ("vtkFlyingEdges3D", "vtkContourFilter", "vtkTableBasedClipDataSet 
 
 
 def rows_of(rows, contestant):
-    """Tolerances and rows of a contestant, by tolerance."""
+    """Tolerances and rows of a contestant, sorted by tolerance."""
     return sorted(
         ((row.get("tolerance"), row) for row in rows if row["contestant"] == contestant),
         key=lambda pair: pair[0],
@@ -30,7 +30,7 @@ def rows_of(rows, contestant):
 
 
 def tolerance_axis(axes, tolerances, unit):
-    """The tolerances in equal steps, as in the paper: 0 among them."""
+    """The tolerances in equal steps, as in the paper, so that 0 can be among them."""
     axes.set_xticks(range(len(tolerances)), [f"{t:g}" for t in tolerances])
     axes.set_xlabel(f"tolerance, {unit}")
     axes.grid(alpha=0.3)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a process of several takes for its share of a mesh, beside the whole mesh by one.
+"""What one of several processes needs for its share of a mesh, beside one that makes it all.
 
     PYTHONPATH=build/lib/python3/dist-packages python3 Benchmarks/shares.py [SIZE]
 
-One process makes the shares of 1, 2, 4 and 8 one after the other, with one thread, and prints the time
-of the slowest, as the median of interleaved runs, and how much larger than their mean the largest is; and
-for each number a process of its own makes the first share, and tells how much memory that took beyond
-the hierarchy (Linux only). It runs in Python itself, as `pvpython` cannot start another one. The field
-is the gyroid of extraction.py, by the field metric, at full resolution and at a tolerance that leaves a
-quarter of the triangles.
+One process makes the shares of 1, 2, 4 and 8 one after the other, with one thread. For each of
+these numbers it prints the time of the slowest share, as the median of interleaved runs, and how
+much larger the largest share is than the mean. To measure how much memory the first share takes
+beyond the hierarchy, a process of its own makes it (Linux only). All run in Python itself, as
+`pvpython` cannot start another one. The field is the gyroid of extraction.py, by the field metric,
+at full resolution and at a tolerance that leaves a quarter of the triangles.
 """
 import statistics
 import subprocess
@@ -36,7 +36,7 @@ def make_extractor(size):
 
 
 def print_peak(size, tolerance, count):
-    """In a process of its own, which has no memory that it could use again."""
+    """Runs in a process of its own, which has no freed memory that it could use again."""
     extractor = make_extractor(size)
     extractor.SetErrorTolerance(tolerance)
     forget_peak()

@@ -43,7 +43,7 @@ def extract(contour, tolerance):
 
 
 def matching_tolerance(contour, triangles):
-    """The largest that leaves at least so many triangles."""
+    """The largest tolerance that leaves at least so many triangles."""
     low, high = 0.0, contour.GetErrorToleranceRange()[1]
     for _ in range(40):
         middle = (low + high) / 2
@@ -78,7 +78,7 @@ def load_meshoptimizer():
 
 
 def mesh_of(points, ids):
-    """Triangles, three ids after the other."""
+    """A mesh of triangles, each of three successive ids."""
     cells = vtkCellArray()
     cells.SetData(3, numpy_to_vtkIdTypeArray(ids.astype(numpy.int64), deep=True))
     mesh = vtkPolyData()
@@ -113,7 +113,7 @@ class OpenVDB:
 
     def __init__(self, module, image, isovalue):
         values = vtk_to_numpy(image.GetPointData().GetScalars()).astype(numpy.float32)
-        # Outside is less than inside: the surface is closed at the boundary.
+        # Values outside are less than all inside: the surface is closed at the boundary.
         self.grid = module.FloatGrid(float(values.min()) - 1)
         values = values.reshape(image.GetDimensions(), order="F")
         self.grid.copyFromArray(numpy.ascontiguousarray(values))
@@ -131,7 +131,8 @@ class OpenVDB:
         return points, both, milliseconds
 
     def with_triangles(self, most):
-        """The least adaptivity that leaves no more triangles; None if all leave more."""
+        """The mesh of the least adaptivity that leaves no more triangles, and milliseconds; None if
+        all leave more."""
         low, high = 0.0, 1.0
         if len(self.mesh(high)[1]) > most:
             return None
@@ -145,7 +146,7 @@ class OpenVDB:
 
 
 def isodiamonds(topology, by_field=False):
-    """A contour that preserves the topology of full resolution or not, or does what it does."""
+    """A contour that preserves the topology of full resolution, or not; None for its default."""
     contour = vtkIsodiamondContour()
     contour.SetNumberOfThreads(1)
     if by_field:
@@ -156,11 +157,12 @@ def isodiamonds(topology, by_field=False):
 
 
 class Contest:
-    """The methods on one volume. The first sets the number of triangles for those after ours.
+    """The methods on one volume. The first sets the number of triangles that "field" and those of
+    others have to match.
 
     topologies are values of PreserveTopology, each for a mesh of the distance metric, or None to
-    leave it as it is. If one simplifies, its mesh comes first. Surfaces of more triangles than the
-    limit are not decimated.
+    leave it as it is. If simplifies is true, a simplified mesh comes first. Surfaces of more
+    triangles than the limit are not decimated.
     """
 
     def __init__(self, image, isovalue, topologies, limit, simplifies=False):
@@ -187,7 +189,7 @@ class Contest:
         self.openvdb = openvdb and OpenVDB(openvdb, image, isovalue)
 
     def level(self, tolerance):
-        """Mesh and milliseconds of each method, None where one was not run; in voxels."""
+        """Mesh and milliseconds of each method at a tolerance in voxels; None if it was not run."""
         by_distance = [extract(c, tolerance * self.voxel) for c in self.by_distance]
         triangles = by_distance[0][0].GetNumberOfCells()
         by_field = extract(self.by_field, matching_tolerance(self.by_field, triangles))

@@ -19,13 +19,13 @@ SQUARE = numpy.array([[(0, 0, 0), (1, 0, 0), (1, 1, 0)], [(0, 0, 0), (1, 1, 0), 
 
 
 def mesh_of(*corners):
-    """Of triangles that share no points, as a file of type STL has them."""
+    """A mesh of triangles that share no points, like those of an STL file."""
     corners = numpy.concatenate(corners).astype(float)
     return Mesh(corners.reshape(-1, 3), numpy.arange(3 * len(corners)).reshape(-1, 3))
 
 
 def cube(side):
-    """Seen from outside, triangles are counterclockwise."""
+    """Triangles, anticlockwise as seen from outside."""
     faces = []
     for axis in range(3):
         face = numpy.roll(side * SQUARE, axis, axis=2)  # its normal is along axis - 1
@@ -51,7 +51,7 @@ def test_topology():
     # Without two opposite faces: a tube.
     tube = [t for t in cube(4) if numpy.ptp(t[:, 2])]
     assert topology(mesh_of(tube)) == Topology(1, 0, 2, 0)
-    # A triangle with two corners at one place is none.
+    # A triangle with two corners at one place does not count.
     assert len(mesh_of(SQUARE, [[(0, 0, 0), (0, 0, 0), (1, 0, 0)]]).triangles) == 2
 
 
@@ -63,18 +63,18 @@ def test_slivers():
 
 
 def test_shifted_cube():
-    """By a quarter along x: that far off are the corners at x = 0; the others are on its sides."""
+    """By a quarter along x: the corners at x = 0 are that far off, the others are on its sides."""
     full, shifted = mesh_of(cube(4)), mesh_of(cube(4) + [0.25, 0, 0])
     near(deviation_of_points(full.points, shifted)[0], (0.25 / 2**0.5, 0.25))
-    # Of an area of 96: 16 outside are 1/4 off, four strips of 4 x 1/4 from 0 to 1/4. The 16 inside
-    # are 1/4 off but in a margin, where another side is nearer.
+    # Of an area of 96, the 16 outside are 1/4 off, and four strips of 4 x 1/4 from 0 to 1/4. The 16
+    # inside are 1/4 off except in a margin, where another side is nearer.
     margin = 4 * (3.5 * 0.25**3 / 3 + 0.25**4 / 6)
     squares = 16 / 16 + 4 * 4 / 4 / 48 + 3.5**2 / 16 + margin
     back, angle, folded = deviation_of_mesh(shifted, NearestTriangle(full))
     near(back.rms, (squares / 96) ** 0.5, 0.01)
     near(back.maximum, 0.25)
     assert folded == 0, folded
-    # The margin's nearest sides are across: 16 - 3.5^2 of 96 is off by 90 degrees.
+    # The nearest sides to the margin are across: 16 - 3.5^2 of 96 are off by 90 degrees.
     near(angle, 90 * 3.75 / 96, 0.05)
 
 
@@ -88,7 +88,7 @@ def test_squares():
     fold = (SQUARE * [1, 2, 1])[:, ::-1] + [2, 1, 0.4]
     back, angle, folded = deviation_of_mesh(mesh_of(above.corners, fold), full)
     near((*back, angle, folded), (((4 * 0.09 + 2 * 0.16) / 6) ** 0.5, 0.4, 180 / 3, 1 / 3))
-    # By 3 on 4, heights from 0 to 1.5.
+    # Tilted by 3 in 4: heights from 0 to 1.5.
     tilted = mesh_of(2 * SQUARE @ [[1, 0, 0.75], [0, 1, 0], [0, 0, 1]] + [1, 1, 0])
     back, angle, folded = deviation_of_mesh(tilted, full)
     near(back.rms, 1.5 / 3**0.5, 0.01)
@@ -96,8 +96,8 @@ def test_squares():
 
 
 def test_far_and_many():
-    """Triangles of all sizes, points near and far: against VTK's locator, in deviation_of_points.
-    Of a mesh with many samples means are close, the maximum is over all, and may be inside."""
+    """Triangles of all sizes, points near and far: deviation_of_points checks with VTK's locator.
+    If a mesh has many samples, means are close, but the maximum is over all, and may be inside."""
     random = numpy.random.default_rng(1)
     places = random.uniform(-9, 9, (400, 1, 3))
     spread = random.uniform(0.01, 1, (400, 1, 1)) ** 3

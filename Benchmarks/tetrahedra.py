@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tetrahedra of what lies above an isovalue: Isodiamonds, plain and with SimulationQuality, and
-CGAL's Mesh_3 of the same samples.
+"""Tetrahedra of what lies above an isovalue, by Isodiamonds and by CGAL's Mesh_3.
+
+Isodiamonds' are plain and with SimulationQuality; CGAL's are of the same samples.
 
     PYTHONPATH=build/lib/python3/dist-packages pvpython Benchmarks/tetrahedra.py VOLUME:ISOVALUE \\
       [--tolerances 2,1,0.5] [--cgal 0.5:3,0.2:1.5] [--mesher build/bin/IsodiamondCGALMesher]
 
 VOLUME is a raw file of bytes, NAME_XxYxZ_uint8.raw, whose surface does not reach its boundary.
 Tolerances, and CGAL's facet distance and size, are in voxels. Seconds are those of one thread: of
-building the hierarchy, which serves all tolerances, and of each mesh; of CGAL's meshing, and of its
-optimizing (perturb, exude). The mesher is built where CGAL is found, Debian's libcgal-dev.
+building the hierarchy, which serves all tolerances, and of each mesh; for CGAL, of meshing and of
+optimizing (perturb, exude). The mesher is built if CGAL is found (Debian's libcgal-dev).
 """
 import argparse
 import os
@@ -31,7 +32,7 @@ def arrays_of(grid):
 
 
 def read_medit(path):
-    """Points and tetrahedra of a file of Medit's."""
+    """Points and tetrahedra in a file of Medit's format."""
     with open(path) as file:
         words = iter(file.read().split())
     found = {}
@@ -46,7 +47,7 @@ def read_medit(path):
 
 
 def surface_of(points, cells):
-    """The faces of one tetrahedron alone."""
+    """The faces that belong to only one tetrahedron."""
     faces = numpy.concatenate([cells[:, face] for face in FACES])
     _, first, counts = numpy.unique(
         numpy.sort(faces, axis=1), axis=0, return_index=True, return_counts=True
@@ -55,7 +56,7 @@ def surface_of(points, cells):
 
 
 def dihedral_angles(points, cells):
-    """The smallest and the largest of each tetrahedron, in degrees."""
+    """The smallest and the largest angle of each tetrahedron, in degrees."""
     corners = points[cells]
     normals = []
     for face in FACES:

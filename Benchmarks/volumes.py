@@ -20,14 +20,15 @@ def image_of(field):
 
 
 def gyroid(axis):
-    """Sheets all over a cube, of a period of 2 pi, at these coordinates on each axis."""
+    """Sheets all over a cube, with a period of 2 pi, at these coordinates on each axis."""
     z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
     sin, cos = numpy.sin, numpy.cos
     return sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)
 
 
 def phantom(size):
-    """CT of a tilted block with bores, a slot and fins: 100 in 0, edges blurred over two voxels."""
+    """CT of a tilted block with bores, a slot and fins: 100 inside, 0 outside; edges are blurred
+    over two voxels, and there is noise."""
     axis = (numpy.arange(size) - (size - 1) / 2) / size
     z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij", sparse=True)
     sin, cos = numpy.sin(0.2), numpy.cos(0.2)
@@ -70,7 +71,7 @@ def raw_volume(argument):
 
 
 def cropped(image, extent):
-    """Where it is, smaller."""
+    """A part of an image, at the same place."""
     extract = vtkExtractVOI()
     extract.SetInputData(image)
     extract.SetVOI(extent)

@@ -1,4 +1,4 @@
-# Every test that docs/accuracy.md names is one that ctest knows.
+# Checks that ctest knows every test that docs/accuracy.md names.
 execute_process(COMMAND "${CTEST}" -N WORKING_DIRECTORY "${BUILD}" OUTPUT_VARIABLE known)
 file(READ "${SOURCE}/docs/accuracy.md" text)
 string(REGEX MATCHALL "`(Core|Filters|Fuzzing|Docs|Server|Parallel)\\.[A-Za-z0-9.]+`" names "${text}")

@@ -13,8 +13,9 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 
-# ParaView's version as it was built with, by the libraries; Python's by hand, since only the
-# interpreter loads its modules. Programs in C++ need ParaView's development files besides.
+# The dependency on ParaView in the version of this build comes from its libraries; that on Python
+# is set by hand, since only the interpreter loads its modules. Programs in C++ also need ParaView's
+# development files.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 if(ISODIAMONDS_WRAP_PYTHON)
@@ -24,9 +25,10 @@ if(ISODIAMONDS_WRAP_PYTHON)
 endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS paraview-dev)
 
-# Where ParaView looks for plugins of other packages, so that its plugin manager lists this one.
-# Debian's from 13 on has a folder for them. Debian 12's knows its own only, unless there is a
-# configuration beside the program, which no package has: ours names ParaView's list and our own.
+# Goes where ParaView looks for other packages' plugins, so that its plugin manager lists this one.
+# Debian's ParaView has a folder for them from 13 on. That of Debian 12 knows only its own plugins,
+# unless there is a configuration beside the program, which no package has: ours names ParaView's
+# list and our own.
 set(library_folder "${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}")
 set(plugin_folder "${library_folder}/${PARAVIEW_PLUGIN_SUBDIR}")
 set(files "${CMAKE_CURRENT_BINARY_DIR}/deb")

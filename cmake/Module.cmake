@@ -10,7 +10,7 @@ else()
     9.1 COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc FiltersCore ParallelCore vtksys)
 endif()
 if(BUILD_TESTING)
-  # What the tests use besides: here, because imported targets belong to the folder that finds them.
+  # What the tests need besides. Here, as imported targets belong to the folder that finds them.
   isodiamonds_find(VTK
     "what its rendering tests need (Debian: libglew-dev libfreetype-dev), or BUILD_TESTING=OFF"
     COMPONENTS CommonExecutionModel FiltersCore FiltersExtraction FiltersGeneral ImagingCore IOImage IOXML
@@ -18,7 +18,7 @@ if(BUILD_TESTING)
     PATHS "${VTK_DIR}" NO_DEFAULT_PATH) # the VTK that ParaView brought
 endif()
 
-# Hashes of the volumes that the cache knows. xxHash comes without a configuration for CMake.
+# xxHash, for hashes of the volumes in the cache, comes without a configuration for CMake.
 find_path(XXHASH_INCLUDE_DIR xxhash.h)
 find_library(XXHASH_LIBRARY xxhash)
 mark_as_advanced(XXHASH_INCLUDE_DIR XXHASH_LIBRARY)

@@ -1,13 +1,13 @@
 # The ParaView plugin Isodiamonds.
 #
 # paraview_plugin_build adds the folder of the plugin file as a subdirectory, which cannot be the
-# top one; Plugin/paraview.plugin is a link to the file on top.
+# top folder; so Plugin/paraview.plugin is a link to the file at the top.
 
-# Help pages, the "?" button of the property panel: with Qt 5 and its tools.
+# Help pages, for the "?" button of the property panel, need Qt 5 and its tools.
 find_program(ISODIAMONDS_QHELPGENERATOR qhelpgenerator)
 find_program(ISODIAMONDS_XMLPATTERNS xmlpatterns PATHS /usr/lib/qt5/bin NO_DEFAULT_PATH)
 set(no_xml_documentation ON)
-if(PARAVIEW_QT_MAJOR_VERSION EQUAL 6) # 5.11 does not tell, and has Qt 5
+if(PARAVIEW_QT_MAJOR_VERSION EQUAL 6) # ParaView 5.11 does not set it, and has Qt 5
   message(NOTICE "The plugin comes without help pages: ParaView makes them with Qt 5 only.")
 elseif(NOT ISODIAMONDS_QHELPGENERATOR OR NOT ISODIAMONDS_XMLPATTERNS)
   message(NOTICE "The plugin comes without help pages: qhelpgenerator or xmlpatterns is missing "
@@ -16,7 +16,7 @@ else()
   set(no_xml_documentation OFF)
 endif()
 
-# The plugin's own VTK module: what ParaView asks of properties.
+# The plugin's own VTK module: the domains of its properties.
 vtk_module_scan(
   MODULE_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/ServerManager/vtk.module"
   REQUEST_MODULES IsodiamondServerManager

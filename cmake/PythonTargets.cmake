@@ -1,10 +1,11 @@
-# Works round export files of ParaView or VTK that name Python modules other than they are installed.
+# Works round export files of ParaView or VTK that give Python modules other names than the
+# installed ones.
 #
-# Debian 13's paraview-dev, and sid's, name vtkCommonCore.so where the file is called
+# The paraview-dev of Debian 13 and sid names vtkCommonCore.so where the file is called
 # vtkCommonCore.cpython-313-x86_64-linux-gnu.so, and CMake refuses a package whose export files name
-# what is not there. But it passes over an export file all of whose targets exist already. So where
-# an export file is wrong in this way its targets are made here, with the files that are installed.
-# Where they are right nothing is done, and nothing is written anywhere.
+# missing files. But it passes over an export file whose targets all exist already. So the targets
+# of an export file that is wrong in this way are made here, with the files that are installed. If
+# export files are right, nothing is done; nothing is ever written to disk.
 
 # isodiamonds_find_config(<package> <version> <variable>): the folder of the configuration that
 # find_package(<package> <version>) will read, by its own rules; false if there is none.
@@ -21,7 +22,7 @@ function(isodiamonds_find_config package version variable)
   set(${variable} "${folder}" PARENT_SCOPE)
 endfunction()
 
-# isodiamonds_find_module(<prefix> <file> <variable>): a Python module as it is installed.
+# isodiamonds_find_module(<prefix> <file> <variable>): the installed file of a Python module.
 function(isodiamonds_find_module prefix file variable)
   string(REGEX REPLACE "\\.so$" ".cpython-*.so" pattern "${prefix}/${file}")
   file(GLOB files "${prefix}/${file}" "${pattern}")
@@ -32,7 +33,7 @@ endfunction()
 
 # isodiamonds_mend_export_file(<file>): makes the targets of an export file that is wrong.
 function(isodiamonds_mend_export_file export_file)
-  # What CMake would check, in a file for each build type: targets, and their modules.
+  # The targets that CMake would check, and their modules; in a file for each build type.
   string(REGEX REPLACE "\\.cmake$" "-*.cmake" by_build_type "${export_file}")
   file(GLOB by_build_type "${by_build_type}")
   set(checks)
@@ -47,7 +48,7 @@ function(isodiamonds_mend_export_file export_file)
     return()
   endif()
 
-  # The prefix is the folder above the export file that has the modules' folder.
+  # The prefix is the folder above the export file that contains the modules' folder.
   list(GET modules 0 module)
   get_filename_component(folder "${module}" DIRECTORY)
   get_filename_component(prefix "${export_file}" DIRECTORY)
@@ -71,8 +72,8 @@ function(isodiamonds_mend_export_file export_file)
   endforeach()
 endfunction()
 
-# isodiamonds_mend_python_targets(<package> <version>): to be called where, and before,
-# find_package(<package> <version>) is.
+# isodiamonds_mend_python_targets(<package> <version>): to be called before find_package(<package>
+# <version>), and from the same folder.
 function(isodiamonds_mend_python_targets package version)
   isodiamonds_find_config(${package} ${version} folder)
   if(folder)

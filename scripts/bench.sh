@@ -5,7 +5,7 @@ set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-# What Isodiamonds is measured beside, and the plots.
+# For the results, for what Isodiamonds is compared with, and for the plots.
 benchmark_packages="nlohmann-json3-dev libmeshoptimizer-dev libopenvdb-dev python3-matplotlib"
 build=$root/build-bench
 output=$root/benchmark-output
@@ -16,15 +16,15 @@ Usage: scripts/bench.sh [OPTIONS] [FILE[:ISOVALUE[:LOWER:UPPER]] ...]
 
 Installs what is missing, builds into build-bench/, measures, and draws plots. Tables (.md), all
 figures (.json) and plots (.png) go to benchmark-output/. Options and FILEs are passed on to
-IsodiamondBenchmark, without any: --size 256. Those of interest:
+IsodiamondBenchmark, which without any takes --size 256. The main ones:
 
   --size N[,N...]  sizes of the synthetic volumes
-  --fields A[,B]   some of them: marschner-lobb, gyroid, phantom, odd
+  --fields A[,B]   which of them: marschner-lobb, gyroid, phantom, odd [all]
   --threads N      for all contestants
   --paper [--pad]  the paper's Table 2 and figure 15
   FILE             a volume, .raw with a name like tooth_103x94x161_uint8.raw, .nrrd or .nii
 
-build-bench/bin/IsodiamondBenchmark --help tells all.
+build-bench/bin/IsodiamondBenchmark --help lists all.
 END
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Tries a command of the README as a new user would: in a bare Debian, on a clone of the commit HEAD.
+# Tries a command of the README as a new user would: in a bare Debian, on a clone of HEAD.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -8,18 +8,19 @@ usage() {
   cat <<'END'
 Usage: scripts/check-debian.sh [--root FOLDER] [--copy FILE] bookworm|trixie|sid [demo|test|COMMAND...]
 
-Makes a bare Debian in a folder (debootstrap), clones HEAD into it, and runs there scripts/demo.sh
-[default], scripts/test.sh, or a COMMAND in the clone. Fails as that fails. Needs root, and apt with
-Debian's sources.
+Makes a bare Debian in a folder (debootstrap), clones HEAD into it, and in the clone runs
+scripts/demo.sh [default], scripts/test.sh or a COMMAND. Fails if that fails. Needs root, and apt
+with Debian's sources.
 
-  --root FOLDER  where the Debian is made, and stays; one that is there already is used again, with
-                 all that it has installed [a temporary folder, removed afterwards]
-  --copy FILE    goes into the clone as well
+  --root FOLDER  where to make the Debian and keep it; one that is there already is used again, with
+                 everything installed in it [a temporary folder, removed afterwards]
+  --copy FILE    copies FILE into the clone
 END
 }
 
-# use_apt_of_host FOLDER: the root in FOLDER gets packages from where this machine gets Debian's.
-# No other part of apt's configuration: that may need programs and keys which the root lacks.
+# use_apt_of_host FOLDER: makes apt in the root in FOLDER get packages from where the host gets
+# Debian's. Of the host's other settings it takes only those for HTTP and checks: others may need
+# programs and keys which the root lacks.
 use_apt_of_host() {
   local archive=$1/etc/apt
   echo "deb $debian $suite main" >"$archive/sources.list"
@@ -31,8 +32,8 @@ use_apt_of_host() {
   cp -L /etc/resolv.conf "$1/etc/resolv.conf"
 }
 
-# in_root FOLDER COMMAND...: runs COMMAND in the root in FOLDER. What it mounts is seen by nobody
-# else, and gone with it.
+# in_root FOLDER COMMAND...: runs COMMAND in the root in FOLDER. Its mounts are seen by nothing
+# else, and end with it.
 in_root() {
   # shellcheck disable=SC2016,SC2046 # variables of the inner shell; list of words
   unshare --mount bash -c \
@@ -108,6 +109,6 @@ git clone -q "$root" "$folder/root/isodiamonds"
 if [ -n "$copy" ]; then
   cp "$copy" "$folder/root/isodiamonds"
 fi
-# X servers of other roots are seen, their lock files are not: numbers of our own.
+# X servers of other roots are seen, but their lock files are not: hence other numbers.
 first=$((100 + RANDOM % 900))
 in_root "$folder" bash -c "cd /root/isodiamonds && ISODIAMONDS_DISPLAY=$first \"\$@\"" bash "${command[@]}"

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that includes go down only: the rooms of Filters/Core as its CMakeLists.txt says, no VTK in the
-core, no room's header without its folder, no ParaView in Filters, and a reference that is on its own.
+"""Checks that includes only go down: between rooms of Filters/Core as its CMakeLists.txt says, with
+no VTK in the core, no header of a room without its folder, no ParaView in Filters, and nothing of
+the core or of VTK in the reference.
 
 Usage: check-layers.py [ROOT]
 """
@@ -15,7 +16,7 @@ problems = []
 
 
 def includes(folder):
-    """Every source below a folder with the lines and names of what it includes."""
+    """All includes below a folder: source, number of the line, name."""
     for source in sorted(folder.rglob("*")):
         if source.suffix in (".h", ".cpp", ".cxx"):
             for number, line in enumerate(source.read_text().splitlines(), 1):

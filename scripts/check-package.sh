@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes a Debian package of the commit HEAD in a bare Debian, and tries it out in another one. Needs root.
+# Makes a Debian package of the commit HEAD in a bare Debian, and tries it out in another.
+# Needs root.
 #   scripts/check-package.sh bookworm|trixie|sid
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds and tests what needs no ParaView, of the commit HEAD, on a plain VTK: Debian's libvtk9-dev,
-# which cannot be installed beside Debian 12's or 13's python3-paraview, hence in a Debian of its own.
+# Builds and tests what needs no ParaView, of the commit HEAD, on a plain VTK: Debian's libvtk9-dev.
+# That cannot be installed beside Debian 12's or 13's python3-paraview: hence a Debian of its own.
 #   scripts/check-plain-vtk.sh [FOLDER [SUITE]]
-# FOLDER gets the Debian, or has it from last time; without, a temporary one is made and removed.
+# FOLDER is for the Debian, or has it from last time; the default is a temporary one.
 # SUITE is bookworm (VTK 9.1, the default), trixie (9.3) or sid (9.6).
 set -euo pipefail
 

@@ -17,8 +17,9 @@ if [ ! -f "$build/compile_commands.json" ]; then
   echo "Build first: scripts/test.sh" >&2
   exit 1
 fi
-# Most of the time goes into the headers of VTK and the standard library: some files are checked as
-# one, with the flags of the first. Their unnamed namespaces meet then, so names may not clash.
+# Most of the time goes into the headers of VTK and the standard library, so several files at a time
+# are checked as one, with the flags of the first. They then share one unnamed namespace, in which
+# names must not clash.
 batches=$(mktemp -d)
 trap 'rm -rf "$batches"' EXIT
 python3 scripts/merge-sources.py "$build/compile_commands.json" "$batches" \

@@ -4,7 +4,7 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
 
-# libxxhash: hashes by which the filters know content again.
+# libxxhash: hashes by which the filters recognize content.
 compile_packages="cmake ninja-build g++ libxxhash-dev"
 # Rendering without a screen.
 render_packages="xvfb xauth"
@@ -57,7 +57,8 @@ install_packages() {
     "${missing[@]}" >/dev/null
 }
 
-# install_build_packages: what building the plugin, the VTK module and its Python wrapping takes.
+# install_build_packages: installs what it takes to build the plugin, the VTK module and its Python
+# wrapping.
 install_build_packages() {
   local version
   version=$(version_of paraview-dev)
@@ -67,8 +68,8 @@ install_build_packages() {
     version=$(version_of paraview-dev)
     [ -n "$version" ] || fail "apt knows no package paraview-dev; see Systems in README.md"
   fi
-  # What paraview-dev's CMake files want beyond what it depends on. ParaView 5.11 is one with Qt 5,
-  # whose tools make the help pages; from 6.0 on Debian's is built on the system's VTK.
+  # What paraview-dev's CMake files need beyond its dependencies. ParaView 5.11 has Qt 5, whose
+  # tools make the help pages; from 6.0 on, Debian's ParaView is built on the system's VTK.
   local packages="paraview-dev python3-paraview python3-dev libopenmpi-dev libdouble-conversion-dev liblz4-dev"
   if dpkg --compare-versions "$version" lt 5.12; then
     packages+=" qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools"
@@ -85,13 +86,14 @@ configure_and_build() {
   (cd "$root" && cmake --preset "$@" --log-level=NOTICE >/dev/null && cmake --build --preset "$1")
 }
 
-# on_display COMMAND...: runs it on a screen of its own, which is not seen. One for all that a command
-# starts: several at once get into each other's way. ISODIAMONDS_DISPLAY is the first number to try.
+# on_display COMMAND...: runs COMMAND on an invisible screen of its own. There is one screen for all
+# that a COMMAND starts: several at once get in each other's way. ISODIAMONDS_DISPLAY is the first
+# number to try.
 on_display() {
   xvfb-run -a -n "${ISODIAMONDS_DISPLAY:-99}" -s "-screen 0 1600x1000x24 -noreset" "$@"
 }
 
-# find_plugin: the plugin that was built; its folder tells ParaView's version.
+# find_plugin: the plugin that was built; its folder's name has ParaView's version.
 find_plugin() {
   local files=("$build"/lib*/paraview-*/plugins/Isodiamonds/Isodiamonds.so)
   [ -e "${files[0]}" ] || fail "no plugin in $build"

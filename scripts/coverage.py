@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Of gcovr's report, what is news: lines that no test runs and that scripts/coverage-untested.txt does not tell of,
-and lines of that list that are tested now or gone.
+"""Prints what is new in gcovr's report: lines that no test runs and that
+scripts/coverage-untested.txt does not list, and lines on that list that are tested now or gone.
 
-Usage: coverage.py REPORT.json BRANCHES.txt   BRANCHES.txt: to write lines to of which some branch never runs
+Usage: coverage.py REPORT.json BRANCHES.txt
+Writes the lines of which some branch never runs to BRANCHES.txt.
 """
 import collections
 import json

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Which lines and branches of the core its tests run: totals, a page for each file in
-# build-coverage/report, and which lines no test runs though coverage-untested.txt does not say why:
-# then it fails. Arguments go to ctest, e.g. -R Surface
+# Measures which lines and branches of the core its tests run. Prints totals, writes a page for each
+# file to build-coverage/report, and fails if a line is run by no test without a reason in
+# coverage-untested.txt. Arguments go to ctest, e.g. -R Surface
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -16,7 +16,7 @@ find build-coverage -name '*.gcda' -delete
 # Always the same cases. Each test is a process: counts are added up in files, under locks.
 ISODIAMONDS_SEED=1 ctest --preset coverage -L core -j "$(nproc)" --progress "$@"
 mkdir -p "$report"
-# Branches of exceptions are none of the code's own.
+# Branches for exceptions do not count: they are not in the source.
 gcovr -r . -f 'Filters/Core/' --exclude-throw-branches --exclude-unreachable-branches -j "$(nproc)" \
   --html-details "$report/index.html" --json "$report/report.json" --print-summary build-coverage
 scripts/coverage.py "$report/report.json" "$report/branches.txt"

@@ -68,8 +68,8 @@ SIDE = (1, 0.25, 0.2)
 VOLUME_PICTURE_SIZE = (2000, 1000)
 VOLUME_CAPTION_HEIGHT = 0.09
 REGION_PICTURE_SIZE = (2000, 1000)
-# Where in the box of the surface: around the left eye. Full detail there, voxels of tolerance
-# elsewhere.
+# Around the left eye, in parts of the surface's box: full detail there, elsewhere a tolerance of
+# REGION_OUTSIDE voxels.
 REGION = ((0.5, 0.72), (0.5, 1.0), (0.05, 0.26))
 REGION_OUTSIDE = 1
 REGION_EDGE_COLOR = (0.3, 0.33, 0.36)
@@ -83,7 +83,7 @@ TEXT_COLOR = (0.15, 0.15, 0.18)
 
 
 class DemoError(Exception):
-    """What the user reads, on one line."""
+    """An error that the user is told, on one line."""
 
 
 class ErrorLog:
@@ -125,7 +125,7 @@ def median_time(algorithm):
 
 
 def read_volume(path, errors):
-    """The image of a file, its array made the point scalars."""
+    """The image in a file, with its array as the point scalars."""
     extension = next((e for e in READERS if path.lower().endswith(e)), None)
     if extension is None:
         raise DemoError(f"unknown kind of file: '{path}'")
@@ -139,7 +139,7 @@ def read_volume(path, errors):
     if min(image.GetDimensions()) < 2:
         raise DemoError(f"'{path}' is not a volume: it has {image.GetDimensions()} samples")
     point_data = image.GetPointData()
-    # Some writers name no active scalars: then the first array.
+    # Some writers name no active scalars: then the first array is taken.
     array = point_data.GetScalars() or point_data.GetArray(0)
     if array is None:
         raise DemoError(f"'{path}' has no point scalars")
@@ -156,7 +156,7 @@ def use_scalars(algorithm):
 
 
 def build(image, prepare):
-    """A minimal hierarchy, of what prepare(builder) says, and the seconds that it took."""
+    """A minimal hierarchy, built as prepare(builder) sets it up, and the seconds that it took."""
     builder = vtkIsodiamondBuilder()
     builder.SetInputData(image)
     use_scalars(builder)
@@ -280,9 +280,9 @@ def caption(text, center):
 
 
 def front_camera(surface, aspect, direction=FRONT):
-    """A camera that the surface fills, from the front of a NIfTI head (y to the nose, z up).
-    @param aspect width by height of the view.
-    @param direction from the surface to the camera."""
+    """A camera whose view the surface fills, in front of a NIfTI head (y to the nose, z up).
+    @param aspect width of the view divided by its height
+    @param direction from the surface to the camera"""
     camera = vtkCamera()
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(0, 0, 0)
@@ -299,7 +299,7 @@ def front_camera(surface, aspect, direction=FRONT):
 
 
 def close_up_camera(surface, whole):
-    """The view of another camera, with a part of the surface only."""
+    """The view of another camera, but only of a part of the surface."""
     camera = vtkCamera()
     camera.DeepCopy(whole)
     camera.SetParallelScale(CLOSE_UP_SIZE * whole.GetParallelScale())
@@ -496,7 +496,7 @@ def run_surface(image, isovalue, voxel, files):
 
 
 def run_volume(image, isovalue, value_range, voxel, files):
-    """The same for all that lies above the isovalue, as tetrahedra."""
+    """The same for everything above the isovalue, as tetrahedra."""
 
     def prepare(builder):
         builder.SetShapeToIntervalVolume()

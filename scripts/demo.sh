@@ -19,7 +19,7 @@ at five error tolerances and with a region of interest.
 END
 }
 
-# Arguments are checked before anything is installed or built: that takes minutes.
+# Arguments are checked before anything is installed or built, as that takes minutes.
 check_isovalue() {
   [[ $1 =~ ^[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?$ ]] || fail "--isovalue: '$1' is not a finite number"
 }

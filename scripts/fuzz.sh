@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Looks for arrays and files that do harm, with libFuzzer, AddressSanitizer and UBSan.
-# Usage: scripts/fuzz.sh [SECONDS [Arrays|Files...]], 30 minutes each unless told. What is found
-# stays in build-fuzz/found: put it into Testing/Data, where ctest runs it, and mend the cause.
+# Usage: scripts/fuzz.sh [SECONDS [Arrays|Files...]], by default both, for 30 minutes each. Findings
+# stay in build-fuzz/found: put them into Testing/Data, where ctest runs them, and mend the cause.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -18,7 +18,7 @@ install_build_packages
 configure_and_build fuzz >/dev/null
 
 cd "$root"
-# A file may tell any size: VTK's reader then runs out of memory, and leaks; that is no finding.
+# A file may claim any size: VTK's reader then runs out of memory, and leaks; that is no finding.
 options=allocator_may_return_null=1:max_allocation_size_mb=2000
 declare -A leaks=([Arrays]=1 [Files]=0)
 for target in "${targets[@]}"; do

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes files that include eight sources each, with compile commands of their own. Directories count with
-their sub-directories, but for those named before them.
+"""Makes files that include up to eight sources each, with compile commands of their own. A
+directory counts with its sub-directories, except those named before it.
 
 Usage: merge-sources.py COMPILE_COMMANDS OUTPUT_DIRECTORY SOURCE_DIRECTORY...
 """
@@ -26,7 +26,7 @@ for directory in directories:
         name = f"{output}/{len(merged)}.cpp"
         with open(name, "w") as file:
             file.writelines(f'#include "{source}"\n' for source in sources)
-        # They share the flags: each directory is one target. Its precompiled header is gcc's.
+        # They share their flags: each directory is one target. Its precompiled header is for gcc.
         command = own[first]["command"].replace(sources[0], name)
         command = re.sub(r"-Winvalid-pch|-include \S+/cmake_pch\.hxx", "", command)
         merged.append({**own[first], "file": name, "command": command})

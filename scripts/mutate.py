@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plants small faults in a copy of the core, one at a time, and looks whether its tests find them.
+"""Plants small faults in a copy of the core, one at a time, and checks whether its tests find them.
 
-All faults are built into one program and switched on by the environment (mutation/Mutants.h). Which ones are
-chosen depends on the text of their lines only: the same core has the same faults. Each is looked for by the tests
-that reach it, quick ones first, until one fails, crashes or takes far longer than it did.
+All faults are built into one program; an environment variable switches one on (mutation/Mutants.h).
+Which faults are chosen depends only on the text of their lines: the same core gets the same faults.
+For each, the tests that reach it are run, the most promising first, until one fails, crashes or
+takes far longer than without it.
 
-Usage: mutate.py [--lines N] [--seconds N] [--again] [--list] [FILE...]   FILE: a part of the path in Filters/Core, e.g. Patches/
+Usage: mutate.py [--lines N] [--seconds N] [--again] [--list] [FILE...]
+FILE is a part of a path in Filters/Core, e.g. Patches/
 """
 import argparse
 import collections
@@ -28,7 +30,7 @@ BUILD = FOLDER / "build"
 PROGRAM = BUILD / "bin/IsodiamondCoreTests"
 # Faults that no test can find, each with the reason: file | fault | reason.
 HARMLESS = ROOT / "scripts/mutation/harmless.txt"
-# A fault that needs luck to be found is not found: always the same random cases, and not many.
+# Always the same random cases, and not many: a fault that only luck would find is not found.
 ENVIRONMENT = {"ISODIAMONDS_SEED": "1", "ISODIAMONDS_CASES": "10"}
 
 OPERATORS = {
@@ -45,7 +47,7 @@ OPERATORS = {
 
 
 class Fault:
-    """A fault in a file: pieces of text to put at places of it, with {} for the fault's number."""
+    """A fault in a file: texts to put at places in it, with {} for the fault's number."""
 
     def __init__(self, path, kind, text, start, edits, what):
         self.path, self.kind, self.edits, self.start = path, kind, edits, start
@@ -60,7 +62,7 @@ class Fault:
 
 
 def blanked(text):
-    """The text without what is in comments and strings, at the same places."""
+    """The text with comments, strings and directives blanked out; all else stays in its place."""
     pattern = r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'|^[ ]*#(?:[^\n]*\\\n)*[^\n]*'
     return re.sub(pattern, lambda m: re.sub(r"[^\n]", "~", m[0]), text, flags=re.S | re.M)
 
@@ -78,7 +80,7 @@ def closing(text, start):
 def faults_of(path, text):
     """All faults that the patterns give."""
     code = blanked(text)
-    # What only looks like code that runs, or is looked at by the compiler.
+    # What is evaluated only by the compiler, or only looks like code that runs.
     for skipped in re.finditer(r"\b(assert|static_assert|noexcept|decltype|alignas|sizeof)\(", code):
         end = closing(code, skipped.end() - 1)
         code = code[:skipped.start()] + re.sub(r"[^\n]", "~", code[skipped.start():end + 1]) + code[end + 1:]
@@ -156,12 +158,12 @@ def chosen(path, text, lines_a_fault):
 
 
 def planted(text, faults):
-    """The text with faults in it, and tables that are made when the program starts."""
+    """The text with faults in it, and with tables that are made when the program runs."""
     edits = sorted(((at, -end, end, new.format(fault.number)) for fault in faults for at, end, new in fault.edits),
                    reverse=True)
     for at, _, end, new in edits:
         text = text[:at] + new + text[end:]
-    # A variable template's order of initialisation is nobody's: a function's is not.
+    # Variable templates are initialised in no particular order; functions avoid that.
     for m in list(re.finditer(r"(template <[^\n]*>\ninline )constexpr (\w+) (\w+) = ([^;]*);", text)):
         text = text.replace(m[0], f"{m[1]}const {m[2]}& {m[3]}() {{ static const {m[2]} made = {m[4]}; return made; }}")
         text = re.sub(rf"\b{m[3]}<([^<>]*)>(?!\()", rf"{m[3]}<\1>()", text)
@@ -171,7 +173,7 @@ def planted(text, faults):
 
 
 def write_copy(sources, faults):
-    """Copies the project; only what changed gets a new time, so that builds are incremental."""
+    """Copies the project; only changed files are written, so that builds are incremental."""
     for folder in ("Filters/Core", "Testing", "cmake"):
         for source in (ROOT / folder).rglob("*"):
             if source.is_file():
@@ -191,7 +193,7 @@ def write(target, text):
 
 
 def build(jobs):
-    """Builds the copy. @return the output if that failed"""
+    """Builds the copy. @return the output if that failed, else nothing"""
     flags = f"-w -O2 -D_GLIBCXX_ASSERTIONS -include {COPY}/Mutants.h"
     subprocess.run(["cmake", "-S", COPY, "-B", BUILD, "-G", "Ninja", "-DISODIAMONDS_CORE_ONLY=ON",
                     "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={flags}"], check=True, stdout=subprocess.DEVNULL)
@@ -206,7 +208,7 @@ def read(file):
 
 
 def build_what_compiles(sources, faults, jobs):
-    """Takes out what does not compile until all does. What did not is not tried again."""
+    """Takes out faults that do not compile until the rest does. They are not tried again."""
     broken = read(FOLDER / "broken.json")
     faults = [fault for fault in faults if fault.key not in broken]
     while True:
@@ -214,7 +216,7 @@ def build_what_compiles(sources, faults, jobs):
         output = build(jobs)
         if not output:
             return faults
-        for what in (r"[^\n]*error:", ""):  # where an error is, or what it says besides
+        for what in (r"[^\n]*error:", ""):  # lines with errors, else all lines named in it
             bad = {(m[1], int(m[2])) for m in re.finditer(rf"{COPY}/(Filters/Core/[^:\n]*):(\d+):{what}", output)}
             left = [fault for fault in faults if not any((fault.path, line) in bad for line in fault.lines)]
             if len(left) < len(faults):
@@ -228,7 +230,7 @@ def build_what_compiles(sources, faults, jobs):
 
 
 def run(test, number, limit, reached=None):
-    """@return whether a test passes, and how long it took"""
+    """@return the exit code of a test, and how long it took"""
     environment = {**os.environ, **ENVIRONMENT, "ISODIAMONDS_MUTANT": str(number)}
     if reached:
         environment["ISODIAMONDS_REACHED"] = str(reached)
@@ -239,7 +241,7 @@ def run(test, number, limit, reached=None):
 
 
 def measure_tests(jobs):
-    """@return the seconds of each test and the numbers of faults that it reaches"""
+    """@return the seconds that each test takes, and the numbers of the faults that it reaches"""
     names, suite = [], ""
     for line in subprocess.run([PROGRAM, "--gtest_list_tests"], capture_output=True, text=True,
                                check=True).stdout.splitlines():
@@ -267,12 +269,12 @@ def measure_tests(jobs):
 
 
 class Hunt:
-    """Looks for faults with the tests that reach them, first those that found many in little time."""
+    """Looks for faults with the tests that reach them; first with those that found many quickly."""
 
     def __init__(self, tests, faults, seconds):
         self.tests, self.seconds = tests, seconds
         self.runs, self.finds = collections.Counter(), collections.Counter()
-        # Of what a test reaches, the part that is in a file: most for the file that it is about.
+        # The part of what a test reaches that is in a file: largest for the file that it is about.
         self.part = collections.Counter()
         path_of = {fault.number: fault.path for fault in faults}
         for name, (_, numbers) in tests.items():
@@ -280,13 +282,13 @@ class Hunt:
                 self.part[name, path_of[number]] += 1 / len(numbers)
 
     def price(self, name, path):
-        """The seconds that a fault costs which this test finds."""
+        """The seconds that this test is likely to take for each fault that it finds."""
         chance = (self.finds[name] + 1) / (self.runs[name] + 4) + self.finds[name, path] / (self.runs[name, path] + 1)
         chance += self.part[name, path]
         return (self.tests[name][0] + 0.05) / chance
 
     def look_for(self, fault):
-        """@return the test that finds a fault, or none"""
+        """@return the test that finds a fault; "" if none does, "-" if none reaches it"""
         left = {name for name, (_, numbers) in self.tests.items() if fault.number in numbers}
         if not left:
             return "-"
@@ -306,18 +308,18 @@ class Hunt:
 
 def main():
     arguments = argparse.ArgumentParser()
-    arguments.add_argument("--lines", type=int, default=25, help="of a file for each fault, 3 faults at least")
+    arguments.add_argument("--lines", type=int, default=25, help="lines for each fault; 3 faults at least")
     arguments.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments.add_argument("--seconds", type=float, default=float("inf"), help="at most for each fault")
     arguments.add_argument("--again", action="store_true", help="only those that survived, or were not looked for, the last time")
-    arguments.add_argument("--list", action="store_true", help="only tells what would be planted")
+    arguments.add_argument("--list", action="store_true", help="only lists what would be planted")
     arguments.add_argument("files", nargs="*")
     options = arguments.parse_args()
 
     sources = {str(path.relative_to(ROOT)): path.read_text()
                for path in sorted((ROOT / "Filters/Core").rglob("*")) if path.suffix in (".h", ".cpp")}
     faults = [fault for path, text in sources.items() for fault in chosen(path, text, options.lines)]
-    # The numbers of a file do not depend on the other files' faults, or all would be built again.
+    # The numbers in a file do not depend on other files' faults: else all would be built again.
     files = list(sources)
     counts = collections.Counter()
     for fault in faults:

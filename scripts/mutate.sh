@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Plants small faults in the core, hundreds, one at a time, and tells which ones its tests do not
-# find. Takes an hour or two; again, only what changed is built. Arguments go to mutate.py:
+# Plants hundreds of small faults in the core, one at a time, and prints those that its tests do not
+# find. Takes an hour or two; later runs build only what changed. Arguments go to mutate.py:
 # scripts/mutate.sh [--seconds N] [--again] [FILE...], e.g. scripts/mutate.sh Patches/ Encoder.cpp
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

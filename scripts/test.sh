@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what a fresh Debian lacks, builds everything and runs all tests.
 # Arguments go to ctest, e.g. scripts/test.sh -R Surface
-# ISODIAMONDS_PRESET is the preset to build by, one that builds into build/ [test].
+# ISODIAMONDS_PRESET is the preset to build with, one that builds into build/ [test].
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

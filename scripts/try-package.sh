@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs a package that scripts/package.sh made, as a user does, and tries it out: ParaView lists the
-# plugin, Python finds the module, a program in C++ links the library. Usage: scripts/try-package.sh FILE
+# Installs a package that scripts/package.sh made, as a user would, and tries it out: ParaView lists
+# the plugin, Python finds the module, a program in C++ links the library.
+# Usage: scripts/try-package.sh FILE
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

@@ -29,7 +29,7 @@ int main(int argc, char* argv[])
               << " triangles\n";
   }
 
-  // The hierarchy is a vtkPolyData: any VTK program reads it again.
+  // The hierarchy is a vtkPolyData: any VTK program can read it back.
   if (argc > 1)
   {
     vtkNew<vtkXMLPolyDataWriter> writer;

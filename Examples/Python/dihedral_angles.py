@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Dihedral angles of tetrahedral meshes: pvpython dihedral_angles.py MESH.vtu...
 
-Prints the least and the greatest angle of each mesh, in degrees, and how they are distributed. An
-equilateral tetrahedron has six of 70.5 degrees; a solver likes none near 0 or 180.
+Prints the least and the greatest angle of each mesh, in degrees, and how its angles are
+distributed. An equilateral tetrahedron has six of 70.5 degrees; solvers want none near 0 or 180.
 """
 import sys
 
@@ -21,7 +21,7 @@ def dihedral_angles(corners):
         for j in range(i + 1, 4):
             k, m = (v for v in range(4) if v not in (i, j))
             edge = corners[:, j] - corners[:, i]
-            # The faces at the edge, as normals: the angle between the faces is that between these.
+            # Normals of the two faces at the edge, with the same angle between them as the faces.
             first = numpy.cross(edge, corners[:, k] - corners[:, i])
             second = numpy.cross(edge, corners[:, m] - corners[:, i])
             across = numpy.linalg.norm(numpy.cross(first, second), axis=1)

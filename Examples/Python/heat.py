@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Heat in an interval volume: python3 heat.py VOLUME.vtu [TEMPERATURE.vtu]
 
-VOLUME.vtu is what Isodiamond Interval Volume or Isodiamond Extract made, best with Simulation Quality,
-saved with data mode Binary or Ascii. One unit of heat comes into being in each unit of volume, and the
-surfaces are at 0 degrees; a wall of the image lets nothing through. Tells how many steps the method
-of conjugate gradients needs, and writes the temperature. Needs getfem, meshio and SciPy
-(Debian: python3-getfem python3-meshio python3-scipy), no ParaView and no VTK.
+VOLUME.vtu is made by Isodiamond Interval Volume or Isodiamond Extract, best with Simulation
+Quality, and saved with data mode Binary or Ascii. Each unit of volume generates one unit of heat;
+the surfaces are kept at 0 degrees, and nothing passes through the walls of the image. Prints how
+many steps the method of conjugate gradients needs, and writes the temperature. Needs getfem, meshio
+and SciPy (Debian: python3-getfem python3-meshio python3-scipy), but neither ParaView nor VTK.
 """
 import os
 import sys
@@ -21,7 +21,7 @@ from scipy.spatial import cKDTree
 
 
 def linear_system(points, tetrahedra):
-    """Stiffness and load of linear elements, and the place of each unknown."""
+    """Stiffness and load of linear elements, and the position of each unknown."""
     with tempfile.TemporaryDirectory() as folder:
         name = os.path.join(folder, "volume.msh")
         meshio.write(name, meshio.Mesh(points, [("tetra", tetrahedra)]), "gmsh22", binary=False)
@@ -47,7 +47,7 @@ if "tetra" not in volume.cells_dict or "Surface" not in volume.point_data:
     sys.exit(f"heat.py: '{sys.argv[1]}' is no interval volume")
 tetrahedra = volume.cells_dict["tetra"]
 matrix, load, places = linear_system(volume.points, tetrahedra)
-_, point = cKDTree(volume.points).query(places)  # getfem numbers them anew
+_, point = cKDTree(volume.points).query(places)  # getfem renumbers the points
 free = volume.point_data["Surface"][point] == 0
 
 steps = 0

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Levels of detail with VTK alone: python3 levels_of_detail.py [HIERARCHY.vtp]
 
-With PYTHONPATH on the folder of the package isodiamonds. Builds the hierarchy of an isosurface once,
-extracts it at several error tolerances and within a region of interest, and writes the hierarchy to
-a file if it is told one.
+PYTHONPATH must name the folder that has the package isodiamonds. Builds the hierarchy of an
+isosurface once, extracts it at several error tolerances and with a region of interest, and writes
+the hierarchy to a file if one is given.
 """
 import sys
 

@@ -209,7 +209,7 @@ isodiamond::BuildOptions Distance(const isodiamond::GridGeometry& world)
 namespace
 {
 
-/** Also of values that are not equal to themselves. */
+/** Of NaNs, too, which are not equal to themselves. */
 bool HaveSameBytes(const isodiamond::AnyValues& a, const isodiamond::AnyValues& b)
 {
   return a.index() == b.index() &&

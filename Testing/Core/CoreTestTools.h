@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-/** Fields, threads and views that the core's tests share. */
+/** What the core's tests share: fields, threads, built hierarchies and extracted meshes. */
 namespace test
 {
 
@@ -49,11 +49,11 @@ Field SpikeField(const std::array<int, 3>& dims, double spike);
 /** A smooth wave of real values. */
 Field WaveField(const std::array<int, 3>& dims);
 
-/** Small fields of many dimensions: full cubes, odd sizes, thin ones, those that end between the
- *  lattice's planes on one axis and on a plane on another. */
+/** Small fields of many sizes: full cubes, boxes of unequal sides, thin ones, and some that end
+ *  between planes of the lattice on one axis and on a plane on another. */
 std::vector<Field> SmallFields();
 
-/** A parallel-for on a number of threads, cut into many ranges. */
+/** A parallel-for whose threads fetch one range after another, each as long as the grain. */
 isodiamond::ParallelFor ThreadedFor(int threads);
 
 /** An encoding with its hierarchy. */
@@ -63,7 +63,7 @@ struct Built
   std::unique_ptr<isodiamond::IsodiamondHierarchy> Hierarchy;
 
   Built(isodiamond::Encoding encoding, const isodiamond::ParallelFor& parallelFor);
-  /** Expects that who encoded found the edges that the encoding implies. */
+  /** Expects that the edges found while encoding are those that the encoding implies. */
   Built(isodiamond::Encoded encoded, const isodiamond::ParallelFor& parallelFor);
 };
 Built Build(
@@ -71,12 +71,12 @@ Built Build(
 
 /** The paper's linear isovertices, or exact ones. */
 isodiamond::BuildOptions Placement(bool exact);
-/** The field metric with a refined interior, or without. */
+/** The field metric, with a refined interior or without one. */
 isodiamond::BuildOptions Interior(bool refine);
 /** The distance metric in a world. */
 isodiamond::BuildOptions Distance(const isodiamond::GridGeometry& world = isodiamond::AffineMap());
 
-/** Expects that encodings are the same to the bit, and in what was counted. */
+/** Expects that encodings are the same to the bit, and that their headers count the same. */
 void ExpectSame(const isodiamond::Encoding& found, const isodiamond::Encoding& expected);
 
 /** An HD with its arrays. */
@@ -106,13 +106,14 @@ Mesh Extract(const isodiamond::IsodiamondHierarchy& hierarchy, double tolerance,
   const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
 
 /**
- * What a surface must have: edges with one triangle only on the grid's boundary, none with more
- * than two, orientation consistent, points distinct and all used, nothing outside of the grid.
+ * What must hold of a surface: edges with only one triangle lie on the grid's boundary, none has
+ * more than two, orientation is consistent, points are distinct and all used, and nothing lies
+ * outside the grid.
  * @return the first fault in words, empty if there is none
  */
 std::string FindFault(const Mesh& mesh, const std::array<int, 3>& dims);
 
-/** Triangles by position and level, so that meshes compare whatever their order is. */
+/** Triangles by position and level, so that meshes can be compared whatever their order. */
 using Corner = std::array<float, 3>;
 struct PlacedTriangle
 {
@@ -131,16 +132,16 @@ struct PlacedTriangle
 PlacedTriangle Place(const Corner& a, const Corner& b, const Corner& c, int level);
 std::vector<PlacedTriangle> PlacedTriangles(const Mesh& mesh);
 
-/** Removes the reference's patches from the triangles: each must be there once, quadrilaterals by
- *  either diagonal. @return the first difference in words, empty if all and nothing else was there
- */
+/** Strikes the reference's patches off the list of triangles: each must be there once,
+ *  quadrilaterals split by either diagonal. @return the first difference in words, empty if all
+ *  were there and no triangle is left */
 std::string CompareWithPatches(const Mesh& mesh, const std::vector<reference::Patch>& patches,
   const reference::ScalarField& field, double isovalue, bool exact = true);
 
 /** The library's place of a central vertex. */
 isodiamond::Place PlaceOf(const isodiamond::Grid& grid, const reference::Point& centre);
 
-/** Thresholds that are worth trying on a field: between and beyond its error codes. */
+/** Tolerances worth trying where errors have this scale, from 0 to beyond all errors. */
 std::vector<double> Tolerances(double scale);
 
 }

@@ -169,7 +169,7 @@ double NearestTriangle::Distance(const std::array<double, 3>& point, double enou
   {
     return std::numeric_limits<double>::infinity();
   }
-  // The next point often is near to the last one.
+  // The next point is often near the last one.
   double distance = reference::Distance(point, this->Triangles[this->Last], { 1.0, 1.0, 1.0 });
   this->Search(this->All(), point, enough, distance);
   return distance;
@@ -218,7 +218,7 @@ double ForEachSample(const reference::SurfaceTriangle& triangle, double step,
       body(point);
     }
   }
-  // Nothing in a triangle is farther from all corners than this part of the longest side.
+  // No point of a triangle is farther from its nearest corner than this part of the longest side.
   return longest / parts / std::sqrt(3.0);
 }
 
@@ -234,7 +234,7 @@ void SampledDistance::Add(
 namespace
 {
 
-/** Whether points in a box are within a distance of triangles, and the farthest one that is not. */
+/** Checks that points in a box are near triangles, and describes the farthest that is not. */
 class NearnessCheck
 {
 public:

@@ -20,27 +20,28 @@ namespace test
 using Positions = std::vector<std::array<double, 3>>;
 using SurfaceTriangles = std::vector<reference::SurfaceTriangle>;
 
-/** A spacing that is not the same on all axes, or any. */
+/** A world with this spacing on each axis; its origin is not 0. */
 isodiamond::AffineMap Spacing(double x, double y, double z);
 
-/** Cells that grow on one axis, fall on another, and have all sizes on the third: of the largest
- *  ratio of their lengths that is given. Multiples of a power of 2, so that little is rounded. */
+/** Coordinates that rise in growing steps on x, fall in growing steps on y, and rise in random
+ *  steps on z. Steps differ by this ratio at most; they are multiples of a power of 2, so that
+ *  little is rounded. */
 isodiamond::AxisCoordinates UnevenCoordinates(const std::array<int, 3>& dims, double ratio);
 
 /** Triangles with their corners moved to the world. */
 SurfaceTriangles Placed(const SurfaceTriangles& triangles, const isodiamond::GridGeometry& world);
-/** A mesh's triangles in the world; of a volume those of one surface, -1 or 1. */
+/** A mesh's triangles in the world; of a volume, those on one surface, -1 or 1. */
 SurfaceTriangles Placed(const Mesh& mesh, const isodiamond::GridGeometry& world);
 SurfaceTriangles Placed(const Volume& volume, int surface, const isodiamond::GridGeometry& world);
 
 /** The distances of points to the nearest of many triangles, by a tree of boxes around halves of
- *  them: large fields have millions, and a look at each box for each point takes hours. */
+ *  them: large fields have millions, and to look at each of them for each point takes hours. */
 class NearestTriangle
 {
 public:
   explicit NearestTriangle(SurfaceTriangles triangles);
 
-  /** Infinite without triangles. @param enough any distance that is not greater will do, too */
+  /** Infinite without triangles. @param enough the search stops at any distance up to this */
   double Distance(const std::array<double, 3>& point, double enough = 0.0) const;
 
 private:
@@ -53,7 +54,7 @@ private:
     double SquaredDistance(const std::array<double, 3>& point) const;
   };
 
-  /** The triangles from first to end; its halves have the numbers 2 n + 1 and 2 n + 2. */
+  /** The triangles from First to End; the halves of part n are parts 2 n + 1 and 2 n + 2. */
   struct Part
   {
     std::size_t Number;
@@ -69,17 +70,17 @@ private:
   void Search(
     const Part& part, const std::array<double, 3>& point, double enough, double& distance) const;
 
-  SurfaceTriangles Triangles; ///< each half of a part is beside the other
+  SurfaceTriangles Triangles; ///< sorted so that each part is a run of them
   std::vector<Box> Boxes;     ///< by the numbers of parts
   mutable std::size_t Last = 0;
 };
 
 /** Calls body(point) for the corners of a triangle and for points of it at most a step apart.
- *  @return nothing of the triangle is farther from all of them */
+ *  @return no point of the triangle is farther than this from the nearest of them */
 double ForEachSample(const reference::SurfaceTriangle& triangle, double step,
   const std::function<void(const std::array<double, 3>&)>& body);
 
-/** The largest distance that was found, and how much larger there may be one between samples. */
+/** The largest distance found at samples; between them it may be larger by up to Gap. */
 struct SampledDistance
 {
   double Largest = 0.0;
@@ -94,26 +95,26 @@ struct Promise
   double Tolerance = 0.0;
   /** From one sample on the mesh to the next. */
   double Step = 0.125;
-  /** Whether full resolution is near to the mesh, too; not if features may vanish. */
+  /** Whether full resolution must be near the mesh: not if features may vanish. */
   bool Forth = true;
-  /** Whether the mesh is near to full resolution. */
+  /** Whether the mesh must be near full resolution. */
   bool Back = true;
-  /** Only what lies in a box is looked at, low and high. */
+  /** Low and high corner of the box in which points are checked. */
   std::array<std::array<double, 3>, 2> Within = { { { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL },
     { HUGE_VAL, HUGE_VAL, HUGE_VAL } } };
-  /** Where there would be more samples, fewer do. */
+  /** About how many samples to check at most: more are thinned out. */
   double MostSamples = 1e5;
 };
 
 /**
- * Whether no sample of a mesh is farther from full resolution than a tolerance, nor any vertex of
- * full resolution from the mesh. All triangles are in the world.
- * @return the farthest one in words, empty if there is none
+ * Checks that no sample of a mesh is farther from full resolution than the tolerance, and no vertex
+ * of full resolution farther from the mesh. All triangles are in the world.
+ * @return the farthest, of each that are too far away, in words; empty if there are none
  */
 std::string FaultOf(
   const Promise& promise, const SurfaceTriangles& full, const SurfaceTriangles& mesh);
 
-/** A box of index space in the world, which has no shear. */
+/** A box of index space, moved to a world that is not sheared or turned; smaller by rounding. */
 std::array<std::array<double, 3>, 2> Placed(
   const isodiamond::Box& box, const isodiamond::GridGeometry& world);
 

@@ -66,7 +66,8 @@ namespace
 
 using Face = std::array<std::int32_t, 3>;
 
-/** Where a face with one tetrahedron may lie: on one surface, or in one plane of the boundary. */
+/** Whether a face may have only one tetrahedron: it is on one surface, or in one plane of the
+ *  boundary. */
 bool IsBoundary(const Volume& volume, const Face& face, const std::array<int, 3>& dims)
 {
   for (const int surface : { -1, 1 })
@@ -127,7 +128,7 @@ std::string FindFault(const Volume& volume, const std::array<int, 3>& dims)
 {
   std::ostringstream text;
   std::vector<bool> used(volume.Points.size(), false);
-  std::map<Face, int> faces; // sum of the orientations; how often, in steps of 16
+  std::map<Face, int> faces; // the sum of its orientations, plus 16 for each use
   for (const std::array<std::int32_t, 4>& t : volume.Tetrahedra)
   {
     if (!(Determinant(volume, t) > 0.0))

@@ -46,26 +46,26 @@ double Determinant(const Volume& volume, const std::array<std::int32_t, 4>& tetr
 double TotalVolume(const Volume& volume);
 
 /**
- * What a mesh fit for a solver must have: every tetrahedron has positive volume, every point is
+ * What must hold of a mesh fit for a solver: every tetrahedron has positive volume, every point is
  * used, every face belongs to two tetrahedra or lies on the lower surface, the upper surface or the
  * grid's boundary. @return the first fault in words, empty if there is none
  */
 std::string FindFault(const Volume& volume, const std::array<int, 3>& dims);
 
-/** The faces of one tetrahedron alone on the lower (-1) or upper (1) surface. */
+/** The faces on the lower (-1) or upper (1) surface that belong to only one tetrahedron. */
 std::vector<std::array<std::int32_t, 3>> SurfaceFaces(const Volume& volume, int surface);
 inline std::size_t CountSurfaceFaces(const Volume& volume, int surface)
 {
   return SurfaceFaces(volume, surface).size();
 }
 
-/** Points, as tetrahedra of sorted corners with their level: equal for equal meshes in any order.
- */
+/** Tetrahedra as the sorted positions of their corners, with their level: equal for equal meshes,
+ *  whatever their order. */
 std::vector<std::pair<std::array<std::array<double, 3>, 4>, int>> PlacedTetrahedra(
   const Volume& volume);
 
-/** Ranges worth trying on a field: the middle of its values, a narrow one between the levels of
- *  the fields of small integers, with an open side, with two. */
+/** Ranges worth trying on a field: the middle of its values, a narrow one with ends between small
+ *  integers, two that are open on one side, and one that is open on both. */
 std::vector<reference::Isorange> RangesOf(const Field& field);
 
 inline isodiamond::Isoregion RegionOf(const reference::Isorange& range)

@@ -341,7 +341,7 @@ int ForRandomSeeds(const std::function<void(std::uint32_t)>& check)
   std::uint32_t done = 0;
   for (; done < cases && !testing::Test::HasFailure(); ++done)
   {
-    // A case by itself: ISODIAMONDS_CASES=1 and its own seed.
+    // To run a case by itself: ISODIAMONDS_CASES=1 and its own seed.
     const std::uint32_t own = done < known ? 1 + done : seed + (done - known);
     SCOPED_TRACE("ISODIAMONDS_SEED=" + std::to_string(own));
     check(own);

@@ -18,17 +18,17 @@ namespace test
 using Random = std::mt19937;
 
 double Uniform(Random& random, double low, double high);
-/** From 0 on. */
+/** From 0 to count - 1. */
 int Pick(Random& random, int count);
 
-/** Samples of a random type: waves, plateaus, noise, single samples, all magnitudes; with values
- *  that are not finite, or without. */
+/** Samples of a random type: waves, plateaus, noise, single samples, all magnitudes; with or
+ *  without special values, such as NaN, among them. */
 struct RandomSamples
 {
   std::array<int, 3> Dimensions{};
   isodiamond::AnyValues Values;
 
-  /** 2 to a number of samples an axis, and no more than another in all. */
+  /** At least 2 samples on each axis. @param longest the most on an axis @param most in all */
   RandomSamples(Random& random, int longest, int most);
 
   isodiamond::AnySamples View() const;
@@ -36,26 +36,26 @@ struct RandomSamples
   std::size_t Size() const;
 };
 
-/** A sample's value, or one near to it. */
+/** A sample's value, or the mean of two; never NaN. */
 double RandomValue(Random& random, const RandomSamples& samples);
 
 isodiamond::Isoregion RandomRegion(Random& random, const RandomSamples& samples);
 
-/** Both metrics, affine and uneven worlds, and all else but hidden cells. */
+/** Random options but for hidden cells: either metric, affine and uneven worlds, and so on. */
 isodiamond::BuildOptions RandomOptions(Random& random, const std::array<int, 3>& dimensions);
 
-/** Single cells, blocks of them, or none. */
+/** Single cells, one block of them, or none. */
 isodiamond::HiddenCells RandomHidden(Random& random, const std::array<int, 3>& dimensions);
 
-/** Two tolerances, a region of interest or none, and of errors that are distances a viewpoint or
- *  none. */
+/** Two tolerances, perhaps a region of interest and, if errors are distances, perhaps a viewpoint.
+ */
 isodiamond::Query RandomQuery(Random& random, const isodiamond::IsodiamondHierarchy& hierarchy,
   const isodiamond::GridGeometry& world);
 
-/** What of a region is tested, in words. */
+/** The samples and the region in words. */
 std::string Describe(const RandomSamples& samples, const isodiamond::Isoregion& region);
 
-/** The mesh of a query, whatever it is made of. */
+/** The mesh of a query: triangles of a surface, or tetrahedra of a volume. */
 struct AnyMesh
 {
   Mesh Surface;
@@ -76,9 +76,9 @@ struct AnyMesh
   std::string Fault(const std::array<int, 3>& dimensions) const;
 };
 
-/** Calls check(seed) for as many seeds as ISODIAMONDS_CASES says, else 200, from ISODIAMONDS_SEED
- *  on; else for one half of them from 1 on, so that no test depends on luck alone, and for the
- * other from a random one, which is printed; until one fails. @return how many were checked */
+/** Calls check(seed) for ISODIAMONDS_CASES seeds, 200 by default, until one fails. They count up
+ *  from ISODIAMONDS_SEED; without it, half of them from 1, so that no test depends on luck alone,
+ *  and the others from a random seed, which is printed. @return how many were checked */
 int ForRandomSeeds(const std::function<void(std::uint32_t)>& check);
 
 }

@@ -13,38 +13,39 @@
 
 /**
  * @file SimplificationTestTools.h
- * Meshes to be simplified, and what has to hold of them.
+ * Meshes to simplify, and what must hold of them.
  */
 namespace test
 {
 
-/** Surfaces with thin walls, holes and specks, and a border. */
+/** Fields whose surfaces have thin walls, holes, specks and a border. */
 std::vector<Field> SurfacesToSimplify();
 
-/** A field's surface at a tolerance, all of whose triangles have one allowance. */
+/** A field's surface at a tolerance, with the same allowance for all triangles. */
 isodiamond::AllowedMesh MeshOf(const Field& field, double tolerance, double allowed);
 
 SurfaceTriangles TrianglesOf(const isodiamond::TriangleMesh& mesh);
 
 std::vector<std::array<std::int32_t, 3>> IdsOf(const isodiamond::TriangleMesh& mesh);
 
-/** The edges of one triangle. Expects no edge of three. */
+/** The edges with only one triangle. Expects that no edge has two on the same side. */
 std::vector<std::pair<std::uint32_t, std::uint32_t>> BorderOf(const isodiamond::TriangleMesh& mesh);
 
 /** Whether two triangles have the same points. */
 bool HasTwins(const isodiamond::TriangleMesh& mesh);
 
-/** Border edges are on walls, as they were, or the same. */
+/** Expects that each border edge lies on a wall, or was one before. */
 void ExpectBorder(const isodiamond::AllowedMesh& before, const isodiamond::TriangleMesh& after);
 
-/** A mesh as a part of itself of which nothing is known yet. */
+/** The whole of a mesh as a part that is not simplified yet. */
 isodiamond::MeshPart WholePart(const isodiamond::AllowedMesh& mesh);
 
-/** The triangles that are left of some. @param numbers are given theirs */
+/** The triangles that are still there. @param numbers receives theirs */
 std::vector<isodiamond::Triangle> TrianglesLeft(
   const isodiamond::LinkedTriangles& mesh, std::vector<std::uint32_t>* numbers = nullptr);
 
-/** Across each edge is what goes along it the other way, and knows of it. */
+/** Expects that a triangle's neighbour across an edge runs along it the other way, and has the
+ *  triangle as its own neighbour there. */
 void ExpectLinks(const isodiamond::LinkedTriangles& mesh);
 
 }

@@ -20,8 +20,8 @@ namespace test
 namespace
 {
 
-/** By tetrahedron of the volume's mesh: the leaf that it is a part of, the one that has its points,
- *  at its vertices or on its edges; None where leaves are hidden. */
+/** By tetrahedron of the volume's mesh: the leaf that it is a part of, which has all its points at
+ *  vertices or on edges. None where leaves are hidden. */
 std::vector<std::uint32_t> LeavesOf(const Volume& plain, const CutMesh& leaves)
 {
   std::vector<std::vector<std::uint32_t>> at(plain.Points.size());

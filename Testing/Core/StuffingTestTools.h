@@ -14,7 +14,7 @@
 
 /**
  * @file StuffingTestTools.h
- * Tetrahedra for simulations, and fields to make them of.
+ * Tetrahedra for simulations, and fields to make them from.
  */
 namespace test
 {
@@ -23,7 +23,7 @@ namespace test
 inline constexpr std::array<isodiamond::Vector, 3> UnitAxes = { { { 1.0, 0.0, 0.0 },
   { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } } };
 
-/** The mesh of a query, and what is made of it for simulations. */
+/** The mesh of a query, and the mesh for simulations that is made from it. */
 struct Stuffed
 {
   Volume Plain; ///< in index space
@@ -37,35 +37,35 @@ struct Stuffed
     const isodiamond::HiddenCells* hidden = nullptr,
     const isodiamond::ParallelFor& parallelFor = isodiamond::SerialFor);
 
-  /** The volume's mesh, of the same points and leaves. @pre nothing is hidden */
+  /** The volume's mesh, with the same points and leaves. @pre nothing is hidden */
   isodiamond::TetrahedronMesh PlainMesh() const;
 
-  /** As a volume with the points that are used. */
+  /** The mesh for simulations as a volume, with only the points that are used. */
   Volume AsVolume() const;
 
-  /** The points on surfaces that are not where they were. */
+  /** The points on surfaces that have moved. */
   std::vector<isodiamond::BlendedPoint> Shifted() const;
 
-  /** Tetrahedra with an angle below 15 or above 165 degrees. */
+  /** Counts tetrahedra with a dihedral angle below 15 or above 165 degrees. */
   std::size_t CountBad() const;
 };
 
 /** The topology of a volume, and of its surfaces. */
 Topology TopologyOf(const Volume& volume, AnyMesh mesh);
 
-/** Whether anything of the surfaces of a mesh is farther from those of a plain one than allowed, as
- *  it is measured, or the other way. */
+/** Whether the surfaces of a mesh are anywhere farther from those of a plain one than allowed, or
+ *  the other way round, as the library measures it. */
 bool IsFar(const isodiamond::TetrahedronMesh& plain, const isodiamond::TetrahedronMesh& mesh,
   double allowance);
 
-/** The same, by brute force; both are volumes in index space. */
+/** The same by brute force, in words; empty if nothing is. Both are volumes in index space. */
 std::string FarByForce(const Volume& plain, const Volume& mesh, double allowance);
 
 /** A smooth field with tunnels. */
 Field GyroidField(int size, double periods);
 
-/** Calls check with random samples, how they are built, and the volume between two values, or above
- *  one, for as many seeds as ForRandomSeeds(). */
+/** Calls check with random samples, random options, and the volume that these make, between two
+ *  values or above one, for as many seeds as ForRandomSeeds(). */
 void ForRandomVolumes(const std::function<void(Random& random, const RandomSamples& samples,
     const isodiamond::BuildOptions& options, const Built& built)>& check);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bits in tiles are the bits that were set, however they came, and take memory where they differ.
+// Tiles have the bits that were set, however they came, and tell where all are equal.
 #include "Field/BitTiles.h"
 #include "RandomTestTools.h"
 #include "ThreadPeers.h"
@@ -21,7 +21,7 @@ struct PlainBits
   std::array<int, 3> Count{};
   std::vector<bool> Bits;
 
-  /** Equal ones, and boxes of the others. */
+  /** All equal, then flipped in random boxes. */
   explicit PlainBits(test::Random& random)
     : Count{ 1 + test::Pick(random, 200), 1 + test::Pick(random, 40), 1 + test::Pick(random, 60) }
     , Bits(std::size_t{ 1 } * this->Count[0] * this->Count[1] * this->Count[2],
@@ -70,7 +70,7 @@ struct PlainBits
     }
   }
 
-  /** The words of some slices' rows. */
+  /** The rows of some slices, as words. */
   std::vector<std::uint64_t> Rows(int first, int count) const
   {
     const int words = (this->Count[0] + 63) / 64;
@@ -100,7 +100,7 @@ void ExpectBits(const BitTiles& tiles, const PlainBits& plain)
   ASSERT_EQ(tiles.AllRows(), plain.Rows(0, plain.Count[2]));
 }
 
-/** Sets the slices from one to another, in runs, which may overlap. */
+/** Sets slices from begin to end, in runs that may overlap. */
 void SetSlices(BitTiles& tiles, const PlainBits& plain, int begin, int end, test::Random& random)
 {
   const ParallelFor threads = test::ThreadedFor(3);
@@ -113,7 +113,7 @@ void SetSlices(BitTiles& tiles, const PlainBits& plain, int begin, int end, test
   }
 }
 
-/** What tiles say of boxes is true; and they say it of all that can be equal. */
+/** Tiles call a box equal exactly if all bits of the tiles that it touches are. */
 void ExpectEqualBoxes(const BitTiles& tiles, const PlainBits& plain, test::Random& random)
 {
   for (int i = 0; i < 20; ++i)
@@ -129,7 +129,7 @@ void ExpectEqualBoxes(const BitTiles& tiles, const PlainBits& plain, test::Rando
     plain.ForEach(
       [&](const Point& at)
       {
-        bool isNear = true; // in one of the tiles
+        bool isNear = true; // in one of the box's tiles
         const std::array<int, 3> size = { 64, 8, 8 };
         for (int axis = 0; axis < 3; ++axis)
         {
@@ -167,7 +167,7 @@ void Check(std::uint32_t seed)
       }
     });
 
-  // Each of some peers has slices.
+  // Each of some peers sets some slices.
   const int count = 1 + test::Pick(random, 4);
   test::ForEachPeer(
     count,

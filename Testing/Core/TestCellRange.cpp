@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranges of a mesh's cells, and shares of it: those cells of the whole mesh, and the points that
-// they use, whatever the range.
+// Ranges of a mesh's cells, and shares of the mesh, have these cells of the whole mesh, and the
+// points that they use.
 #include "Mesh/IntervalExtraction.h"
 #include "Mesh/SurfaceExtraction.h"
 #include "RandomTestTools.h"
@@ -17,7 +17,7 @@ using namespace isodiamond;
 namespace
 {
 
-/** What a range is compared by: cells with whole points, and the points. */
+/** What is compared of a range. */
 struct Range
 {
   std::vector<std::vector<float>> Points; ///< position, number among those stored, surface
@@ -25,7 +25,7 @@ struct Range
   std::vector<std::int8_t> Levels;
 };
 
-/** Some cells, picked from the whole mesh by hand. */
+/** Some cells and their points, picked from the whole mesh by hand. */
 Range Picked(const Range& whole, const std::vector<CellRange>& ranges)
 {
   Range range;
@@ -84,11 +84,11 @@ void ReadPoints(const Extraction& extraction, Range& range)
     });
 }
 
-/** What is written of a mesh. */
+/** What to write of a mesh. */
 struct Wanted
 {
   MeshShare Share;
-  std::optional<CellRange> Cells; ///< of all that are counted; else those of the share
+  std::optional<CellRange> Cells; ///< among all that are counted; if not set, the share's
   bool AreAllPointsKept = false;
 };
 
@@ -142,7 +142,7 @@ Range Written(const RefinedSet& refined, const Wanted& wanted, const ParallelFor
     { return Written<size>(extraction, wanted, write); });
 }
 
-/** The cells of a share, as all are counted. */
+/** The cells of a share, by their numbers in the whole mesh. */
 std::vector<CellRange> OwnCellsOfAll(
   const RefinedSet& refined, MeshShare share, const ParallelFor& parallelFor)
 {

@@ -15,7 +15,7 @@
 using namespace isodiamond;
 using ReferenceKind = reference::Kind;
 
-// Words have 64 signs; ten of a row may lie in two, and go beyond both ends.
+// Ten signs of a row may lie in two words of 64 signs, and reach beyond either end of the row.
 TEST(Classification, RowsOfSignsAreThoseOfTheSamples)
 {
   for (const int length : { 2, 7, 8, 9, 63, 64, 65, 72, 73, 128, 129, 140 })
@@ -87,7 +87,7 @@ TEST(Classification, HierarchiesKeepTheCountsAndKindsOfTheReference)
     EXPECT_EQ(minimal.Hierarchy->Count(Kind::Active), counts.Active);
     EXPECT_EQ(minimal.Hierarchy->Count(Kind::Creation), counts.Creation);
     EXPECT_EQ(minimal.Hierarchy->Count(Kind::Relevant), 0);
-    // RI keeps exactly the relevant diamonds more.
+    // RI keeps the relevant diamonds in addition, and nothing else.
     EXPECT_EQ(relevant.Hierarchy->Diamonds().Size() - minimal.Hierarchy->Diamonds().Size(),
       counts.Relevant - counts.Creation);
     EXPECT_EQ(minimal.Hierarchy->IsovertexCount(), counts.Isovertices + counts.BaseIsovertices);
@@ -132,8 +132,8 @@ std::set<int> DuetSigns(const reference::Hierarchy& hierarchy, const test::Field
 
 }
 
-// Full resolution first, errors when they are asked for: the same to the bit, wherever the samples
-// are then, and whatever was stopped before.
+// Full resolution first, errors when they are asked for: the result is the same to the bit, even if
+// the samples are elsewhere by then, or an attempt was stopped before.
 TEST(Classification, InTwoStepsIsAsInOne)
 {
   int compared = 0;
@@ -193,7 +193,7 @@ TEST(Classification, Theorem71AndTable1HoldOverAllDuets)
     SCOPED_TRACE(field.Name);
     const reference::Hierarchy hierarchy(field.Dims);
     const reference::ScalarField samples = field.Reference();
-    // The core's kinds; by the signs of the samples the reference says which duets are active.
+    // The kinds are the core's; which duets are active follows from the reference's signs.
     const Grid grid(field.Dims);
     const SignLattice signs(grid, field.View(), field.Isovalue, SerialFor);
     const Classification found = Classify(grid, signs, SerialFor);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Critical diamonds are those of the definition: the surface in a diamond's domain before and after
-// its subdivision, compared.
+// Critical diamonds are those of the definition, which compares the surface in a diamond's domain
+// before and after its subdivision.
 #include "CoreTestTools.h"
 #include "Field/CriticalDiamonds.h"
 
@@ -19,7 +19,7 @@ namespace
 constexpr float Isovalue = 2.5F;
 constexpr reference::Isorange Isorange = { 2.0, 3.0 };
 
-/** Whole numbers from 0 to 5, in blobs of various size. */
+/** Whole numbers from 0 to 5; none, half or three quarters of them are replaced by one end. */
 test::Field RandomField(const std::array<int, 3>& dims, unsigned seed)
 {
   test::Field field = test::NoiseField(dims, seed);
@@ -38,10 +38,10 @@ struct Tally
 {
   int Diamonds = 0;
   int Critical = 0;
-  int Others = 0; ///< not critical though only the centre's side differs from the ends'
+  int Others = 0; ///< not critical, though the centre is on the other side than both ends
 };
 
-/** Compares the masks of all diamonds that do not stick out. */
+/** Compares the mask with the definition, for all diamonds that do not stick out. */
 void CompareAll(const test::Field& field, const reference::Hierarchy& hierarchy,
   const DiamondMask& mask, const std::vector<reference::SideOfVertex>& surfaces, Tally& tally)
 {
@@ -117,7 +117,7 @@ TEST(CriticalDiamonds, AreThoseOfTheDefinitionInRandomFields)
 namespace
 {
 
-/** One diamond of each parity with the whole ring, and at faces and edges of the grid. */
+/** Of each parity, a diamond for each number of tetrahedra: inside the grid, at a face, an edge. */
 std::vector<int> OneOfEachShape(const reference::Hierarchy& hierarchy)
 {
   std::map<std::pair<int, std::size_t>, int> found;
@@ -138,14 +138,14 @@ std::vector<int> OneOfEachShape(const reference::Hierarchy& hierarchy)
   return diamonds;
 }
 
-/** How many patterns of sides are critical of a ring: two sides for the centre, the other one for
- *  the ends, and any ring but those of one run. */
+/** How many patterns of sides are critical: the centre on either side, the ends on the other, and
+ *  any ring but those with one run of each side. */
 int CountCritical(int ring, bool isOpen)
 {
   return 2 * ((1 << ring) - (isOpen ? 2 * (ring - 1) : ring * (ring - 1)));
 }
 
-/** All sides that the vertices of a diamond can be on. @return how many patterns are critical */
+/** Tries all patterns of sides of a diamond's points. @return how many are critical */
 int CompareAllPatterns(const reference::Hierarchy& hierarchy, int index)
 {
   const reference::Diamond& diamond = hierarchy.At(index);
@@ -177,7 +177,7 @@ int CompareAllPatterns(const reference::Hierarchy& hierarchy, int index)
 
 }
 
-// Rings of 6, 4 and 8 vertices, those of 3 and 5 at faces of the grid, and of 3 at its edges.
+// Rings of 6, 4 and 8 vertices, of 3 and 5 at faces of the grid, and of 3 at its edges.
 TEST(CriticalDiamonds, AreThoseOfTheDefinitionForAllPatternsOfSides)
 {
   const reference::Hierarchy hierarchy({ 5, 5, 5 });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The leaves of an interval volume before they are cut, against the lattice of the reference, the
-// samples, and the mesh of the volume.
+// The leaves of an interval volume before they are cut, against the reference's lattice, the
+// samples, and the volume's mesh.
 #include "IntervalTestTools.h"
 
 #include "Mesh/IntervalExtraction.h"
@@ -22,7 +22,7 @@ Place3 InIndexSpace(const Point& point)
   return { 1.0 * point[0], 1.0 * point[1], 1.0 * point[2] };
 }
 
-/** The leaves of a query, with what they are compared to. */
+/** The leaves of a query, and what they are compared with. */
 struct Leaves
 {
   test::Built Built;
@@ -53,7 +53,7 @@ struct Leaves
   }
 };
 
-/** Fields of several dimensions, with a range of each. */
+/** Fields of several sizes, with a range for each. */
 std::vector<std::pair<test::Field, std::array<double, 2>>> Cases()
 {
   return { { test::NoiseField({ 6, 7, 5 }, 2), { 2.5, 5.5 } },
@@ -62,7 +62,7 @@ std::vector<std::pair<test::Field, std::array<double, 2>>> Cases()
     { test::WaveField({ 12, 5, 17 }), { -HUGE_VAL, 0.3 } } };
 }
 
-/** Hidden cells by chance, whole blocks among them. */
+/** Hides one cell in eight, at random. */
 std::vector<std::uint8_t> SomeHidden(const std::array<int, 3>& cells, unsigned seed)
 {
   std::mt19937 random(seed);
@@ -71,7 +71,7 @@ std::vector<std::uint8_t> SomeHidden(const std::array<int, 3>& cells, unsigned s
   return hidden;
 }
 
-/** Checks where an isovertex is on an edge: between its ends, where the signs say. */
+/** Checks that an edge has isovertices where its ends' signs say so, and that they lie on it. */
 void CheckCut(const Leaves& leaves, const CutMesh::Tetrahedron& leaf, int younger, int older)
 {
   const CutMesh::Vertex& a = leaves.Corner(leaf, younger);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes by chance, and on copies of what is around a tetrahedron.
+// Random changes, changes on copies of what is around a tetrahedron, and detours.
 #include "StuffingTestTools.h"
 
 #include "Stuffing/BestChange.h"
@@ -25,7 +25,7 @@ struct NoisyMesh
     , Built(test::BuildVolume(this->Field, { 3.7, HUGE_VAL }))
     , Stuffed(*this->Built.Hierarchy, Query{})
   {
-    // Any edges: those that the surface cuts go through a point on it.
+    // Any edges will do, as long as a point on a surface lies on the edge that is cut there.
     this->Options.Axes = test::UnitAxes;
     this->Options.SurfaceMove = 0.25;
     for (const Vector& position : this->Stuffed.Mesh.Positions)
@@ -41,7 +41,7 @@ struct NoisyMesh
   ImprovementOptions Options;
 };
 
-/** One of the tetrahedra that are alive. */
+/** A random one of the tetrahedra that are alive. */
 std::uint32_t DrawAlive(const LocalMesh& mesh, std::minstd_rand& random)
 {
   std::uint32_t drawn = 0;
@@ -52,7 +52,7 @@ std::uint32_t DrawAlive(const LocalMesh& mesh, std::minstd_rand& random)
   return drawn;
 }
 
-/** The corners of all that is alive. */
+/** The positions of the corners of each tetrahedron that is alive. */
 std::multiset<std::set<Vector>> PlacesOf(const LocalMesh& mesh)
 {
   std::multiset<std::set<Vector>> all;
@@ -107,15 +107,15 @@ TEST(AnyChange, KeepsTheMeshSound)
   }
 }
 
-// What is best for a free tetrahedron is so in the copy as in the whole, after any changes; and
-// these do the same to both.
+// After any changes, the best one for a free tetrahedron is the same in the copy as in the whole;
+// and changes do the same to both.
 TEST(Surroundings, ChangeAsTheWholeDoes)
 {
   for (unsigned seed = 1; seed <= 2; ++seed)
   {
     const NoisyMesh noisy(11, seed);
     ImprovementOptions options = noisy.Options;
-    options.WantedAngle = 35.0; // so that there is much to wish for
+    options.WantedAngle = 35.0; // so that there is much to improve
     LocalMesh whole(noisy.Stuffed.Mesh);
     std::minstd_rand random(seed);
     std::vector<std::uint32_t> changed;
@@ -173,7 +173,7 @@ TEST(Surroundings, ChangeAsTheWholeDoes)
   }
 }
 
-// In a world that is squeezed: most angles get bad, and many stay so.
+// In a squeezed world, where most angles are bad, and many stay so.
 TEST(Detours, MakeTheWorstNoWorse)
 {
   constexpr double Squeezed = 0.25;

@@ -19,7 +19,7 @@ using namespace isodiamond;
 namespace
 {
 
-/** The portions of a lattice, and which have a diamond. */
+/** The portions of a lattice, and which of them have a diamond. */
 struct Portions
 {
   std::vector<DiamondPortion> All;
@@ -65,7 +65,7 @@ void ExpectPartition(const Grid& grid, const Portions& portions, const Place& pl
     holders += has ? 1 : 0;
     EXPECT_TRUE(has || !portion.Owns(slice));
 
-    // Its domain reaches from the lowest of its vertices to the highest.
+    // The diamond's domain reaches from its lowest vertex to its highest.
     int low = slice;
     int high = slice;
     for (int i = 0; i < shape.VertexCount; ++i)
@@ -158,7 +158,7 @@ DiamondMask MembersOf(const test::Field& field)
 
 TEST(PeerPortion, HasAsManyDiamondsAsTheOthers)
 {
-  // Of a sphere near one end there is nothing in most slices.
+  // All of the surface is in the last quarter: most slices have nothing.
   test::Field field = test::WaveField({ 33, 33, 257 });
   for (std::size_t i = 0; i < field.Samples.size() * 3 / 4; ++i)
   {
@@ -242,7 +242,7 @@ TEST(PeerPortion, RaisesToTheGreatestThatOneHas)
   }
 }
 
-// Own errors without any order lead from a portion to the next and back, more than once.
+// With random own errors, thresholds depend on each other across portions, back and forth.
 TEST(PeerPortion, LeadsToTheThresholdsOfTheWhole)
 {
   const int cases = test::ForRandomSeeds(

@@ -13,7 +13,7 @@ using namespace isodiamond;
 namespace
 {
 
-/** Every diamond of a lattice with its parents and children, from the tables. */
+/** The parents and children of a diamond, from the tables. */
 struct Relations
 {
   std::vector<Point> Parents;
@@ -190,7 +190,7 @@ TEST(DiamondTables, ParentsOfChildrenAreSelf)
 
 TEST(DiamondTables, EveryEdgeIsOwnedAtItsYoungerEnd)
 {
-  // All edges of all half-tetrahedra: own ones and outer ones, with the owner the tables name.
+  // The outer edges of all half-tetrahedra, with the owners that the tables name.
   const Grid grid({ 9, 9, 9 });
   const reference::Hierarchy hierarchy({ 9, 9, 9 });
   for (const reference::Diamond& diamond : hierarchy.Diamonds())
@@ -265,7 +265,7 @@ std::vector<Corners> TetrahedraAround(const Point& position)
 
 TEST(DiamondTables, NumbersMeanTheSameTetrahedraForAllDiamondsOfAType)
 {
-  // The next two bits of a position say more than its type: parents of class 0 depend on them.
+  // Parents of class 0 also depend on the next two bits of a position, which its type leaves out.
   for (int code = 0; code < 16 * 16 * 16; ++code)
   {
     const Point position = { 16 + code % 16, 16 + code / 16 % 16, 16 + code / 256 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance metric: errors against the reference's definition, the promise on whole meshes. More
-// meshes, in worlds and of real data, are checked with VTK in Testing/Filters/TestDistance.cpp.
+// The distance metric: errors against the reference's definition, and the promise on whole meshes.
+// More meshes, in worlds and of real data, are checked with VTK: Testing/Filters/TestDistance.cpp.
 #include "DistanceError/DistanceError.h"
 #include "DistanceError/ErrorMaxima.h"
 #include "DistanceTestTools.h"
@@ -75,7 +75,7 @@ std::vector<GridGeometry> WorldsFor(const std::array<int, 3>& dims)
   return { test::Spacing(0.5, 2.0, 1.25), GridGeometry(test::UnevenCoordinates(dims, 20.0)) };
 }
 
-/** Counts the finite and the infinite errors of all diamonds, which are to be the reference's.
+/** Expects all diamonds' errors to be the reference's, and counts the finite and infinite ones.
  *  @param inReference the same world */
 template <typename ReferenceWorld>
 void ExpectReferencesErrors(const test::Field& field, const GridGeometry& world,
@@ -244,8 +244,8 @@ TEST(DistanceError, IsAPromiseWithinRegionsOfInterest)
   }
 }
 
-// The smallest field that was found: the interior tolerance subdivides the parents of a diamond
-// that no tolerance of the surfaces does before those.
+// The smallest field that was found: the interior tolerance subdivides parents of a follower where
+// the surfaces' tolerance does not.
 TEST(DistanceError, IsAPromiseWhateverTheInteriorTolerance)
 {
   const test::Field field{ "interior", { 3, 3, 6 },
@@ -278,8 +278,8 @@ TEST(DistanceError, IsAPromiseWhateverTheInteriorTolerance)
   }
 }
 
-// The smallest field that was found: the region's box subdivides the parents of a diamond beside it
-// that no tolerance outside does before those.
+// The smallest field that was found: the region's box subdivides parents of a follower beside it
+// where the tolerance outside does not.
 TEST(DistanceError, IsAPromiseBesideARegionOfInterest)
 {
   const test::Field field{ "beside", { 3, 3, 3 },
@@ -302,7 +302,7 @@ TEST(DistanceError, IsAPromiseBesideARegionOfInterest)
 namespace
 {
 
-/** What a query tolerates of a diamond. */
+/** The error that a query tolerates in a diamond. */
 double ToleranceOf(const Query& query, const Place& place)
 {
   const bool isInside = !query.Region || query.Region->Touches(place);
@@ -310,8 +310,8 @@ double ToleranceOf(const Query& query, const Place& place)
   return query.View ? std::max(tolerance, query.View->ToleranceOf(place)) : tolerance;
 }
 
-/** The number of diamonds of a set's front that have an error of their own which is not tolerated.
- */
+/** How many diamonds are not refined though a parent is, and have an own error that is not
+ *  tolerated. */
 int CountLeavesThatExceed(
   const RefinedSet& refined, const Query& query, const std::vector<ErrorCode::Type>& own)
 {
@@ -369,7 +369,7 @@ TEST(DistanceError, OfEveryLeafIsTolerated)
   EXPECT_GT(followers, 100U);
 }
 
-// The way back holds for features that vanish, too: what is left of the mesh is near to something.
+// The way back holds even if features vanish: what is left of the mesh is near full resolution.
 TEST(DistanceError, IsAPromiseOfTheWayBackWithoutFeatures)
 {
   for (const test::Field& field : Fields())
@@ -471,7 +471,7 @@ TEST(DistanceError, DoesNotDependOnThreadsOrOnTheSource)
 }
 
 // Integers on a cube of 2^N + 1 samples: many distances are equal, or equal to the value of a code.
-// With these seeds of 3000 the order decided as long as codes were compared without a margin.
+// With these of 3000 seeds, the order decided as long as codes were compared without a margin.
 TEST(DistanceError, DoesNotDependOnTheOrderOfRanges)
 {
   const ParallelFor reversed = [](std::int64_t count, std::int64_t,
@@ -541,7 +541,7 @@ struct Maxima
 
 }
 
-// A greater distance that another thread finds in the meantime stays.
+// A greater distance that another thread finds in the meantime is kept.
 TEST(ErrorMaxima, KeepWhatIsFoundInBetween)
 {
   Maxima maxima;
@@ -595,7 +595,7 @@ TEST(ErrorMaxima, StayWhereNothingIsFound)
   EXPECT_EQ(maxima.Errors.Result()[21], known);
 }
 
-// A distance just below that of a code is rounded up to the next one, whatever was known.
+// A distance just below a code's is rounded up to the next code, whatever was known before.
 TEST(ErrorMaxima, DoNotDependOnTheOrderNextToCodes)
 {
   const reference::ErrorCodes codes(1.0);
@@ -659,8 +659,8 @@ TEST(DistanceError, RefusesAxesWithoutLengths)
     std::invalid_argument);
 }
 
-// What distances are measured to is what extraction makes: the patches of all leaves are the faces
-// of the interval volume on its surfaces.
+// Distances are measured to what extraction makes: the patches of all leaves are the faces of the
+// interval volume on its surfaces.
 TEST(DistanceError, PatchesAreTheSurfacesOfIntervalVolumes)
 {
   for (const test::Field& field : { test::NoiseField({ 9, 9, 9 }, 21),
@@ -767,7 +767,7 @@ TEST(TriangleDistance, IsThatOfTheNearestPoint)
       const Vector point = 2.0 * anywhere(1.0);
       const double expected = reference::Distance(point, triangle, unit);
       EXPECT_NEAR(std::sqrt(distance.Squared(point)), expected, 1e-7);
-      if (i % 11 != 0) // has sides
+      if (i % 11 != 0) // no side is a point
       {
         const Vector nearest = distance.Nearest(point);
         EXPECT_NEAR(reference::Distance(nearest, triangle, unit), 0.0, 1e-7);
@@ -780,14 +780,14 @@ TEST(TriangleDistance, IsThatOfTheNearestPoint)
 namespace
 {
 
-/** How many bounds are near to the distance, of how many. */
+/** How many bounds are near the distance, and how many there are. */
 struct BoundCount
 {
   std::int64_t Near = 0;
   std::int64_t All = 0;
 };
 
-/** Random patches of some scale, flat ones too, and positions beside them. */
+/** Tries a random patch of some scale, perhaps tiny or a mere point, and positions around it. */
 template <typename Metric>
 void ExpectBounds(const Metric& metric, int round, std::mt19937& random, BoundCount& count)
 {
@@ -821,7 +821,7 @@ void ExpectBounds(const Metric& metric, int round, std::mt19937& random, BoundCo
   {
     position = anywhere(length);
   }
-  // As near to a triangle as positions can be: there rounding is all that matters.
+  // As near a triangle as positions can be: there, rounding is all that matters.
   for (std::size_t j = 0; j < positions.size(); j += 2)
   {
     const auto& triangle = patch.Triangles[random() % patch.TriangleCount];
@@ -842,7 +842,7 @@ void ExpectBounds(const Metric& metric, int round, std::mt19937& random, BoundCo
     ++count.All;
     if (!std::isnan(squared[j]))
     {
-      EXPECT_GE(squared[j], truth * (1.0 - 1e-7)); // of a float
+      EXPECT_GE(squared[j], truth * (1.0 - 1e-7)); // as a float is rounded
       count.Near += squared[j] <= 1.3 * truth + 1.0 ? 1 : 0;
     }
   }
@@ -868,7 +868,7 @@ TEST(PatchBound, IsNeverLessThanTheDistanceAndNearToItMostly)
           size * (row == column ? 1.0 + 0.9 * part(random) : 0.4 * part(random));
       }
     }
-    if (i % 4 == 0) // one axis leans by a half: no margin but for the lean
+    if (i % 4 == 0) // one axis leans by a half: no margin but the one for the lean
     {
       map.Rows[0] = { size, 0.5 * size, 0.0, 0.0 };
       map.Rows[1] = { 0.0, size, 0.0, 0.0 };
@@ -886,7 +886,7 @@ TEST(PatchBound, IsSoAlongUnevenAxes)
   BoundCount count;
   for (int i = 0; i < 2000; ++i)
   {
-    // Of any size, far from the origin too; steps that differ by up to a million times.
+    // Of any size, far from the origin too; steps that differ by a factor of up to a million.
     const double size = std::pow(10.0, 12.0 * part(random));
     const double spread = 3.0 * std::abs(part(random));
     AxisCoordinates axes;

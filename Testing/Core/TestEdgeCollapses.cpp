@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edge collapses and flips by hand, and undone.
+// Edge collapses and flips on small meshes made by hand, and undoing them.
 #include "RandomTestTools.h"
 #include "Simplification/EdgeCollapses.h"
 #include "SimplificationTestTools.h"
@@ -13,10 +13,10 @@
 
 using namespace isodiamond;
 
-// A roof whose ridge leads from point 0 to 2, and two triangles that cut across it.
 namespace
 {
 
+/** A roof whose ridge leads from point 0 to 2, simplified to two triangles that cut across it. */
 MeshPart CutRoof()
 {
   AllowedMesh roof;
@@ -30,7 +30,7 @@ MeshPart CutRoof()
   return part;
 }
 
-/** The edge of a thin wall that leans over, along x through point 0. */
+/** The top of a thin wall that leans over, with its edge along x through point 0. */
 MeshPart ThinWall()
 {
   AllowedMesh wall;
@@ -59,7 +59,7 @@ TEST(EdgeCollapses, FlipsEdgesThatCutAcrossARidge)
   EXPECT_EQ(collapses.Run(), std::vector<bool>({ true, true }));
   ASSERT_TRUE(HasRidge(collapses.Mesh()));
   test::ExpectLinks(collapses.Mesh());
-  // Each middle lies over the triangle that it is the middle of.
+  // The middle of each original triangle lies over that triangle, which is there again.
   for (std::uint32_t sample = 4; sample < 6; ++sample)
   {
     const Triangle& under = collapses.Mesh().Triangles[collapses.SampleHomes()[sample]];
@@ -74,7 +74,7 @@ TEST(EdgeCollapses, FlipsEdgesThatCutAcrossARidge)
   EXPECT_EQ(collapses.SampleHomes()[7], 1);
 }
 
-// From no direction all four triangles are seen: each may only turn a little.
+// There is no direction from which all four triangles are seen: each may only turn a little.
 TEST(EdgeCollapses, GoAlongTheEdgeOfAThinWall)
 {
   const MeshPart wall = ThinWall();
@@ -82,7 +82,7 @@ TEST(EdgeCollapses, GoAlongTheEdgeOfAThinWall)
   along.Run();
   ASSERT_EQ(test::TrianglesLeft(along.Mesh()).size(), 2U);
   test::ExpectLinks(along.Mesh());
-  // What lay over one side lies over it still, though it is near enough to the other one.
+  // What lay over one side of the wall still does, though the other side is near enough, too.
   for (std::uint32_t i = 0; i < wall.Original.Triangles.size(); ++i)
   {
     const Triangle& under = along.Mesh().Triangles[along.SampleHomes()[wall.Positions.size() + i]];
@@ -99,13 +99,13 @@ TEST(EdgeCollapses, GoAlongTheEdgeOfAThinWall)
 
   MeshPart held = wall;
   held.IsFixed[1] = true;
-  held.IsFixed[3] = true; // what is left is down one of the sides, by which both would look up
+  held.IsFixed[3] = true; // only collapses down a side are left, after which both would face up
   held.Samples.resize(held.Positions.size());
   EdgeCollapses down(held, 1.0);
   EXPECT_EQ(down.Run(), std::vector<bool>(4, false));
 }
 
-// What was put over a triangle may be beside it: then the plane that it is in tells nothing.
+// A sample put over a triangle may lie beside it: then the triangle's plane tells nothing.
 TEST(EdgeCollapses, AskHowFarWhatIsBesideAHoleIs)
 {
   AllowedMesh flat;
@@ -124,8 +124,8 @@ TEST(EdgeCollapses, AskHowFarWhatIsBesideAHoleIs)
   }
 }
 
-// Below the roof is a groove from point 1 to 3: were that edge, which the roof has lost, made
-// there, it would be there twice once the roof's flip is undone.
+// Below the roof is a groove from point 1 to 3. The roof has lost that edge to a flip: if it were
+// made in the groove, it would be there twice once the flip is undone.
 TEST(EdgeCollapses, MakesNoEdgeThatWasFlippedAway)
 {
   AllowedMesh mesh;
@@ -143,7 +143,7 @@ TEST(EdgeCollapses, MakesNoEdgeThatWasFlippedAway)
   collapses.Undo({ 0 }, {});
   EXPECT_TRUE(
     test::BorderOf({ mesh.Mesh.Positions, test::TrianglesLeft(collapses.Mesh()) }).empty());
-  // Without the roof it is made.
+  // Without the roof, that edge is made.
   part.Simple = Connectivity(5, { cut.begin() + 2, cut.end() }).Linked();
   for (SurfaceSample& sample : part.Samples)
   {
@@ -158,9 +158,9 @@ TEST(EdgeCollapses, MakesNoEdgeThatWasFlippedAway)
 TEST(EdgeCollapses, FlipsNothingThatHasToStay)
 {
   MeshPart held = CutRoof();
-  held.IsFixed = { true, true, false, true }; // the first triangle
+  held.IsFixed = { true, true, false, true }; // all of the first triangle
   MeshPart joining = CutRoof();
-  joining.IsFixed = { true, false, true, false }; // the ridge may be there in another part
+  joining.IsFixed = { true, false, true, false }; // another part may have the ridge
   MeshPart shaped = CutRoof();
   shaped.Positions[2] = { 20, 20, 0 }; // with the ridge, there are slivers
   shaped.LeastSine = 0.3;
@@ -186,7 +186,7 @@ TEST(EdgeCollapses, CanBeUndone)
     const std::vector<bool> isChanged = collapses.Run();
     ASSERT_TRUE(std::count(isChanged.begin(), isChanged.end(), true) > 0);
     std::size_t last = test::TrianglesLeft(collapses.Mesh()).size();
-    // Some, and in the end all.
+    // Undo some, and in the end all.
     for (int trial = 0; trial < 30; ++trial)
     {
       std::vector<std::uint32_t> triangles;
@@ -203,7 +203,7 @@ TEST(EdgeCollapses, CanBeUndone)
       ASSERT_EQ(test::TopologyOf(test::IdsOf(now)), test::TopologyOf(test::IdsOf(before.Mesh)));
       test::ExpectBorder(before, now);
       test::ExpectLinks(collapses.Mesh());
-      // Each sample lies over one triangle that is there, and points in use over none.
+      // Points that were removed lie over a triangle that is there, and points in use over none.
       const std::set<std::uint32_t> left(numbers.begin(), numbers.end());
       const Connectivity nowLinks(now.Positions.size(), now.Triangles);
       for (std::uint32_t i = 0; i < before.Mesh.Positions.size(); ++i)
@@ -216,11 +216,11 @@ TEST(EdgeCollapses, CanBeUndone)
     std::vector<std::uint32_t> all(before.Mesh.Positions.size());
     std::iota(all.begin(), all.end(), 0U);
     collapses.Undo({}, all);
-    // Flips alone are left.
+    // Only flips are left.
     EXPECT_EQ(test::TrianglesLeft(collapses.Mesh()).size(), before.Mesh.Triangles.size());
     all.resize(isChanged.size());
     std::iota(all.begin(), all.end(), 0U);
-    std::vector<bool> isUndone; // of triangles that were flipped twice the last time first
+    std::vector<bool> isUndone; // a triangle flipped twice loses the last flip first
     do
     {
       isUndone = collapses.Undo(all, {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The encoding: its size, and that damaged ones are refused.
+// Encodings: their size, and that damaged ones are refused.
 #include "Hierarchy/IsovertexPlacement.h"
 #include "IntervalTestTools.h"
 
@@ -28,7 +28,7 @@ TEST(Encoding, IsSmallerThanThePapersRecords)
       8 * arrays.BrickMasks.size() + 2 * arrays.Records.size() + arrays.Isovertices.size()));
 }
 
-// What is kept is thrown away by its size: a cache that does not know it grows.
+// A cache decides by size what to throw away: if sizes are wrong, it grows.
 TEST(Encoding, SizesAreThoseOfAllArrays)
 {
   const test::Field field = test::SphereField({ 33, 33, 33 });
@@ -63,7 +63,8 @@ TEST(Encoding, SizesAreThoseOfAllArrays)
         8 * arrays.BrickMasks.size() + 2 * diamonds + arrays.Isovertices.size() +
         2 * arrays.InteriorCodes.size() + 8 * arrays.Followers.size() +
         (region.IsVolume() ? 4 * inside : 0)));
-    // Edges of one surface or of two, and the first isovertex; highest thresholds; what is inside.
+    // By diamond: edges of one surface or of two, and the first isovertex. By brick: the brick
+    // itself, its highest thresholds and, of volumes, its first inside value. And the lookups.
     EXPECT_EQ(hierarchy.DerivedSize(),
       static_cast<std::int64_t>((region.IsVolume() ? 8 : 6) * diamonds +
         (4 + sizeof(Brick)) * bricks + 4 * lookups + (region.IsVolume() ? 8 * (bricks + 1) : 0)));
@@ -159,14 +160,14 @@ TEST(Encoding, IsoverticesOfAnEdgeAreInTheOrderOfTheirSurfaces)
 namespace
 {
 
-/** What is done to an encoding, and what is to be said of it. */
+/** Damage to an encoding, and the message that is expected. */
 struct Case
 {
   const char* Message;
   std::function<void(Encoding&)> Damage;
 };
 
-/** What is said of an encoding; nothing if it is accepted. */
+/** The message with which an encoding is refused; empty if it is accepted. */
 std::string FaultOf(const EncodingView& encoding)
 {
   try
@@ -213,7 +214,7 @@ constexpr const char* WrongInsideValues = "the number of inside values does not 
 
 }
 
-// Each check by damage that no other check sees before it: the message tells.
+// For each check, damage that no other check finds before it: the message tells which one did.
 TEST(Encoding, DamageIsRefused)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -310,7 +311,7 @@ TEST(Encoding, HugeDimensionsAreRefusedBeforeTheyTakeMemory)
   }
 }
 
-// Codes and ranges of another grid or type lead beyond the arrays.
+// Codes and ranges of another grid or type would lead beyond the arrays.
 TEST(Encoding, ScalarsThatDoNotFitAreRefused)
 {
   const test::Field field = test::SphereField({ 9, 6, 7 });
@@ -346,7 +347,7 @@ TEST(Encoding, ScalarsThatDoNotFitAreRefused)
   EXPECT_TRUE(isRefusedAfter([&](ScalarEncoding& e) { e.Maxima = std::vector<double>(count); }));
 }
 
-// There are no such arrays: the check must come before anything is read.
+// No array is that large: the check must come before anything is read.
 TEST(Encoding, MoreIsoverticesThanNumbersAreRefused)
 {
   const Encoding good = Sphere(0.25);
@@ -498,5 +499,5 @@ TEST(Encoding, RandomDamageNeverHarms)
     {
     }
   }
-  EXPECT_GT(accepted, 0); // other thresholds and coefficients are another hierarchy, not damage
+  EXPECT_GT(accepted, 0); // other thresholds or coefficients just make another hierarchy
 }

@@ -51,7 +51,7 @@ TEST(ErrorCode, KeepsCodesThatItDecodes)
   }
 }
 
-// Next to a code's error the division by the scale, which rounds, would decide.
+// Next to a code's error, the rounding of a division by the scale would decide.
 TEST(ErrorCode, IsTheReferencesAroundEveryCode)
 {
   for (const double scale : { 1e-30, 0.1, 1.0, 255.0, 3.7e20 })

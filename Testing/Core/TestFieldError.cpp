@@ -86,7 +86,7 @@ void ForEachSample(const Grid& grid, const std::array<Point, 4>& corners, const 
   }
 }
 
-/** A summary by barycentric coordinates in all half-tetrahedra. */
+/** A domain's summary, by barycentric coordinates of every sample in its half-tetrahedra. */
 DomainSummary VisitEverySample(const Grid& grid, const AnySamples& samples, const Place& place)
 {
   const auto valueAt = [&](const Point& point)
@@ -195,7 +195,7 @@ TEST(FieldError, IsZeroForALinearField)
 namespace
 {
 
-/** NaN where cubes of samples are not whole, and all else alike. */
+/** NaN for the last sample, where cubes of samples are not whole; all others are equal. */
 test::Field LastIsNaN(const std::array<int, 3>& dims)
 {
   test::Field field = test::WaveField(dims);
@@ -206,7 +206,7 @@ test::Field LastIsNaN(const std::array<int, 3>& dims)
 
 }
 
-// Parts of a domain that cannot matter are passed over.
+// Parts of a domain that cannot matter are skipped.
 TEST(FieldError, OfLargeDomainsEqualsAVisitToEverySample)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();

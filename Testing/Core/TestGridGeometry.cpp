@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where samples are in the world, what is hidden of them, and from where they are seen.
+// Where samples are in the world, which cells are hidden, and from where they are seen.
 #include "Field/Gradients.h"
 #include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
@@ -69,7 +69,7 @@ TEST(GridGeometry, IsTrilinearBetweenSamplesAndLinearBeyond)
       }
     }
   }
-  // In the middle of a cell the mean of its corners; on an edge of two.
+  // In the middle of a cell the mean of its corners; on an edge that of two, weighted.
   Vector mean{};
   for (int corner = 0; corner < 8; ++corner)
   {
@@ -87,7 +87,7 @@ TEST(GridGeometry, IsTrilinearBetweenSamplesAndLinearBeyond)
   const Vector first = At(positions, 0, 0, 0);
   const Vector next = At(positions, 1, 0, 0);
   ExpectNear(bent({ -1.0, 0.0, 0.0 }), 2.0 * first - next);
-  // Behind a layer of padding indices are one more.
+  // Behind a layer of padding, indices are greater by one.
   const GridGeometry padded(SamplePositions{ positions.data(), Size }, 1);
   ExpectNear(padded({ 2.5, 3.5, 4.5 }), mean);
 }
@@ -124,7 +124,7 @@ TEST(GridGeometry, OfAxesIsThatOfTheSamePositions)
 
 TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
 {
-  // The same samples with the same positions, by a sheared map and one by one.
+  // The same samples at the same positions, given by a sheared map and one by one.
   AffineMap map;
   map.Rows = { { { 0.5, 0.2, 0.0, 3.0 }, { 0.0, 2.0, -0.3, 1.0 }, { 0.1, 0.0, 1.5, -2.0 } } };
   std::vector<double> positions;
@@ -151,7 +151,7 @@ TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
     const Vector at = { index(random), index(random), index(random) };
     ExpectNear(Gradients(samples, affine)(at), Gradients(samples, listed)(at), 1e-9);
   }
-  // Of a linear field its own, everywhere, beyond the grid, too.
+  // A linear field has the same gradient everywhere, also beyond the grid.
   for (std::size_t i = 0; i < field.size(); ++i)
   {
     field[i] = static_cast<float>(
@@ -165,7 +165,7 @@ TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
   }
 }
 
-// A linear field, of which one half is no number, and a corner infinite.
+// A linear field that is NaN in one half, and infinite in a corner.
 TEST(GridGeometry, NormalsBesideGapsAreThoseOfTheFieldOrOfTheGap)
 {
   constexpr int size = 7;
@@ -189,10 +189,10 @@ TEST(GridGeometry, NormalsBesideGapsAreThoseOfTheFieldOrOfTheGap)
     ExpectNear(normalAt(inside), { -2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0 }, 1e-6);
   }
   ExpectNear(normalAt({ 3.5, 3.0, 3.0 }), { 1.0, 0.0, 0.0 }); // into the gap
-  EXPECT_GT(normalAt({ 0.75, 0.0, 0.0 })[0], 0.7);            // away from what is above
+  EXPECT_GT(normalAt({ 0.75, 0.0, 0.0 })[0], 0.7);            // away from the infinite corner
   EXPECT_GT(normalAt({ 0.0, 0.0, 0.75 })[2], 0.7);
-  ExpectNear(normalAt({ 5.0, 3.0, 3.0 }), { 0.0, 0.0, 1.0 }); // nothing around it
-  // Finite, but its components' sum is not.
+  ExpectNear(normalAt({ 5.0, 3.0, 3.0 }), { 0.0, 0.0, 1.0 }); // nothing finite around it
+  // A finite gradient, but its components' sum is not.
   ExpectNear(gradients.NormalAt({ 3.5, 3.0, 3.0 }, { 0.0, -1.2e308, -0.9e308 }), { 0.0, 0.8, 0.6 });
 }
 
@@ -233,7 +233,7 @@ TEST(AffineMap, HasItsDeterminantAndInverse)
   EXPECT_FALSE(map.Mirrors());
   const Vector index = { 1.25, -7.0, 3.5 };
   ExpectNear(map.Inverse(map(index[0], index[1], index[2])), index);
-  // Products of cofactors and columns: the determinant, or nothing.
+  // Products of cofactors and columns: the determinant, or zero.
   for (int j = 0; j < 3; ++j)
   {
     for (int k = 0; k < 3; ++k)
@@ -298,7 +298,7 @@ TEST(GridGeometry, GradientsAreCentralDifferencesAndOneSidedAtTheBorder)
 namespace
 {
 
-/** Whether the box around a cell touches another. */
+/** Whether the box around a cell touches another box. */
 bool CellTouches(const std::vector<double>& positions, const Point& cell, const Box& box)
 {
   bool touches = true;
@@ -318,7 +318,7 @@ bool CellTouches(const std::vector<double>& positions, const Point& cell, const 
   return touches;
 }
 
-/** The index box of the cells that touch, of the outermost the padding, too. */
+/** The index box of the cells that touch a box, with the padding beside the outermost. */
 Box BoxOfCells(const std::vector<double>& positions, const Box& box, int padding)
 {
   Box expected{ { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } };
@@ -363,10 +363,10 @@ TEST(GridGeometry, IndexBoxesHoldAllCellsThatTouch)
         box.Maximum[axis] = box.Minimum[axis] + 2.0 * part(random);
       }
       const Box found = IndexBoxOf(box, bent);
-      const Box expected = BoxOfCells(positions, box, padding); // no more either
+      const Box expected = BoxOfCells(positions, box, padding); // and not larger
       EXPECT_EQ(found.Minimum, expected.Minimum);
       EXPECT_EQ(found.Maximum, expected.Maximum);
-      for (int j = 0; j < 300; ++j) // no point of the grid in the box may be outside
+      for (int j = 0; j < 300; ++j) // no point of the grid in the box may be missed
       {
         Vector index{};
         for (int axis = 0; axis < 3; ++axis)
@@ -376,7 +376,7 @@ TEST(GridGeometry, IndexBoxesHoldAllCellsThatTouch)
         const Vector p = bent(index);
         bool inside = true;
         bool isFound = true;
-        bool isOwn = true; // padding is extrapolated: what is there may come from far
+        bool isOwn = true; // positions in padding are extrapolated, and may be far off
         for (int axis = 0; axis < 3; ++axis)
         {
           inside = inside && p[axis] >= box.Minimum[axis] && p[axis] <= box.Maximum[axis];
@@ -447,7 +447,7 @@ TEST(WorldLengths, OfAnAffineMapIsTheGeometrysDistance)
   };
   for (int i = 0; i < 500; ++i)
   {
-    // Sheared, most of it by far along one of the axes.
+    // Sheared, and far longer along one axis than along the others.
     AffineMap world;
     for (std::array<double, 4>& row : world.Rows)
     {
@@ -461,7 +461,7 @@ TEST(WorldLengths, OfAnAffineMapIsTheGeometrysDistance)
     const FinePosition b = anywhere();
     const double length = squared(place(b) - place(a));
     EXPECT_NEAR(squared(lengths(b) - lengths(a)), length, 1e-9 * length);
-    // The ball around a box holds all of it, and no more than it must.
+    // The ball around a box holds all of it, and is no larger than it must be.
     FineBox box;
     box.Add(a);
     box.Add(b);
@@ -475,7 +475,7 @@ TEST(WorldLengths, OfAnAffineMapIsTheGeometrysDistance)
         (corner & 4) != 0 ? box.High[2] : box.Low[2] };
       farthest = std::max(farthest, squared(place(at) - place(middle)));
     }
-    // The middle is a step of 1/256 beside the true one at most.
+    // The middle is at most a step of 1/256 from the true one.
     const double radius = lengths.SquaredRadius(box, middle);
     EXPECT_GE(radius, farthest * (1.0 - 1e-9));
     EXPECT_LE(std::sqrt(radius), std::sqrt(farthest) + 6.0 * std::sqrt(3.0) / 256.0);
@@ -510,7 +510,7 @@ TEST(WorldLengths, OfAxesIsTheGeometrysDistance)
       const FinePosition a = anywhere();
       const FinePosition b = anywhere();
       ExpectNear(metric(b) - metric(a), place(b) - place(a));
-      // The ball around a box holds all of it, and no more than it must.
+      // The ball around a box holds all of it, and is no larger than it must be.
       FineBox box;
       box.Add(a);
       box.Add(b);
@@ -566,7 +566,7 @@ TEST_P(ViewpointIn, TolerancesAreThoseOfTheNearestPointOrLess)
   const Viewpoint view(eye, 0.01, map);
   std::mt19937 random(8);
   std::uniform_real_distribution<double> part(-1.0, 1.0);
-  // Of a ball around a cube of a half width, or of the cube where axes are uneven.
+  // For the ball around a cube of a half width or, where axes are uneven, for the cube itself.
   const auto expectedOf = [&](const Vector& centre, double half)
   {
     Vector away = map(centre) - eye;

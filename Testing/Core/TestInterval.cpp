@@ -26,7 +26,7 @@ PatchStates MovedStatesOf(int code)
   return { code % 5, code / 5 % 5, code / 25 % 5, code / 125 };
 }
 
-/** Whether nothing, or nothing that has a volume, is in range. */
+/** Whether nothing, or nothing with a volume, is in range. */
 bool IsFlat(const PatchStates& states)
 {
   return *std::max_element(states.begin(), states.end()) <= OnLower ||
@@ -37,7 +37,7 @@ bool IsFlat(const PatchStates& states)
 
 TEST(IntervalPatches, HaveTheNumbersOfTetrahedraThatTheSearchPromises)
 {
-  // By the sorted signs: below, inside, above.
+  // By the numbers of vertices below, inside and above.
   const std::map<std::array<int, 3>, std::size_t> sizes = { { { 4, 0, 0 }, 0 }, { { 0, 0, 4 }, 0 },
     { { 0, 4, 0 }, 1 }, { { 1, 3, 0 }, 3 }, { { 2, 2, 0 }, 3 }, { { 3, 1, 0 }, 1 },
     { { 1, 0, 3 }, 3 }, { { 2, 0, 2 }, 6 }, { { 1, 1, 2 }, 5 }, { { 1, 2, 1 }, 5 } };
@@ -82,8 +82,6 @@ TEST(IntervalPatches, CasesByWordsAreThoseOneByOne)
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 0), 0);
 }
 
-// Random places of the isovertices, random tetrahedra: all volumes positive, their sum that of the
-// part in range, which is what two planar cuts leave when the isovertices are linear.
 TEST(IntervalPatches, AreThoseOfVerticesThatDidNotMove)
 {
   for (int code = 0; code < 81; ++code)
@@ -108,6 +106,7 @@ TEST(IntervalPatches, AreDifferentChoices)
   EXPECT_GT(choices, 0U);
 }
 
+// Wherever the isovertices are on their edges.
 TEST(IntervalPatches, FillWhatIsInRangeWithPositiveTetrahedra)
 {
   std::mt19937 random(7);
@@ -118,7 +117,7 @@ TEST(IntervalPatches, FillWhatIsInRangeWithPositiveTetrahedra)
     EXPECT_EQ(MovedPatches()[code].empty(), IsFlat(signs)) << code;
     for (int trial = 0; trial < 60; ++trial)
     {
-      // Coefficients from the younger end; close to the ends in a part of the trials.
+      // Coefficients from the younger end; close to the ends in some of the trials.
       std::map<int, double> along;
       const auto place = [&](const PatchPoint& point)
       {
@@ -241,7 +240,7 @@ struct Models
   {
   }
 
-  /** Meshes of the three must be the same and without fault. */
+  /** The meshes of the three models must be the same, and without fault. */
   void ExpectOneSoundMesh(
     double tolerance, double interiorTolerance, const std::array<int, 3>& dims) const
   {
@@ -291,7 +290,7 @@ TEST(Interval, IsFitForASolverAtEveryInteriorTolerance)
         SCOPED_TRACE(field.Name + " interior tolerance " + std::to_string(interior));
         models.ExpectOneSoundMesh(tolerance, interior, field.Dims);
       }
-      // What can be refined inside, but is not asked to, is as if it could not.
+      // A hierarchy that can be refined inside, but is not, gives the mesh of one that cannot be.
       const test::Built plain(
         BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor), SerialFor);
       EXPECT_TRUE(test::PlacedTetrahedra(test::ExtractVolume(*plain.Hierarchy, tolerance)) ==
@@ -300,7 +299,7 @@ TEST(Interval, IsFitForASolverAtEveryInteriorTolerance)
   }
 }
 
-// A range that holds all values leaves the whole box, at any tolerance, however the grid ends.
+// A range that holds all values gives the grid's whole box, at any tolerance and for any size.
 TEST(Interval, OfEverythingIsTheGridsBox)
 {
   for (const test::Field& field : test::SmallFields())
@@ -353,8 +352,8 @@ TEST(Interval, DoesNotDependOnThreads)
 
 TEST(Interval, HoldsTheInteriorTolerance)
 {
-  // At every sample in a tetrahedron that lies inside, field and interpolant differ by no more.
-  // Where the diamond of such a tetrahedron carries a surface, the other tolerance holds.
+  // At every sample in a tetrahedron that lies inside, field and interpolant differ by no more than
+  // the interior tolerance. If the tetrahedron's diamond carries a surface, the other one holds.
   const test::Field field = test::WaveField({ 17, 17, 17 });
   const Isoregion region(-0.8, Infinity);
   const test::Built built(
@@ -420,7 +419,7 @@ TEST(Interval, HoldsTheInteriorTolerance)
   }
 }
 
-// Isovalues that equal no sample: the boundary at full resolution is both isosurfaces.
+// If no sample equals an isovalue, the boundary at full resolution is both isosurfaces.
 TEST(Interval, IsBoundedByTheIsosurfaces)
 {
   for (const test::Field& field : { test::WaveField({ 17, 17, 17 }), test::WaveField({ 14, 13, 9 }),

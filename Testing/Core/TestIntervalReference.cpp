@@ -18,7 +18,7 @@ using ReferenceKind = reference::Kind;
 namespace
 {
 
-/** The reference's side of a field and a range: its own errors, as the codes round them. */
+/** What the reference finds for a field and a range; own errors are rounded as the codes are. */
 struct Oracle
 {
   reference::Hierarchy Hierarchy;
@@ -68,7 +68,8 @@ void ExpectSameSet(const Oracle& oracle, const std::vector<ReferenceKind>& kinds
   }
 }
 
-/** Points by position and number, tetrahedra by number, volume within what free diagonals allow. */
+/** The same points, as many tetrahedra of each level, and, with linear isovertices, the same volume
+ *  within what free diagonals allow. */
 void ExpectSameMesh(const Oracle& oracle, const reference::DiamondSet& subdivided,
   const test::Volume& volume, bool exact)
 {
@@ -232,8 +233,8 @@ TEST(IntervalReference, RefinedSetsAndMeshesAreTheSameInAllModels)
   }
 }
 
-// The paper's figure 13: without closure the patches of a creation diamond's descendants and of a
-// coarse active diamond around it overlap.
+// The paper's figure 13: without closure, the patches of a creation diamond's descendants would
+// overlap those of a coarse active diamond around it.
 TEST(IntervalReference, CreationInsideACoarseActiveDiamondDoesNotOverlap)
 {
   test::Field field = test::WaveField({ 17, 17, 17 });
@@ -243,7 +244,7 @@ TEST(IntervalReference, CreationInsideACoarseActiveDiamondDoesNotOverlap)
     {
       for (int x = 0; x < 17; ++x)
       {
-        // A flat ramp, and one sample inside the range in the part below it.
+        // A linear ramp, and one sample inside the range in the part below the range.
         field.Samples[(z * 17 + y) * 17 + x] =
           static_cast<float>(x == 3 && y == 3 && z == 3 ? 10.5 : x);
       }
@@ -290,7 +291,7 @@ TEST(IntervalReference, VolumeIsThatOfTheLinearField)
   {
     ExpectLinearVolume(field.View(), field.Reference(), { -0.25, 0.8 }, 0.001);
   }
-  // Noise of reals, so that no rounding of coefficients repeats.
+  // Noise of real values, so that the same rounding of coefficients does not repeat.
   std::mt19937 random(5);
   std::uniform_real_distribution<float> unit(0.0F, 1.0F);
   test::Field noise = test::NoiseField({ 33, 33, 33 }, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact and linear isovertices of all edges of all scales, against the reference.
+// Exact and linear isovertices on all edges of all scales, against the reference.
 #include "IntervalTestTools.h"
 
 #include "ReferenceExact.h"
@@ -13,7 +13,7 @@ using namespace isodiamond;
 namespace
 {
 
-/** Calls body(place, rank, edge, surface, coefficient) for all isovertices but the corners'. */
+/** Calls body(place, rank, edge, surface, coefficient) for all isovertices. */
 template <typename Body>
 void ForEachIsovertex(const IsodiamondHierarchy& hierarchy, Body&& body)
 {
@@ -109,8 +109,8 @@ TEST(IsovertexPlacement, OfIntervalVolumesIsTheReferences)
 namespace
 {
 
-/** On the full-resolution field along its own edge every isovertex has a crossing within one
- *  coefficient step, within two where the edge carries both surfaces. */
+/** Every isovertex has a crossing of the full-resolution field on its edge, within one coefficient
+ *  step, or within two where the edge carries both surfaces. */
 void ExpectOnSurface(const test::Field& field, const Isoregion& region)
 {
   SCOPED_TRACE(field.Name);
@@ -151,7 +151,7 @@ TEST(IsovertexPlacement, PutsVerticesOnTheFullResolutionSurface)
   }
 }
 
-// Differences that overflow: in order, in the middle, anything but not a number.
+// Differences overflow: isovertices may be anywhere on their edges, but in the right order.
 TEST(IsovertexPlacement, StaysInRangeForHugeValues)
 {
   std::vector<double> samples(125);

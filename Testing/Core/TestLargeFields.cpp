@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The promise where searches go by clusters and bricks, which small fields have no use for: by
-// brute force over all triangles. Larger fields: ctest -C Long -L long
+// The promise where searches go by clusters and bricks, which small fields have no use for, checked
+// by brute force over all triangles. Larger fields: ctest -C Long -L long
 #include "DistanceError/DistanceError.h"
 #include "DistanceTestTools.h"
 
@@ -16,7 +16,7 @@ using namespace isodiamond;
 namespace
 {
 
-/** 33 samples an axis unless ISODIAMONDS_SAMPLES says more. */
+/** 33 samples on each axis, unless ISODIAMONDS_SAMPLES says otherwise. */
 int Samples()
 {
   const char* text = std::getenv("ISODIAMONDS_SAMPLES");
@@ -36,7 +36,7 @@ test::Field RareField(const std::array<int, 3>& dims, unsigned seed, int count)
   return field;
 }
 
-/** A bent ridge near to the middle: every large diamond has a patch, and most samples are far. */
+/** A bent sheet near the middle: every large diamond has a patch, and most samples are far off. */
 test::Field Ridge(const std::array<int, 3>& dims)
 {
   test::Field field = test::WaveField(dims);
@@ -49,7 +49,7 @@ test::Field Ridge(const std::array<int, 3>& dims)
   return field;
 }
 
-/** Full resolution and the mesh of every tolerance, both ways. */
+/** Compares full resolution and the mesh of every tolerance, both ways. */
 void CheckPromise(const test::Field& field, const GridGeometry& world)
 {
   SCOPED_TRACE(field.Name);
@@ -116,8 +116,8 @@ TEST(LargeFields, KeepThePromiseOfBothSurfaces)
   }
 }
 
-// There is so much to do in such a field that threads take over where diamonds are still large. An
-// error depends on what is near: in a corner, which by itself is done otherwise, it is the same.
+// In such a large field there is work for many threads while diamonds are large. Errors depend only
+// on what is near: they are the same in a corner by itself, where the work goes differently.
 TEST(LargeFields, HaveTheErrorsOfTheirParts)
 {
   const test::Field all = test::WaveField({ 129, 129, 129 });
@@ -148,7 +148,7 @@ TEST(LargeFields, HaveTheErrorsOfTheirParts)
     [&](const Place& place, std::uint32_t rank)
     {
       const int h = 1 << place.Scale;
-      bool isInside = place.Scale < 5; // all of its tetrahedra, so also those that these are from
+      bool isInside = place.Scale < 5; // with all tetrahedra, and those that they are halves of
       for (int axis = 0; axis < 3; ++axis)
       {
         isInside = isInside && h * (place.Position[axis] + 1) <= 64;
@@ -159,7 +159,7 @@ TEST(LargeFields, HaveTheErrorsOfTheirParts)
       }
       const std::int64_t there = ofAll.Hierarchy->Diamonds().Rank(place);
       ASSERT_NE(there, DiamondSet::None);
-      // Codes have steps, other ones in a larger grid.
+      // Codes are rounded, in other steps for a larger grid.
       const double one = code.Decode(expected[rank]);
       const double other = codeOfAll.Decode(found[there]);
       ASSERT_LE(one, code.Decode(code.Encode(other * (1.0 + 1e-9)))) << "scale " << place.Scale;
@@ -171,7 +171,7 @@ TEST(LargeFields, HaveTheErrorsOfTheirParts)
   EXPECT_GT(seen[3], 0);
 }
 
-// The reference is slow, but not where there is little: each error from both sides.
+// The reference is slow, but not where there is little. Each error is compared from both sides.
 TEST(LargeFields, HaveTheReferencesErrorsWhereThereIsLittle)
 {
   std::map<int, int> seen; // by scale

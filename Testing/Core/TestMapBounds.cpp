@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The maps that bound the way back: no point of a patch is farther from full resolution than the
-// bound says, by brute force; and they are found where the surface is simple.
+// The maps that bound the way back: by brute force, no point of a patch is farther from full
+// resolution than its bound; and bounds are found where the surface is simple.
 #include "DistanceError/DistanceError.h"
 #include "DistanceError/DomainMap.h"
 #include "DistanceError/MapBounds.h"
@@ -95,7 +95,7 @@ TEST(MapBounds, BoundTheWayBackFromEveryFlatPatch)
         if (diamond.Scale == 0 || diamond.Scale == hierarchy.SampleGrid().Depth())
         {
           EXPECT_TRUE(bounds.Of(0, rank) == MapBounds::NoneOfDiamond);
-          return; // what has none, and a corner of the base cube
+          return; // scale 0 and the corners of the base cube have none
         }
         SpineNeighbourhood(hierarchy).ForEachTetrahedron(diamond, true,
           [&](int number, const HalfPlace& tetrahedron)
@@ -147,7 +147,7 @@ TEST(DomainMap, BoundsTheWayBackFromAllPatches)
             patches.push_back(triangle);
           }
         }
-        // Whatever goes to the patches has to come there, where lengths have them.
+        // Whatever goes to the patches must end up on them, where the lengths put them.
         test::SurfaceTriangles places;
         for (const NumberedPatch& patch : around)
         {

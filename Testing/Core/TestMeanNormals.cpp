@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Normals of a simpler mesh by hand, and on a ball, where the right ones are known.
+// Normals of a simpler mesh: found by hand, and on a ball, where the right ones are known.
 #include "RandomTestTools.h"
 #include "Simplification/MeanNormals.h"
 #include "Simplification/Simplification.h"
@@ -34,8 +34,8 @@ Vector NormalAt(const std::vector<float>& numbers, std::size_t point)
 
 }
 
-// A square of four triangles around a point, which goes, and lies over one of the two that are
-// left: nearer to one of its corners than to the others.
+// A square of four triangles around a point. The point goes, and then lies over one of the two
+// triangles that are left, nearer to one corner than to the others.
 TEST(MeanNormals, AreOfWhatAPointStandsFor)
 {
   TriangleMesh square;
@@ -79,7 +79,7 @@ TEST(MeanNormals, LeaveWhatCancelsOut)
   std::vector<float> against = none;
   TakeMeanNormals(fan, simpler, none.data());
   EXPECT_EQ(none, against) << "no normals but one";
-  // A corner has two thirds of the area around it, and gets a third of what is around the middle.
+  // Two thirds of the area are around a corner; the third that it gets for the middle counts -2.
   against = NormalsOf({ up, up, up, -2.0 * up });
   std::vector<float> found = against;
   TakeMeanNormals(fan, simpler, found.data());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes that surfaces of fields hardly have, or have in few places, simplified.
+// Simplification of what surfaces of fields hardly ever have, or have in few places.
 #include "Simplification/MeshBlocks.h"
 #include "Simplification/Simplification.h"
 #include "SimplificationTestTools.h"
@@ -61,7 +61,7 @@ constexpr std::uint32_t PointsAroundBlade = 7;
  *  @param thickness of its back @param bend of the whole, to the side */
 AllowedMesh Blade(std::uint32_t steps, double thickness, double bend, double allowed)
 {
-  // Around it, from the edge: up one side, and down the other one.
+  // Around it, from the edge: up one side, and down the other.
   constexpr std::uint32_t count = PointsAroundBlade;
   const std::array<std::array<double, 2>, count> section = { { { 0, 0 }, { 1, 1 }, { 2, 2 },
     { 3, 3 }, { -3, 3 }, { -2, 2 }, { -1, 1 } } };
@@ -97,7 +97,7 @@ AllowedMesh Blade(std::uint32_t steps, double thickness, double bend, double all
 
 }
 
-// Parts may have one sheet each, to which the point looks like any other one.
+// Parts may have one sheet each, in which the point looks like any other.
 TEST(OddMeshes, KeepSheetsTogetherThatMeetInAPoint)
 {
   const AllowedMesh mesh = SheetsThatMeet(5, 5.0);
@@ -127,7 +127,7 @@ TEST(OddMeshes, KeepSheetsTogetherThatMeetInAPoint)
   }
 }
 
-// A flat tetrahedron of which one part has three faces, and another one the fourth.
+// Flat tetrahedra: three faces may be in one part, and the fourth in another.
 TEST(OddMeshes, KeepSpecksThatPartsShare)
 {
   AllowedMesh specks;
@@ -155,7 +155,7 @@ TEST(OddMeshes, KeepSpecksThatPartsShare)
   }
 }
 
-// Points on the sharp edge of a blade have no direction from which all around them is seen.
+// There is no direction from which all triangles around a point on a blade's edge can be seen.
 TEST(OddMeshes, LosePointsOnTheEdgeOfABlade)
 {
   struct Case
@@ -171,7 +171,7 @@ TEST(OddMeshes, LosePointsOnTheEdgeOfABlade)
     const SimplerMesh after = Simplify(blade, SerialFor);
     EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(blade.Mesh)));
     EXPECT_LE(after.Triangles.size(), one.Most); // 8 if it is straight
-    // What was on one side of it lies over that side now, though the other one may be nearer.
+    // Points from one side lie over that side now, though the other side may be nearer.
     int gone = 0;
     int onOtherSide = 0;
     for (std::uint32_t point = 0; point < blade.Mesh.Positions.size(); ++point)
@@ -189,7 +189,7 @@ TEST(OddMeshes, LosePointsOnTheEdgeOfABlade)
   }
 }
 
-// A point on the line between two neighbours, one triangle of which has no area.
+// A point on the line between two neighbours: the triangle of the three has no area.
 TEST(OddMeshes, LosePointsOnALine)
 {
   constexpr std::uint32_t size = 6;
@@ -214,7 +214,7 @@ TEST(OddMeshes, LosePointsOnALine)
   EXPECT_EQ(homes.size() - std::count(homes.begin(), homes.end(), None), 25U) << "all inside";
 }
 
-// As where points far away are rounded.
+// Such triangles arise where points far from the origin are rounded.
 TEST(OddMeshes, LoseTrianglesWithoutArea)
 {
   AllowedMesh ball = test::MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 0.4);

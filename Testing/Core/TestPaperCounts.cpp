@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's Table 2, exactly, on its own volumes, padded with zeros to (2^N + 1)^3. The files
-// are found by the environment's ISODIAMONDS_DATA_DIR.
+// The paper's Table 2, exactly, on its own volumes, padded with zeros to (2^N + 1)^3. The
+// environment variable ISODIAMONDS_DATA_DIR says where the files are.
 #include "IntervalTestTools.h"
 
 #include <gtest/gtest.h>

@@ -14,8 +14,8 @@
 
 using namespace isodiamond;
 
-// A square above another one, farther than is allowed, which was told to be near: that is believed
-// of what is as it was, and of nothing else.
+// A square above another one, farther away than allowed, but said to be near at the start: that is
+// believed of triangles that are as they were, and of no others.
 TEST(PartDistance, BelievesTheStartOnly)
 {
   AllowedMesh square;
@@ -47,8 +47,8 @@ TEST(PartDistance, BelievesTheStartOnly)
   EXPECT_TRUE(faults(true, { { 4, 6, 5 }, { 4, 7, 6 } }).Any()) << "turned over";
 }
 
-// Asked again it tells again of something that can be undone: what was near to it at the start, and
-// is another one now.
+// Asked again, it again names something that can be undone: a triangle that was near at the start,
+// and has changed since.
 TEST(PartDistance, TellsOfWhatIsNotAsAtTheStart)
 {
   AllowedMesh square;
@@ -73,8 +73,8 @@ TEST(PartDistance, TellsOfWhatIsNotAsAtTheStart)
   }
 }
 
-// A mesh of many triangles, simplified for four times what is allowed then: threads find the same
-// of it as one does, and keep the same in mind for the next time.
+// A mesh of many triangles, simplified for four times the allowance that it is compared with:
+// several threads find the same faults as one, and note the same for the next time.
 TEST(PartDistance, IsTheSameWithThreads)
 {
   const AllowedMesh careless = test::MeshOf(test::WaveField({ 41, 38, 33 }), 0.0, 0.8);
@@ -105,8 +105,8 @@ TEST(PartDistance, IsTheSameWithThreads)
   }
 }
 
-// Triangles on points of a mesh that are near to each other, some of them far from the mesh or over
-// its border, with some of the mesh's triangles there.
+// Triangles between nearby points of a mesh, some of them far from the mesh or over its border,
+// tested against some of the mesh's triangles there.
 TEST(ShadowTest, IsRightByBruteForce)
 {
   for (const test::Field& field : test::SurfacesToSimplify())
@@ -182,7 +182,7 @@ TEST(ShadowTest, IsRightByBruteForce)
   }
 }
 
-// A fold: what covers a triangle and turns back does not cover it twice as much.
+// A fold: where the mesh covers a triangle and turns back over it, the two layers cancel out.
 TEST(ShadowTest, CountsWhatFacesTheOtherWay)
 {
   const std::vector<Vector> positions = { { -1, -1, 0 }, { 3, -1, 0 }, { -1, 3, 0 },
@@ -206,7 +206,7 @@ TEST(ShadowTest, CountsWhatFacesTheOtherWay)
   EXPECT_FALSE(covers({ { up[0], up[1], up[1] } }, { 0 })) << "no area";
 }
 
-// A mesh that ends in a corner so sharp that all there is beside a side.
+// A mesh that ends short of a corner so sharp that everything in it is close to a side.
 TEST(ShadowTest, LooksIntoTheCornersOfSlivers)
 {
   for (const double height : { 3.5e-9, 4e-8, 1e-6, 1e-3 })
@@ -223,7 +223,7 @@ TEST(ShadowTest, LooksIntoTheCornersOfSlivers)
   }
 }
 
-// Over a strip, and a long one, where it gives up.
+// Over a strip; if this is long, it gives up.
 TEST(Covering, UsesAllOfATriangleOrTellsThatItDoesNot)
 {
   for (const std::uint32_t length : { 20U, 45U, 200U })
@@ -255,7 +255,7 @@ TEST(Covering, UsesAllOfATriangleOrTellsThatItDoesNot)
     EXPECT_EQ(isAll, length < 100);
     const double whole = 0.5 * std::sqrt(Dot(normal, normal));
     EXPECT_EQ(isAll, std::abs(area - whole) < 1e-9);
-    // By looking around, if walking was in vain: that does not count then.
+    // By looking around if walking failed: what walking used does not count then.
     constexpr double allowed = 4.0;
     int tries = 0;
     double used = 0.0;

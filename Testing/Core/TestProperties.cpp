@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must hold for any samples, regions and queries, on random ones. The seed is printed; with
-// ISODIAMONDS_SEED the same cases come again, ISODIAMONDS_CASES is how many.
+// What must hold for any samples, regions and queries, tested on random ones. The seed is printed:
+// with ISODIAMONDS_SEED the same cases come again; ISODIAMONDS_CASES says how many there are.
 #include "DistanceTestTools.h"
 #include "Refinement/ScalarQuery.h"
 #include "TopologyTestTools.h"
@@ -18,7 +18,7 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** One random field: all that must hold, for some queries. */
+/** One random field, and all that must hold for it, with some queries. */
 class Case
 {
 public:
@@ -54,8 +54,8 @@ public:
   }
 
 private:
-  /** Conforming, and the same by two models and with threads; of one topology if it is preserved.
-   */
+  /** The mesh conforms, and is the same from two models and with threads; if topology is preserved,
+   *  all meshes have the same. */
   void CheckQuery(const Query& query)
   {
     const test::AnyMesh mesh(*this->Minimal.Hierarchy, query);
@@ -74,8 +74,8 @@ private:
     }
   }
 
-  /** No point of the mesh is farther from full resolution than the tolerance, and no vertex of that
-   *  from the mesh; the former also where features vanish. Looks at some, or all if few. */
+  /** No point of the mesh is farther from full resolution than the tolerance and, unless features
+   *  may vanish, no vertex of full resolution from the mesh. Looks at some, or at all if few. */
   void CheckDistances(const Query& query, const test::AnyMesh& mesh) const
   {
     const test::AnyMesh full(*this->Minimal.Hierarchy, Query{});
@@ -92,14 +92,14 @@ private:
     }
   }
 
-  /** In the world. */
+  /** The triangles of a surface, in the world. */
   test::SurfaceTriangles TrianglesOf(const test::AnyMesh& mesh, int surface) const
   {
     return this->Region.IsVolume() ? test::Placed(mesh.Interval, surface, this->Options.World)
                                    : test::Placed(mesh.Surface, this->Options.World);
   }
 
-  /** The HD gives the same, of errors in the field. */
+  /** The HD gives the same, with field errors. */
   void CheckScalars()
   {
     const ScalarEncoding encoding = BuildScalarHierarchy(this->Field.View(), SerialFor);
@@ -108,7 +108,7 @@ private:
       ViewOf(encoding.Maxima));
     this->Options.Metric = ErrorMetric::Field;
     this->Options.RefineInterior = true;
-    this->Options.MinimumPieceSize = 0; // not of an HD
+    this->Options.MinimumPieceSize = 0; // an HD keeps all pieces
     const test::Built minimal(
       BuildIsodiamonds(Model::Minimal, scalars, this->Region, SerialFor, this->Options), SerialFor);
     Query query = test::RandomQuery(this->Numbers, *minimal.Hierarchy, this->Options.World);
@@ -121,9 +121,9 @@ private:
     EXPECT_TRUE(mesh.IsSameInAnyOrder(test::AnyMesh(*minimal.Hierarchy, query)));
   }
 
-  /** What lies below a value and what lies above it fill the grid; but for four linear isovertices
-   *  in a face, which steps of 1/256 leave not quite in a plane: both sides may cut it otherwise.
-   */
+  /** What lies below a value and what lies above it fill the grid, except where four linear
+   *  isovertices form a quadrilateral: steps of 1/256 leave these not quite in a plane, and the two
+   *  sides may cut it along different diagonals. */
   void CheckHalves()
   {
     this->Options.ExactIsovertices = false;
@@ -133,7 +133,7 @@ private:
       const double sample = this->Field.At(i);
       if (std::isnan(sample) || sample == value || std::isinf(value))
       {
-        return; // is in none, or in both
+        return; // there are samples in neither half, or in both
       }
     }
     double sum = 0.0;

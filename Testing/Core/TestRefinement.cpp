@@ -19,7 +19,7 @@ using ReferenceKind = reference::Kind;
 namespace
 {
 
-/** The reference's side of a field: its own errors, as the codes round them. */
+/** What the reference finds for a field; own errors are rounded as the codes are. */
 struct Oracle
 {
   reference::Hierarchy Hierarchy;
@@ -37,7 +37,7 @@ struct Oracle
   {
     for (double& error : this->Errors)
     {
-      // The top code stands for "always": above every tolerance, infinity too.
+      // The top code stands for "always": it is above every tolerance, even infinity.
       error = codes.CodeOf(error);
     }
   }
@@ -103,7 +103,7 @@ TEST(Refinement, EqualsTheReferenceWalkInAllModels)
 
 TEST(Refinement, FollowsArbitraryCriteria)
 {
-  // Random own errors, so that nothing in the field helps: the thresholds must give the walk.
+  // Random own errors, so that nothing in the field helps: the thresholds must reproduce the walk.
   std::mt19937 random(11);
   for (const test::Field& field : { test::NoiseField({ 9, 9, 9 }, 3),
          test::SparseField({ 17, 17, 17 }, 4), test::SparseField({ 10, 6, 13 }, 5) })
@@ -145,7 +145,7 @@ TEST(Refinement, FollowsArbitraryCriteria)
 
 TEST(Refinement, ThresholdsAreTheLeastSolution)
 {
-  // Random triggers over several bricks a scale; plain iteration of the definition.
+  // Random triggers over several bricks per scale, against plain iteration of the definition.
   std::mt19937 random(12);
   for (const test::Field& field :
     { test::SparseField({ 33, 33, 33 }, 6), test::NoiseField({ 40, 21, 28 }, 7) })
@@ -264,7 +264,7 @@ TEST(Refinement, HierarchyOfDiamondsVisitsFewerAsTheToleranceGrows)
   }
 }
 
-// With its ancestors, and nothing else; nor is that known to an MI only.
+// A named diamond is subdivided with its ancestors, and nothing else, in an MI as in an RI.
 TEST(Refinement, SubdividesWhatIsNamedWhateverIsTolerated)
 {
   const test::Field field = test::SphereField({ 17, 14, 17 });
@@ -303,7 +303,7 @@ TEST(Refinement, SubdividesWhatIsNamedWhateverIsTolerated)
   EXPECT_GT(added, 50);
 }
 
-// Cells are cut out of meshes, so these have full resolution there, whatever the tolerance.
+// Meshes have hidden cells cut out, so they have full resolution there, whatever the tolerance.
 TEST(Refinement, GoesToTheEndAtHiddenCells)
 {
   const test::Field field = test::SphereField({ 17, 17, 17 });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Regions of interest: which diamonds touch one, the refined set in all models and for both shapes,
-// the counts of subdivided and front diamonds.
+// and the counts of subdivided and front diamonds.
 #include "DistanceTestTools.h"
 #include "Refinement/ScalarQuery.h"
 
@@ -20,8 +20,8 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** Boxes with corners at multiples of 1/8 in and around a grid; points, planes, large ones, those
- *  beyond the grid, inverted ones. */
+/** Boxes with corners at multiples of 1/8 in and around a grid: also points, planes, large boxes,
+ *  inverted ones, and some beyond the grid. */
 std::vector<Box> RandomBoxes(const std::array<int, 3>& dims, unsigned seed, int count)
 {
   std::mt19937 random(seed);
@@ -182,7 +182,7 @@ void ExpectAllModels(const test::Field& field, const Isoregion& region, const Co
 namespace
 {
 
-/** From where to where the tetrahedra of a diamond reach on an axis. */
+/** How far the tetrahedra of a diamond reach on an axis: from the first value to the second. */
 std::pair<int, int> ExtentOf(const reference::Hierarchy& hierarchy, int diamond, int axis)
 {
   std::pair<int, int> extent = { hierarchy.At(diamond).Center[axis],
@@ -223,7 +223,7 @@ TEST(Region, TouchesWhatTheReferenceSays)
   EXPECT_GT(touched, 1000);
 }
 
-// Turned by 90 degrees a box stays a box: the region in the turned world must be the same.
+// Turned by 90 degrees, a box stays a box: the region in the turned world must be the same.
 TEST(Region, FollowsTheOrientationOfTheGrid)
 {
   const std::array<int, 3> dims = { 9, 6, 12 };
@@ -368,7 +368,7 @@ TEST(Region, FollowsNegativeSpacingsAndFarOrigins)
   }
 }
 
-/** @param place of a diamond that has its centre in the brick at an origin */
+/** @param place of a diamond centred in the brick at the origin */
 void ExpectOfBrick(const RegionOfInterest& region, const Place& place, const Point& origin)
 {
   const RegionOfInterest::Relation relation = region.OfBrick(place.Scale, origin);
@@ -377,7 +377,7 @@ void ExpectOfBrick(const RegionOfInterest& region, const Place& place, const Poi
   ASSERT_TRUE(relation != RegionOfInterest::Relation::Within || touches);
 }
 
-// A box that ends where diamonds do touches them, if rounding made it an ulp shorter, too.
+// A box that ends where diamonds do touches them, even if rounding has made it an ulp shorter.
 TEST(Region, TouchesDespiteRounding)
 {
   const Grid grid({ 9, 9, 9 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simplification against brute force, and what it would have to find, done by hand.
+// Simplification against brute force, and against faults made by hand, which it has to find.
 #include "RandomTestTools.h"
 #include "Simplification/PartDistance.h"
 #include "Simplification/Simplification.h"
@@ -18,7 +18,7 @@ using namespace isodiamond;
 namespace
 {
 
-/** Of some triangles, in degrees, by cosines. */
+/** The smallest angle of some triangles, in degrees, by cosines. */
 double SmallestAngle(const TriangleMesh& mesh, std::size_t first, std::size_t last = SIZE_MAX)
 {
   double smallest = 180.0;
@@ -35,7 +35,7 @@ double SmallestAngle(const TriangleMesh& mesh, std::size_t first, std::size_t la
   return smallest;
 }
 
-/** Every sample of each mesh near to the other. */
+/** The sample of either mesh that is too far from the other, in words; empty if there is none. */
 std::string FaultBetween(const TriangleMesh& a, const TriangleMesh& b, double allowed)
 {
   test::Promise promise;
@@ -45,7 +45,7 @@ std::string FaultBetween(const TriangleMesh& a, const TriangleMesh& b, double al
   return back.empty() ? test::FaultOf(promise, test::TrianglesOf(b), test::TrianglesOf(a)) : back;
 }
 
-/** What holds of every result. */
+/** What must hold for every result. */
 void ExpectPromise(const AllowedMesh& before, const TriangleMesh& after, double allowed)
 {
   EXPECT_EQ(FaultBetween(before.Mesh, after, allowed), "");
@@ -55,7 +55,7 @@ void ExpectPromise(const AllowedMesh& before, const TriangleMesh& after, double 
   EXPECT_TRUE(after.Positions == before.Mesh.Positions);
 }
 
-/** What is wrong with triangles in place of a mesh's, all of which are said to be touched. */
+/** What is wrong with triangles that replace those of a mesh; all of them count as touched. */
 PartDistance::Faults FaultsOf(const AllowedMesh& before, const std::vector<Triangle>& triangles)
 {
   MeshPart part = test::WholePart(before);
@@ -77,7 +77,7 @@ std::uint32_t FarthestFrom(const TriangleMesh& mesh, std::uint32_t point)
   return static_cast<std::uint32_t>(farthest - mesh.Positions.begin());
 }
 
-/** All triangles that hang together with one by points, and others. */
+/** All triangles but those that are connected with a given one by points. */
 std::vector<Triangle> WithoutPieceOf(std::vector<Triangle> triangles, const Triangle& one)
 {
   std::set<std::uint32_t> points(one.begin(), one.end());
@@ -165,7 +165,7 @@ TEST(Simplification, SavesMostTriangles)
   const AllowedMesh before = test::MeshOf(test::SphereField({ 33, 33, 33 }), 0.1, 0.4);
   const TriangleMesh whole = Simplify(before, SerialFor);
   EXPECT_LT(10 * whole.Triangles.size(), before.Mesh.Triangles.size());
-  // Hardly more where the borders of parts were, as the second pass cuts elsewhere.
+  // Hardly more are left where parts met, as the second pass cuts elsewhere.
   const TriangleMesh inParts = Simplify(before, SerialFor, 2000);
   EXPECT_LT(8 * inParts.Triangles.size(), before.Mesh.Triangles.size());
 }
@@ -197,7 +197,7 @@ TEST(Simplification, MakesNoSmallAnglesIfItShallNot)
     sheet.LeastAngle = angle;
     const TriangleMesh shaped = Simplify(sheet, SerialFor);
     EXPECT_GE(SmallestAngle(shaped, 0), angle);
-    EXPECT_LT(SmallestAngle(shaped, 0), angle + 2.0); // and makes use of it
+    EXPECT_LT(SmallestAngle(shaped, 0), angle + 2.0); // and makes use of what is allowed
     EXPECT_GT(shaped.Triangles.size(), any.Triangles.size());
     EXPECT_LT(shaped.Triangles.size(), sheet.Mesh.Triangles.size() / 4);
     EXPECT_EQ(FaultBetween(sheet.Mesh, shaped, 0.1), "");
@@ -236,14 +236,14 @@ TEST(Simplification, GoesAlongTheWalls)
     ExpectPromise(before, after, 0.4);
     EXPECT_LT(2 * test::BorderOf(after).size(), was);
   }
-  // Not where no walls are known.
+  // But not if no walls are known.
   before.OnWalls.clear();
   const TriangleMesh after = Simplify(before, SerialFor);
   ExpectPromise(before, after, 0.4);
   EXPECT_EQ(test::BorderOf(after), test::BorderOf(before.Mesh));
 }
 
-// Tubes that end on a wall in three edges: a border of two edges is none.
+// Tubes that end on walls in three edges each: two edges would be no border.
 TEST(Simplification, LeavesTheSmallestBorders)
 {
   AllowedMesh before;
@@ -303,8 +303,8 @@ TEST(Simplification, HoldsTheAllowanceOfEachPlace)
   EXPECT_EQ(test::FaultOf(promise, test::TrianglesOf(after), test::TrianglesOf(fine.Mesh)), "");
 }
 
-// Beside each other triangles may be told to stay, or to go far: as what a diamond's error leaves.
-// What is too far away is found, too, in what was simplified without a care for them.
+// Triangles beside each other may have different allowances, or none: what diamonds' errors leave.
+// Where a mesh was simplified regardless of these, what is too far away is found, too.
 TEST(Simplification, HoldsTheAllowanceOfEachTriangle)
 {
   constexpr double slack = 1e-9;
@@ -387,7 +387,7 @@ TEST(Simplification, IsNearOnAverage)
   EXPECT_LT(rms, 0.102);
 }
 
-// With one try of all that is allowed, of which much has to be undone, it is 1,104 and 4,355.
+// With a single try at all that is allowed, much of it to be undone, 1,104 and 4,355 are left.
 TEST(Simplification, TriesLessWhereMuchIsUndone)
 {
   const auto left = [](const test::Field& field)
@@ -445,8 +445,8 @@ TEST(Simplification, CatchesSabotage)
 
 TEST(Simplification, MakesNoEdgeInTwoParts)
 {
-  // Needles that are cut in two in the middle, at a ring of four points. Both halves would like to
-  // be two triangles on these, with the same diagonal.
+  // Needles that are cut in two in the middle, at a ring of four points. Each half by itself would
+  // become two triangles on these points, with the same diagonal.
   constexpr std::uint32_t needles = 40;
   AllowedMesh before;
   for (std::uint32_t i = 0; i < needles; ++i)
@@ -472,7 +472,7 @@ TEST(Simplification, MakesNoEdgeInTwoParts)
 
 TEST(Simplification, FoldsNothingOver)
 {
-  // Of a ball: every triangle faces away from its middle.
+  // On a ball, every triangle faces away from the middle.
   const AllowedMesh before = test::MeshOf(test::SphereField({ 17, 17, 17 }), 0.0, 1.0);
   const auto facesInward = [](const TriangleMesh& mesh)
   {
@@ -493,7 +493,7 @@ TEST(Simplification, FoldsNothingOver)
   EXPECT_EQ(facesInward(after), 0);
 }
 
-// Nor does it fold what is smooth to a sharp crease.
+// Nor does it fold a smooth surface into a sharp crease.
 TEST(Simplification, MakesNoSharpCreases)
 {
   const auto sharpest = [](const TriangleMesh& mesh)
@@ -531,7 +531,7 @@ TEST(Simplification, MakesNoSharpCreases)
   for (const double allowed : { 0.5, 1.5, 2.0 })
   {
     const AllowedMesh before = test::MeshOf(waves, 0.0, allowed);
-    ASSERT_GE(sharpest(before.Mesh), 0.0); // 0 of what has no area
+    ASSERT_GE(sharpest(before.Mesh), 0.0); // 0 for triangles without area
     const TriangleMesh after = Simplify(before, SerialFor);
     EXPECT_LT(4 * after.Triangles.size(), before.Mesh.Triangles.size());
     EXPECT_GE(sharpest(after), -0.7 - 1e-9) << allowed;
@@ -548,7 +548,7 @@ TEST(Simplification, LeavesWhatHasNoAllowance)
   EXPECT_TRUE(Simplify({}, SerialFor).Triangles.empty());
 }
 
-// A triangle twice: what meets at its edges cannot be told.
+// If a triangle is there twice, it is unclear what meets at its edges.
 TEST(Simplification, LeavesMeshesWithFaultsAsTheyAre)
 {
   AllowedMesh before = test::MeshOf(test::WaveField({ 9, 9, 9 }), 0.0, 0.5);

@@ -34,7 +34,7 @@ AnyValues CopySlices(const AnySamples& samples, const StreamedBuild::Slices& sli
     samples);
 }
 
-/** What a reader gives of a volume. */
+/** Calls body with a slab of a volume, as a reader would give it. */
 template <typename Body>
 void WithSlab(const AnySamples& samples, const StreamedBuild::Slices& slices, const Body& body)
 {
@@ -99,23 +99,23 @@ struct Whole
   }
 };
 
-/** Volumes that are larger than memory come in slabs: the same as at once, to the bit. */
+/** Volumes larger than memory come in slabs: the result is that of the whole, to the bit. */
 void Compare(
   const AnySamples& samples, int slabs, const BuildOptions& options, const Whole& expected)
 {
   const ParallelFor threads = test::ThreadedFor(2);
   const EncodingHeader& header = expected.TheEncoding.Header;
   StagedBuild staged = BuildInSlabs(samples, header.Region, slabs, threads, options);
-  if (!header.Region.IsVolume() || !options.RefineInterior) // else refined inside, too
+  if (!header.Region.IsVolume() || !options.RefineInterior) // otherwise refined inside, too
   {
     EXPECT_TRUE(test::AnyMesh(staged.OneMesh(), Query{}).IsSameInAnyOrder(expected.Mesh));
   }
-  // Whatever is said to be the samples: they are not looked at.
+  // Any samples will do: they are not looked at.
   test::ExpectSame(
     staged.Finish(header.TheModel, SampleView<float>(), threads, options), expected.TheEncoding);
 }
 
-/** The same for each of some peers, who have a slab each at least. */
+/** The same for each of some peers, each of which has at least one slab. */
 void ComparePeers(const AnySamples& samples, int peers, int slabs, const BuildOptions& options,
   const Encoding& expected)
 {
@@ -132,7 +132,7 @@ void ComparePeers(const AnySamples& samples, int peers, int slabs, const BuildOp
     [&](const Encoding& found) { test::ExpectSame(found, expected); });
 }
 
-/** What a hierarchy is built of, in slabs or at once. */
+/** What a hierarchy is built from, in slabs or at once, and what is expected of it. */
 struct RandomCase
 {
   test::RandomSamples Samples;
@@ -182,7 +182,7 @@ TEST(Slabs, OfPeersMakeTheSameForEachOfThem)
 }
 
 // Most of a tall volume is elsewhere: isovertices, errors and triangles that a portion needs come
-// from its neighbours, and of large diamonds from beyond.
+// from its neighbours and, for large diamonds, from beyond these.
 TEST(Slabs, OfPeersMakeTheSameInPortionsOfATallVolume)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -208,7 +208,7 @@ TEST(Slabs, OfPeersMakeTheSameInPortionsOfATallVolume)
   }
 }
 
-// Many large diamonds need triangles of both.
+// Many large diamonds need triangles of both portions.
 TEST(Slabs, OfPeersMakeTheSameInPortionsOfAWideVolume)
 {
   for (const test::Field& field :
@@ -246,7 +246,7 @@ TEST(Slabs, OfPeersMakeTheSameOfASpeckWhereTheyAreCut)
   }
 }
 
-// Wherever a loop is stopped once the slabs are read, as who aborts does.
+// In whichever loop one of them is stopped after the slabs are read, as by a user who aborts.
 TEST(Slabs, OfPeersStopForAllOfThemInAnyLoop)
 {
   const test::Field field = test::WaveField({ 9, 10, 33 });
@@ -325,7 +325,7 @@ TEST(Slabs, OfPeersRefineToTheSameMesh)
   EXPECT_GT(cases, 0);
 }
 
-// Or the others would wait forever.
+// If only one failed, the others would wait forever.
 TEST(Slabs, OfPeersFailForAllOfThem)
 {
   const test::Field field = test::WaveField({ 9, 10, 33 });
@@ -375,7 +375,7 @@ TEST(Slabs, OfPeersFailForAllOfThem)
 
 TEST(Slabs, PlaceIsoverticesOfEdgesThatAreLongerThanASlab)
 {
-  // Of 64 steps in slabs of 2 slices; surfaces that cross a long edge often, and seldom.
+  // Edges of 64 steps, in slabs of 2 slices; surfaces that cross a long edge often, or seldom.
   for (const test::Field& field :
     { test::WaveField({ 7, 9, 66 }), test::NoiseField({ 4, 5, 66 }, 3),
       test::SparseField({ 9, 7, 67 }, 4), test::BrokenField({ 5, 4, 67 }, 5) })

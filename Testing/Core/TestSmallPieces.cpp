@@ -50,7 +50,7 @@ void ForEachPoint(const std::array<int, 3>& dims, Body&& body)
   }
 }
 
-/** The points that an edge of full resolution leads to. */
+/** The points that edges of full resolution join to a point. */
 std::vector<Point> Neighbours(const std::array<int, 3>& dims, const Point& p)
 {
   std::vector<Point> neighbours;
@@ -104,7 +104,7 @@ std::vector<std::vector<Point>> PiecesOf(const Signs& signs, bool above)
   return pieces;
 }
 
-/** Solids, then cavities. @return how many were removed */
+/** Removes solids, then cavities. @return how many were removed */
 std::int64_t RemoveByFlooding(Signs& signs, std::int64_t minimumSize)
 {
   std::int64_t removed = 0;
@@ -125,7 +125,7 @@ std::int64_t RemoveByFlooding(Signs& signs, std::int64_t minimumSize)
   return removed;
 }
 
-/** By the core, from and to signs that are a bit each. */
+/** The same by the core, for which signs are packed as bits. */
 std::int64_t RemoveByRuns(Signs& signs, std::int64_t minimumSize, const ParallelFor& parallelFor)
 {
   const std::int64_t words = (signs.Dims[0] + 63) / 64;
@@ -230,7 +230,7 @@ TEST(SmallPieces, AreThoseThatFloodingFinds)
   EXPECT_GT(sum, 10000);
 }
 
-// One piece from end to end, in runs that many threads join at once; and one less than needed.
+// One piece from end to end, in runs that many threads join at once: large enough, or just not.
 TEST(SmallPieces, CanWindThroughTheWholeGrid)
 {
   Signs snake{ { 130, 71, 3 }, std::vector<char>(130 * 71 * 3, 0) };
@@ -274,8 +274,8 @@ void ExpectSameForThreads(const Signs& signs, std::int64_t minimum, std::int64_t
 
 }
 
-// Where threads are likely to meet: large pieces with few ways through them, so that a join that is
-// lost parts them, and one piece that all add to up to its last sample.
+// Where threads are likely to meet: large pieces with few ways through them, so that one lost join
+// parts them, and a piece that all threads add to, and that needs its last sample to stay.
 TEST(SmallPieces, AreTheSameForManyThreads)
 {
   std::mt19937 random(18);
@@ -312,7 +312,7 @@ TEST(SmallPieces, AreGoneAfterwards)
             EXPECT_EQ(static_cast<std::int64_t>(piece.size()) >= minimum, holdsOne);
           }
         }
-        // A grid that cannot hold a piece lies above, and does so again.
+        // A grid that is too small for any piece ends up above, each time.
         EXPECT_EQ(RemoveByRuns(signs, minimum, SerialFor), holdsOne ? 0 : 2);
         EXPECT_EQ(signs, once);
         EXPECT_TRUE(holdsOne || std::count(signs.Above.begin(), signs.Above.end(), 0) == 0);
@@ -387,7 +387,7 @@ struct Case
     return this->Sign(p) != this->Region.SignOf(this->Value(p));
   }
 
-  /** A field that has the signs that are left, and else the same values. */
+  /** A field that has the signs that are left, and otherwise the same values. */
   test::Field LeftField() const
   {
     test::Field field = this->Field;
@@ -486,8 +486,8 @@ TEST(SmallPieces, AreGoneOnAllScalesOfTheSigns)
   EXPECT_GT(flipped, 10000);
 }
 
-// All but errors, values inside and isovertices of long edges is that of a field that has the signs
-// which are left.
+// Everything but errors, values inside and isovertices of long edges is as for a field that has the
+// signs that are left.
 TEST(SmallPieces, LeaveTheHierarchyOfAFieldWithoutThem)
 {
   std::int64_t removed = 0;
@@ -559,7 +559,7 @@ TEST(SmallPieces, LeaveTheMeshOfFullResolutionOfAFieldWithoutThem)
 namespace
 {
 
-/** An edge of the hierarchy from its centre on: steps, linear ones whole. */
+/** An edge of the hierarchy from its centre on: its steps, or one step for linear isovertices. */
 struct Edge
 {
   std::vector<double> Values;
@@ -570,7 +570,7 @@ struct Edge
   {
     return (this->Signs[step] > surface) != (this->Signs[step + 1] > surface);
   }
-  /** Whether both of two values lie where they are to. */
+  /** Whether two values are both on the sides that the signs say. */
   bool AreTrue(const Isoregion& region, int surface, int first, int last) const
   {
     return region.IsAbove(surface, this->Values[first]) == (this->Signs[first] > surface) &&
@@ -603,7 +603,7 @@ int CodeOf(double position)
   return static_cast<int>(std::clamp(std::floor(256.0 * position + 0.5), 1.0, 255.0));
 }
 
-/** The crossing nearest to the guess, which is the middle if an end is not what it was. */
+/** The crossing nearest to the guess, which is the middle if the sign of an end has changed. */
 int ExpectedCoefficient(const Edge& edge, const Isoregion& region, int surface)
 {
   const int steps = edge.Steps();
@@ -624,7 +624,8 @@ int ExpectedCoefficient(const Edge& edge, const Isoregion& region, int surface)
   return CodeOf(best / steps);
 }
 
-/** Of an edge from below to above: the last way from one surface to the other. */
+/** For an edge from below to above, seen from below: the first crossing of the upper surface, and
+ *  the last one of the lower surface before it. */
 std::array<int, 2> ExpectedCoefficients(Edge edge, const Isoregion& region)
 {
   const bool falling = edge.Signs.front() == 2;
@@ -659,7 +660,7 @@ std::array<int, 2> ExpectedCoefficients(Edge edge, const Isoregion& region)
   return codes;
 }
 
-/** How many isovertices there are on edges with an end that is not what it was. */
+/** How many isovertices there are on edges with an end whose sign has changed. */
 struct Changed
 {
   std::int64_t Single = 0;
@@ -687,7 +688,7 @@ void ExpectCoefficients(const Case& one, bool exact, Changed& changed)
             ASSERT_EQ(int{ *found++ }, expected) << place.Scale << ", edge " << number;
             const bool isChanged = !edge.AreTrue(one.Region, surface, 0, edge.Steps());
             (isBoth ? changed.Both : changed.Single) += isChanged ? 1 : 0;
-            ASSERT_TRUE(place.Scale > 0 || !isChanged); // full resolution has the true ends
+            ASSERT_TRUE(place.Scale > 0 || !isChanged); // never at full resolution
           });
       }
     });
@@ -736,8 +737,8 @@ TEST(SmallPieces, LeaveMeshesThatConformAtEveryTolerance)
   }
 }
 
-// Diamonds that reach beyond the grid, whose samples were all above the range or all below it, come
-// to lie inside: their tetrahedra must not be missing.
+// Diamonds that reach beyond the grid, and had all their samples above the range or all below it,
+// come to lie inside: their tetrahedra must not be missing.
 TEST(SmallPieces, FillTheGridWhereTheyWereAtItsBoundary)
 {
   for (const double outside : { -1.0, 3.0 })
@@ -764,7 +765,7 @@ TEST(SmallPieces, FillTheGridWhereTheyWereAtItsBoundary)
   }
 }
 
-// Values inside are the samples, wherever they are.
+// Values inside are the samples, even those that are not in the range.
 TEST(SmallPieces, DoNotChangeTheSamples)
 {
   std::int64_t flipped = 0;

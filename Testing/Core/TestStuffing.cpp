@@ -40,7 +40,7 @@ TEST(Stuffing, SineIsThatOfTheWorstDihedralAngle)
       EXPECT_NEAR(sine, std::min(std::sin(smallest * degree), std::sin(largest * degree)), 1e-9);
     }
   }
-  // A regular one has 70.53 degrees, the corner of a cube 54.74 and 90.
+  // A regular tetrahedron has 70.53 degrees, the corner of a cube 54.74 and 90.
   const auto regular = DihedralAngles({ 1, 1, 1 }, { 1, -1, -1 }, { -1, -1, 1 }, { -1, 1, -1 });
   EXPECT_NEAR(regular[0], 70.52878, 1e-4);
   EXPECT_NEAR(regular[1], 70.52878, 1e-4);
@@ -137,7 +137,7 @@ std::array<Vector, 2> EdgeAt(const test::Field& field, const Vector& point)
 {
   std::array<Vector, 2> ends = { point, point };
   double nearest = HUGE_VAL;
-  // Of a point on a diagonal there are several pairs of corners of its cell.
+  // For a point on a diagonal there are several pairs of opposite corners of its cell.
   for (int code = 0; code < 8; ++code)
   {
     Vector a{};
@@ -173,7 +173,7 @@ TEST(Stuffing, LeavesNoBadTetrahedraInNoise)
     const test::Stuffed stuffed(*built.Hierarchy, Query{});
     bad += stuffed.CountBad();
     all += stuffed.Mesh.Tetrahedra.size();
-    // Beside its edge, away from the end below or as far as the middle.
+    // Beside its edge, no nearer to the end below than it was, or than the middle.
     for (const BlendedPoint& point : stuffed.Shifted())
     {
       ++shifts;
@@ -191,7 +191,7 @@ TEST(Stuffing, LeavesNoBadTetrahedraInNoise)
   EXPECT_EQ(bad, 0U) << all; // 3 of 19091 without detours; 126 if no points on surfaces move
 }
 
-// The smallest grid where it fails: a single cell, whose corners stay however near a surface is.
+// The smallest grids where it fails: single cells, whose corners stay, however near a surface is.
 TEST(Stuffing, FailsInFewGridsOfOneCell)
 {
   test::Random random(1);
@@ -214,7 +214,7 @@ TEST(Stuffing, FailsInFewGridsOfOneCell)
 
 TEST(Stuffing, BlendsAttributesAsPositions)
 {
-  // A linear function of the position is interpolated exactly, such as the position itself.
+  // A linear function of the position, such as the position itself, is interpolated exactly.
   const test::Field field = test::NoiseField({ 9, 9, 9 }, 4);
   const test::Built built = test::BuildVolume(field, { 3.7, HUGE_VAL });
   const test::Stuffed stuffed(*built.Hierarchy, Query{});
@@ -240,9 +240,9 @@ TEST(Stuffing, BlendsAttributesAsPositions)
     double near = 1e-9;
     for (const Share& share : blended.Shares)
     {
-      near = sources.count(share.Point) == 0 ? near : stuffed.SurfaceMove; // it was elsewhere
+      near = sources.count(share.Point) == 0 ? near : stuffed.SurfaceMove; // it was shifted
       ASSERT_LT(share.Point, stuffed.Plain.Points.size());
-      EXPECT_GE(share.Part, -1e-9); // of what is around it
+      EXPECT_GE(share.Part, -1e-9); // blended from points around it
       sum = sum + share.Part * stuffed.Plain.Points[share.Point];
       parts += share.Part;
     }
@@ -254,7 +254,7 @@ TEST(Stuffing, BlendsAttributesAsPositions)
   }
 }
 
-// In noise there is much to be improved.
+// In noise there is much to improve.
 TEST(Improvement, DoesNotDependOnThreads)
 {
   const test::Built built =
@@ -266,7 +266,7 @@ TEST(Improvement, DoesNotDependOnThreads)
   EXPECT_FALSE(one.Mesh.Blended.empty());
 }
 
-// What is of nearly no height leaves a choice.
+// Nearly flat tetrahedra leave a choice.
 TEST(Improvement, LeavesFewerIfThatIsWanted)
 {
   const test::Built built =
@@ -291,7 +291,7 @@ TEST(Improvement, LeavesFewerIfThatIsWanted)
   EXPECT_LT(countBad(all), countBad(plain) / 3);
 }
 
-// Where the surface hugs a wall the nearest isovertex is off the wall, but another one is on it.
+// Where the surface hugs a wall, the nearest isovertex may be off the wall, and another one on it.
 TEST(MovedVertices, TakeTheNearestIsovertexOnTheirWall)
 {
   test::Field field = test::GyroidField(33, 2.0);
@@ -301,7 +301,7 @@ TEST(MovedVertices, TakeTheNearestIsovertexOnTheirWall)
   EXPECT_LT(stuffed.CountBad(), stuffed.Mesh.Tetrahedra.size() / 1000);
 }
 
-// Before anything is improved, which could mend it.
+// Before any improvement, which could mend faults.
 TEST(MovedVertices, LeavePositiveTetrahedraAndTheTopology)
 {
   std::size_t onSurfaces = 0;
@@ -343,7 +343,7 @@ TEST(MovedVertices, LeavePositiveTetrahedraAndTheTopology)
     onSurfaces += stuffed.Plain.Tetrahedra.size() - cut.Mesh.Tetrahedra.size();
   }
   EXPECT_GT(onSurfaces, 1000U);
-  EXPECT_LT(bad, 10500U); // 10349; 10690 if leaves are cut in the first way there is, not the best
+  EXPECT_LT(bad, 10500U); // 10349; 10690 if leaves are cut in the first way, not in the best
 }
 
 TEST(Stuffing, IsAMirrorImageInAMirroredWorld)
@@ -362,7 +362,7 @@ TEST(Stuffing, IsAMirrorImageInAMirroredWorld)
   }
 }
 
-// Coordinates on each axis that an affine map has, too; the surfaces end at the grid's walls.
+// Coordinates on each axis as an affine map gives them; the surfaces end at the grid's walls.
 TEST(Stuffing, IsTheSameWhereCoordinatesAreThoseOfAnAffineMap)
 {
   const test::Field field = test::GyroidField(13, 1.0);
@@ -414,8 +414,8 @@ TEST(Stuffing, LeavesOutWhatIsHidden)
 namespace
 {
 
-/** Compares the distance that is measured with that of brute force, to a tenth, or to what it may
- * be over. */
+/** Compares the measured distance with that of brute force: it may not be less.
+ *  @param mostOver how many times as large it may be */
 void ExpectDistanceOfBruteForce(
   const test::Field& field, const Isoregion& region, double tolerance, double mostOver = 1.1)
 {
@@ -428,7 +428,7 @@ void ExpectDistanceOfBruteForce(
   const auto isFar = [&](double allowance) { return test::IsFar(plain, stuffed.Mesh, allowance); };
   const auto isFarByForce = [&](double allowance)
   { return !test::FarByForce(stuffed.Plain, after, allowance).empty(); };
-  double least = 0.05; // that is far enough by brute force
+  double least = 0.05; // the allowance that suffices by brute force
   while (isFarByForce(least))
   {
     EXPECT_TRUE(isFar(least)) << least;
@@ -446,13 +446,13 @@ TEST(MeasuredSurfaces, IsNoLessThanThatOfBruteForce)
   const test::Field gyroid = test::GyroidField(17, 1.5);
   const test::Field sphere = test::SphereField({ 17, 17, 17 });
   ExpectDistanceOfBruteForce(gyroid, { -0.2, 0.6 }, 0.5);
-  // Through space another sheet is nearer there than the way over the surface, which is measured.
+  // Another sheet is nearer there through space, but the way over the surface is measured.
   ExpectDistanceOfBruteForce(gyroid, { 0.1, HUGE_VAL }, 1.0, 4.0);
   ExpectDistanceOfBruteForce(sphere, { sphere.Isovalue, HUGE_VAL }, 1.0);
   ExpectDistanceOfBruteForce(gyroid, { -HUGE_VAL, -0.1 }, 1.0); // no lower surface
 }
 
-// Steep surfaces, of which fewer triangles are left: walking over them says too much.
+// Steep surfaces with fewer triangles afterwards: by walking over them, distances are too large.
 TEST(MeasuredSurfaces, IsNotMuchMoreOnSteepSurfaces)
 {
   test::Random random(14);
@@ -510,7 +510,7 @@ TEST(MeasuredSurfaces, IsNotMuchMoreOnSteepSurfaces)
 
 TEST(LocalMesh, CollapsesOnlyWhatKeepsTheTopology)
 {
-  // All collapses that are allowed, each on a mesh of its own, and some that are not.
+  // All collapses that are allowed, each on a mesh of its own; others are refused.
   const test::Field field = test::NoiseField({ 4, 4, 4 }, 2);
   const test::Built built = test::BuildVolume(field, { 3.7, HUGE_VAL });
   const test::Stuffed stuffed(*built.Hierarchy, Query{});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Stuffing is made of, one by one, on small meshes where it is known what should happen.
+// The parts of Stuffing, one by one, on small meshes where it is known what should happen.
 #include "CoreTestTools.h"
 #include "RandomTestTools.h"
 #include "StuffingTestTools.h"
@@ -43,7 +43,7 @@ TetrahedronMesh MeshOf(const std::vector<Vector>& points, std::vector<Corners> t
   return mesh;
 }
 
-/** The sine that is nearest to 0, by angles. */
+/** The smallest sine, by angles; negative if a tetrahedron is not positive. */
 double WorstSine(const std::vector<Vector>& points, const std::vector<Corners>& tetrahedra)
 {
   const double degree = std::acos(-1.0) / 180.0;
@@ -60,7 +60,7 @@ double WorstSine(const std::vector<Vector>& points, const std::vector<Corners>& 
   return worst;
 }
 
-/** Point 0 among those of an octahedron, somewhere. */
+/** The tetrahedra of a rough octahedron around point 0, which is somewhere in it. */
 TetrahedronMesh Octahedron(test::Random& random)
 {
   std::vector<Vector> points = { { test::Uniform(random, -0.4, 0.4),
@@ -96,7 +96,7 @@ PointStar StarOf(const TetrahedronMesh& mesh, std::uint32_t point)
   return star;
 }
 
-/** All ways to make triangles of a polygon's corners from one to another. */
+/** All triangulations of a polygon whose corners are numbered from first to last. */
 std::vector<std::vector<Face>> Triangulations(int first, int last)
 {
   if (last - first < 2)
@@ -121,7 +121,7 @@ std::vector<std::vector<Face>> Triangulations(int first, int last)
   return all;
 }
 
-/** Six triangles of the lower surface around point 0, at a height, over point 7. */
+/** Six triangles of the lower surface around point 0, which is at a height, over point 7. */
 TetrahedronMesh Tent(double height)
 {
   std::vector<Vector> points = { { 0.0, 0.0, height } };
@@ -138,8 +138,8 @@ TetrahedronMesh Tent(double height)
   return mesh;
 }
 
-/** Two triangles of the upper surface with the edge from point 0 to point 1, which is higher than
- *  points 2 and 3, over point 4. */
+/** Two triangles of the upper surface, over point 4. They share the edge from point 0 to point 1,
+ *  which is at a height above points 2 and 3. */
 TetrahedronMesh Roof(double height)
 {
   TetrahedronMesh mesh = MeshOf({ { 0.0, -1.0, height }, { 0.0, 1.0, height }, { 1.0, 0.0, 0.0 },
@@ -236,7 +236,7 @@ TEST(BestPlace, IsBetterAndTellsItsSine)
     EXPECT_GE(best.Sine, before - 1e-9);
     EXPECT_GT(best.Sine, 0.25);
     better += best.Sine > before + 0.05 ? 1 : 0;
-    // What is good enough is left alone.
+    // A fixed point stays.
     const PlacedPoint same = BestPlace(star, best.Place, Walls::Fixed, test::UnitAxes, 1.0);
     EXPECT_EQ(same.Place, best.Place);
     EXPECT_NEAR(same.Sine, best.Sine, 1e-12);
@@ -288,7 +288,7 @@ TEST(BestPlace, StaysWithinReach)
   EXPECT_GT(farthest, 0.09);
 }
 
-// Where a world has no directions points stay, even where they are wrong.
+// Where a world has no directions, points stay, even if they are in a wrong place.
 TEST(BestPlace, IsAlwaysAPlace)
 {
   test::Random random(8);
@@ -320,10 +320,10 @@ TEST(SurfaceChanges, ShiftPointsInASpindleAwayFromWhatIsBeyondOrToTheMiddle)
   const auto canBe = [&](double before, double aside, double after) {
     return IsBeside(edge, { 1.0, 2.0, before }, { 1.0 + aside, 2.0, after });
   };
-  EXPECT_TRUE(canBe(0.1, 0.0, 0.99)); // near to the end inside: to the middle
+  EXPECT_TRUE(canBe(0.1, 0.0, 0.99)); // near the end inside: as far as the middle
   EXPECT_FALSE(canBe(0.1, 0.0, 1.01));
   EXPECT_FALSE(canBe(0.1, 0.0, -0.01));
-  EXPECT_TRUE(canBe(1.9, 0.0, 1.85)); // near to the end beyond: away from there
+  EXPECT_TRUE(canBe(1.9, 0.0, 1.85)); // near the end beyond: only away from it
   EXPECT_FALSE(canBe(1.9, 0.0, 1.91));
   EXPECT_FALSE(canBe(2.0, 0.0, 2.01));
   EXPECT_TRUE(canBe(1.0, 0.29, 1.0)); // to the side, by 0.3 of the nearer end's distance
@@ -333,7 +333,7 @@ TEST(SurfaceChanges, ShiftPointsInASpindleAwayFromWhatIsBeyondOrToTheMiddle)
   EXPECT_FALSE(canBe(1.9, 0.04, 1.9));
 }
 
-// To the side as far as no triangle is folded.
+// To the side, as long as no triangle is folded.
 TEST(SurfaceChanges, ShiftNoPointOverTheRim)
 {
   const LocalMesh tent(Tent(0.1));
@@ -341,7 +341,7 @@ TEST(SurfaceChanges, ShiftNoPointOverTheRim)
   EXPECT_FALSE(CanShift(tent, 0, { 1.2, 0.0, 0.1 }));
 }
 
-// A corner of the rim is pulled in: from beside it a triangle would be turned over.
+// A corner of the rim is pulled in: a collapse into the one beside it would turn a triangle over.
 TEST(SurfaceChanges, FoldNothing)
 {
   TetrahedronMesh mesh = Tent(0.05);
@@ -355,7 +355,7 @@ TEST(SurfaceChanges, TurnEdgesThatAreFlat)
 {
   EXPECT_TRUE(CanTurnRoof(Roof(0.5), 0.51));
   EXPECT_FALSE(CanTurnRoof(Roof(0.5), 0.49));
-  EXPECT_TRUE(CanTurnRoof(Roof(0.57), 10.0)); // to 60 degrees between the two sides
+  EXPECT_TRUE(CanTurnRoof(Roof(0.57), 10.0)); // up to 60 degrees between the normals
   EXPECT_FALSE(CanTurnRoof(Roof(0.585), 10.0));
   for (std::size_t i = 0; i < 4; ++i)
   {
@@ -368,7 +368,7 @@ TEST(SurfaceChanges, TurnEdgesThatAreFlat)
   EXPECT_FALSE(CanTurnRoof(wall, 10.0));
   std::fill_n(wall.OnWalls.begin(), 4, 2);
   EXPECT_TRUE(CanTurnRoof(wall, 0.0));
-  TetrahedronMesh curved = wall; // what a wall is like is the grid's, and not measured
+  TetrahedronMesh curved = wall; // a wall's shape is the grid's, and is not measured
   curved.Positions = Roof(0.5).Positions;
   EXPECT_TRUE(CanTurnRoof(curved, 0.0));
   wall.OnWalls[3] = 4;
@@ -377,7 +377,7 @@ TEST(SurfaceChanges, TurnEdgesThatAreFlat)
   EXPECT_FALSE(CanTurnRoof(wall, 10.0));
 }
 
-// Two tetrahedra on both sides of a triangle: nothing would be left of them.
+// Two tetrahedra, one on each side of a triangle: nothing would be left of them.
 TEST(LocalMesh, CollapsesNoEdgeWhoseEndsHaveMoreInCommonOnTheBoundary)
 {
   const LocalMesh mesh(
@@ -431,7 +431,7 @@ TEST(LocalMesh, TellsWhatCouldBeOnASurfaceOrOnAWall)
   }
 }
 
-// Of two flat tetrahedra whose points stay: three, around an edge through their common face.
+// Two flat tetrahedra whose points stay become three, around an edge through their common face.
 TEST(Improvement, RemovesFaces)
 {
   test::Random random(13);
@@ -463,7 +463,7 @@ TEST(Improvement, RemovesFaces)
   EXPECT_LT(removed, 250);
 }
 
-// A flat tetrahedron of which only the top, on a surface, can move.
+// A flat tetrahedron: only its top, on a surface, can move.
 TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
 {
   TetrahedronMesh flat =
@@ -489,7 +489,7 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
   EXPECT_EQ(round.Positions[0], flat.Positions[0]); // where the surface was
   EXPECT_TRUE(Has(round.Tetrahedra.at(0), 4) && !Has(round.Tetrahedra[0], 0));
 
-  // No farther than it may, at once or in steps, nor than a quarter of its edge.
+  // No farther than allowed, at once or in steps, nor than a quarter of its edge.
   for (const auto& [move, length] : { std::pair(0.04, 1.0), std::pair(0.2, 0.16) })
   {
     const TetrahedronMesh better =
@@ -497,7 +497,7 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
     EXPECT_GT(DihedralAngles(better)[0], DihedralAngles(flat)[0]);
     EXPECT_LE(better.Positions.back()[2], 0.09 + 1e-12);
   }
-  // Not towards what is beyond, and not where nobody knows.
+  // Not towards the end beyond, and not at all if the edge is unknown.
   const TetrahedronMesh aside = improve(0.2, { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.06 } });
   ASSERT_EQ(aside.Positions.size(), 5U);
   EXPECT_LE(aside.Positions[4][2], 0.05);
@@ -535,7 +535,8 @@ TEST(LocalMesh, FindsRings)
   EXPECT_FALSE(twoPaths.FindRing(0, 1, 7, ring));
 }
 
-// A vertex in a tetrahedron with two corners on the surface, of whose edge others are around.
+// A vertex in a tetrahedron with two corners on the surface, and other tetrahedra around the edge
+// between these corners.
 TEST(SurfaceLinks, WantOneRunOfVerticesInsideAroundOppositeEdges)
 {
   constexpr std::uint32_t vertex = 0;
@@ -583,7 +584,8 @@ TEST(SurfaceLinks, WantOneRunOfVerticesInsideAroundOppositeEdges)
   }
 }
 
-// Of the tetrahedron that the new place is in: in parts that are all positive.
+// A moved point is blended from the corners of the tetrahedron that it is now in: no share is
+// negative.
 TEST(LocalMesh, BlendsWhatIsAroundTheNewPlace)
 {
   test::Random random(10);

@@ -65,7 +65,7 @@ TEST(Surface, IsTheFullResolutionSurfaceAtToleranceZero)
   }
 }
 
-// A triangle is there, at its level, from the threshold of its diamond on, and not below.
+// A triangle is there, at its level, at tolerances from its diamond's threshold on, and not below.
 TEST(Surface, ThresholdsTellBelowWhatTrianglesGo)
 {
   for (const test::Field& field : test::SmallFields())
@@ -97,7 +97,7 @@ TEST(Surface, ThresholdsTellBelowWhatTrianglesGo)
         [&](const test::PlacedTriangle& triangle)
         { return std::binary_search(there.begin(), there.end(), triangle); });
     };
-    // Cut in two, a leaf may have the same triangle again: in a half that its surface lies in.
+    // If a leaf is cut in two, the same triangle may be there again, in the half that holds it.
     std::ptrdiff_t all = 0;
     std::ptrdiff_t left = 0;
     for (const auto& [code, triangles] : byThreshold)
@@ -263,10 +263,10 @@ TEST(Surface, AtInfiniteToleranceDependsOnTheRoot)
   field.Isovalue = 7.3;
   test::Mesh mesh = test::Extract(*test::Build(Model::Minimal, field).Hierarchy, infinity);
   EXPECT_EQ(test::FindFault(mesh, field.Dims), "");
-  EXPECT_EQ(mesh.Triangles.size(), 8U); // two halves and four quadrilaterals' worth
+  EXPECT_EQ(mesh.Triangles.size(), 8U); // four, and two quadrilaterals of two each
   EXPECT_TRUE(std::all_of(
     mesh.Levels.begin(), mesh.Levels.end(), [](std::int8_t level) { return level == 0; }));
-  // A relevant root: all corners on one side, nothing to see without subdivision.
+  // A relevant root: all corners are on one side, so nothing is there without subdivision.
   field = test::SparseField({ 17, 17, 17 }, 3);
   for (const std::size_t corner : { 0, 16, 272, 288, 4624, 4640, 4896, 4912 })
   {
@@ -325,7 +325,7 @@ TEST(DiamondMesh, HasNothingBeyondTheGrid)
   for (const std::array<int, 3>& dims :
     std::vector<std::array<int, 3>>{ { 14, 13, 9 }, { 3, 17, 17 }, { 9, 17, 6 } })
   {
-    // In a corner only: what is left large elsewhere sticks out of the grid.
+    // A surface in one corner only: the large diamonds left elsewhere stick out of the grid.
     test::Field field{ "corner", dims, {}, 0.5 };
     field.Samples.assign(std::size_t{ 1 } * dims[0] * dims[1] * dims[2], 0.0F);
     field.Samples[0] = 1.0F;
@@ -358,7 +358,7 @@ TEST(DiamondMesh, TilesTheDomainForRelevantAndScalarHierarchies)
     }
     return points;
   };
-  // Those that the surface passes, and all.
+  // Those that the surface crosses, or all.
   const auto tetrahedra = [&](const DiamondMesh& mesh, bool isCrossed)
   {
     std::set<std::array<Point, 4>> chosen;
@@ -380,7 +380,7 @@ TEST(DiamondMesh, TilesTheDomainForRelevantAndScalarHierarchies)
     const DiamondMesh whole =
       ExtractDiamondMesh(RefinedSet(*relevant.Hierarchy, { tolerance }, SerialFor));
     EXPECT_EQ(SixVolumesOf(whole), 6 * 16 * 16 * 16);
-    // An MI knows nothing of where no surface is, and all of where one is.
+    // An MI knows nothing about where there is no surface, but everything about where there is one.
     const DiamondMesh part =
       ExtractDiamondMesh(RefinedSet(*minimal.Hierarchy, { tolerance }, SerialFor));
     EXPECT_EQ(tetrahedra(part, true), tetrahedra(whole, true));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of one tolerance: the smallest refined set that keeps it, by the errors that are measured
-// for all of them, and the promise on whole meshes.
+// Meshes of one tolerance: the refined set is the smallest that keeps it, by the errors that are
+// measured for all tolerances, and whole meshes keep the promise.
 #include "Build/StagedBuild.h"
 #include "DistanceError/DistanceError.h"
 #include "DistanceTestTools.h"
@@ -53,11 +53,11 @@ std::vector<GridGeometry> WorldsFor(const std::array<int, 3>& dims)
 
 using Tolerated = std::function<double(const Place&)>;
 
-/** The errors of all diamonds, measured for themselves alone. */
+/** The errors of all diamonds, measured independently of any tolerance. */
 struct AllErrors
 {
   ErrorCode Code;
-  double Least; ///< what is less on the way back may be taken for that
+  double Least; ///< smaller ways back may be taken for this
   std::vector<ErrorCode::Type> Forth;
   std::vector<ErrorCode::Type> Both;
 
@@ -74,7 +74,7 @@ struct AllErrors
   }
 };
 
-/** What is said of a set of subdivided diamonds, counted. */
+/** How many diamonds of the sets were looked at. */
 struct Seen
 {
   int Subdivided = 0;
@@ -87,7 +87,7 @@ bool IsSubdivided(const IsodiamondHierarchy& mesh, const Place& place)
   return rank != DiamondSet::None && mesh.Threshold(rank) == ErrorCode::Always;
 }
 
-/** Calls body(parent) for the parents of a diamond, but for corners of the base cube. */
+/** Calls body(parent) for the parents of a diamond, except corners of the base cube. */
 template <typename Body>
 void ForEachParent(const IsodiamondHierarchy& mesh, const Place& place, const Body& body)
 {
@@ -115,8 +115,8 @@ bool HasSubdividedChild(const IsodiamondHierarchy& mesh, const Place& place)
   return has;
 }
 
-/** That a set is closed, that nothing that it leaves whole exceeds what is tolerated, and that
- *  everything in it exceeds that, or leads to something that does. */
+/** Expects that a set is closed, that no diamond that it leaves whole exceeds its tolerance, and
+ *  that each one in it exceeds its own, or leads to one that does. */
 void ExpectSmallestSet(
   const IsodiamondHierarchy& mesh, const AllErrors& errors, const Tolerated& tolerated, Seen& seen)
 {
@@ -150,7 +150,7 @@ void ExpectSmallestSet(
       {
         ++seen.Leaves;
         ASSERT_LE(errors.Forth[rank], accepted) << "too far away";
-        // The way back of all errors is rounded up by a quarter at most.
+        // In the errors of all diamonds, the way back is rounded up by a quarter at most.
         ASSERT_LE(errors.Code.Decode(errors.Both[rank]),
           1.25 * (1.0 + 1e-6) *
             std::max({ tolerance, errors.Least, errors.Code.Decode(errors.Forth[rank]) }));
@@ -194,7 +194,7 @@ TEST(ToleratedSet, IsTheSmallestThatKeepsTheTolerance)
   EXPECT_GT(seen.Leaves, 10000);
 }
 
-// Cells that are long on one axis have errors far below a step of that.
+// Where cells are long on one axis, errors are far below a step on that axis.
 TEST(ToleratedSet, IsNotLargerBecauseCellsAreLong)
 {
   const test::Field field = test::SphereField({ 33, 33, 12 });
@@ -210,7 +210,7 @@ TEST(ToleratedSet, IsNotLargerBecauseCellsAreLong)
   }
 }
 
-// Of a few diamonds on each scale, the coarsest far larger than the grid is across.
+// Grids with few diamonds on each scale, the coarsest far wider than the grid.
 TEST(ToleratedSet, IsTheSmallestOfLongGridsToo)
 {
   Seen seen;
@@ -282,7 +282,7 @@ TEST(ToleratedSet, IsAPromiseOfBothSurfaces)
   }
 }
 
-// Whatever was shown before, with any threads; and nothing that follows knows of it.
+// The same mesh whatever was made before, with any threads; and nothing that follows depends on it.
 TEST(ToleratedSet, OfRandomFieldsIsFitAndLeavesNoTrace)
 {
   const int cases = test::ForRandomSeeds(

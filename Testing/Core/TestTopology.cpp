@@ -30,7 +30,7 @@ struct Scalars
   }
 };
 
-/** One random field, with hidden cells or without, and all that must have one topology. */
+/** One random field, with hidden cells or without; all its meshes must have one topology. */
 class Case
 {
 public:
@@ -69,7 +69,7 @@ public:
     this->CheckScalars();
   }
 
-  /** Whether the topology is another one at the infinite tolerance, unless it is preserved. */
+  /** Whether the topology changes at infinite tolerance if it is not preserved. */
   bool IsLost = false;
 
 private:
@@ -79,8 +79,8 @@ private:
       SerialFor };
   }
 
-  /** By the field metric, without anything that preserves topology: its mesh of tolerance 0 is
-   *  marching tetrahedra. */
+  /** By the field metric, without preserving topology: the mesh of tolerance 0 is that of marching
+   *  tetrahedra. */
   test::Built BuildPlain() const
   {
     BuildOptions options;
@@ -91,14 +91,14 @@ private:
       SerialFor };
   }
 
-  /** Without what lies in hidden cells. */
+  /** The topology without what lies in hidden cells. */
   test::Topology TopologyOf(const IsodiamondHierarchy& hierarchy, const Query& query) const
   {
     return test::Topology(test::WithoutHidden({ hierarchy, query }, this->Hidden));
   }
 
-  /** What is critical does not depend on whether the interior can be refined; other diamonds may.
-   */
+  /** Which diamonds are critical does not depend on whether the interior can be refined; the others
+   *  may. */
   void CheckInterior(const test::Topology& full)
   {
     if (this->Region.IsVolume())
@@ -108,7 +108,7 @@ private:
     }
   }
 
-  /** The query says so of an HD, which knows no hidden cells and keeps all pieces. */
+  /** With an HD, which knows no hidden cells and keeps all pieces, the query asks for topology. */
   void CheckScalars()
   {
     this->Options.Hidden = nullptr;
@@ -192,14 +192,14 @@ TEST(Topology, IsThatOfFullResolutionForRandomFieldsAndQueries)
       one.Check();
       lost += one.IsLost ? 1 : 0;
     });
-  // Else the test could not fail.
+  // Otherwise the test could not fail.
   EXPECT_GE(lost, cases < 100 ? 0 : cases / 5);
 }
 
 namespace
 {
 
-/** A random landscape, a single sheet with hills and valleys beyond its coarse mesh. */
+/** A random landscape: a single sheet with hills and valleys that a coarse mesh leaves out. */
 test::Field RandomLandscape(test::Random& random)
 {
   const double level = test::Uniform(random, 2.0, 6.0);
@@ -223,8 +223,8 @@ test::Field RandomLandscape(test::Random& random)
   return field;
 }
 
-/** Whether a landscape less one hidden cell has one topology. @param hits is raised if the cell
- *  holds some of it */
+/** Checks that a landscape without what a hidden cell holds has one topology. @param hits is raised
+ *  if the cell holds some of it */
 void CheckHiddenCell(unsigned seed, int& hits)
 {
   test::Random random(seed);
@@ -246,7 +246,7 @@ void CheckHiddenCell(unsigned seed, int& hits)
 
 }
 
-// A hill that a coarse mesh leaves out may have its top cut off by a hidden cell.
+// A hidden cell may cut off the top of a hill that a coarse mesh leaves out.
 TEST(Topology, IsKeptAroundHiddenCells)
 {
   int hits = 0;

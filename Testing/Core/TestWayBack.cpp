@@ -25,7 +25,7 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** No lengths are the same in it, no angles right, and it mirrors. */
+/** A world that is mirrored, with no two lengths the same and no right angles. */
 AffineMap Sheared()
 {
   AffineMap world;
@@ -40,14 +40,15 @@ std::vector<GridGeometry> Worlds(const std::array<int, 3>& dims)
     GridGeometry(test::UnevenCoordinates(dims, 100.0)) };
 }
 
-/** A length that errors are not told apart below: a part of the longest step. */
+/** The length below which errors are not told apart: a part of the longest step. */
 double LeastError(const GridGeometry& world)
 {
   return std::visit(
     [](const auto& lengths) { return lengths.TypicalStep() / 64.0; }, WorldLengthsOf(world));
 }
 
-/** The finest tetrahedra of the reference that are there, and the cells that they lie in. */
+/** Calls body(tetrahedron, cell) for the finest tetrahedra of the reference that lie in the grid,
+ *  and the cells that they lie in. */
 template <typename Body>
 void ForEachFinest(const reference::Hierarchy& hierarchy, const Body& body)
 {
@@ -92,7 +93,7 @@ test::SurfaceTriangles FinestTriangles(
   return all;
 }
 
-/** The patches of a diamond in index space, by the surface. */
+/** Gives the patches of a diamond on a surface, in index space. */
 using PatchesOfDiamond = std::function<test::SurfaceTriangles(const Place&, int surface)>;
 
 PatchesOfDiamond PatchesOfReference(
@@ -115,7 +116,7 @@ PatchesOfDiamond PatchesOfReference(
   };
 }
 
-/** As extraction makes them: DistanceError.PatchesAreTheSurfacesOfIntervalVolumes. */
+/** As extraction makes them: see DistanceError.PatchesAreTheSurfacesOfIntervalVolumes. */
 PatchesOfDiamond PatchesOfLibrary(const IsodiamondHierarchy& hierarchy)
 {
   return [&hierarchy](const Place& diamond, int surface)
@@ -202,7 +203,7 @@ public:
   }
 
 private:
-  /** What thresholds spare the way back changes none of them by more than it is rounded up by. */
+  /** The work that thresholds spare the way back changes none of them by more than its rounding. */
   void CheckThresholds(const std::vector<ErrorCode::Type>& before,
     const std::vector<ErrorCode::Type>& raised, BeforeWayBack known,
     const GridGeometry& world) const
@@ -307,7 +308,7 @@ TEST(WayBack, IsThatOfBruteForceForEveryDiamond)
   EXPECT_EQ(seen.Always, 0);
 }
 
-// Of tall volumes some slices are measured at once, and last what needs triangles of others.
+// Tall volumes are measured some slices at a time; diamonds that need triangles of others are last.
 TEST(WayBack, IsTheSameHoweverManyAreLeftForTheEndAtOnce)
 {
   for (const test::Field& field :
@@ -371,7 +372,7 @@ TEST(WayBack, IsThatOfBruteForceOnBothSurfaces)
 namespace
 {
 
-/** One cell in so many, and all of a block. */
+/** Hides one cell in so many, and all of a block. */
 HiddenCells SomeHidden(const std::array<int, 3>& dims, unsigned oneIn, int blockEnd)
 {
   std::mt19937 random(dims[0] + 7 * dims[1]);
@@ -393,7 +394,7 @@ HiddenCells SomeHidden(const std::array<int, 3>& dims, unsigned oneIn, int block
 
 }
 
-// Those that touch hidden cells are always subdivided by whoever builds.
+// Diamonds that touch hidden cells are not compared: whoever builds always subdivides them.
 TEST(WayBack, LooksForNothingInHiddenCells)
 {
   Seen seen;
@@ -427,7 +428,7 @@ TEST(WayBack, LooksForNothingInHiddenCells)
 namespace
 {
 
-/** Triangles as positions, sorted; each from its least corner on. */
+/** A triangle: the cell that it lies in, and its corners, sorted. */
 using PlacedFine = std::pair<Point, std::array<Point, 3>>;
 
 PlacedFine PlacedIn(const Point& cell, std::array<Point, 3> corners)
@@ -555,7 +556,7 @@ public:
 
   using Test = SlabTest<AffineLengths>;
 
-  /** Of a square piece around a middle that leans by slopes along x and y. */
+  /** The test of a square piece around a middle, leaning by slopes along x and y. */
   Test TestOf(const Vector& middle, double half, double limit, const Vector& slopes = {}) const
   {
     this->Piece = {};
@@ -612,7 +613,7 @@ TEST(SlabTest, TellsWhetherAPlanePassesWithinALimit)
 
 TEST(SlabTest, TakesPiecesThatLean)
 {
-  // The plane leaves between the copies on the side of large x.
+  // On both sides along x, the plane leaves the space between the copies.
   const SlabField plane([](double x, double, double z) { return z - 8.0 - 0.25 * (x - 8.0); });
   EXPECT_FALSE(plane.TestOf({ 8.0, 8.0, 8.0 }, 4.0, 0.5).IsBetween());
   EXPECT_TRUE(plane.TestOf({ 8.0, 8.0, 8.0 }, 1.0, 0.5).IsBetween());
@@ -640,7 +641,7 @@ TEST(SlabTest, SaysNoWhereCopiesLeaveTheGrid)
   EXPECT_FALSE(ending.TestOf({ 14.0, 8.0, 8.0 }, 1.9, 0.6).IsBetween());
 }
 
-// Some of a triangle is between the copies, but beside the piece; over the piece it is beyond.
+// Part of a triangle is between the copies, but beside the piece; over the piece it is beyond them.
 TEST(SlabTest, CountsNoCrossingBeyondTheCopies)
 {
   const SlabField plane([](double x, double, double z) { return z - 8.05 - 0.6 * (x - 8.0); });
@@ -726,7 +727,7 @@ TEST(ConvexPolygon, IsWholeOrEmptyBesidePlanes)
   EXPECT_TRUE(above.IsEmpty());
   KeepAbove(triangle, { 1.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, above); // a corner alone
   EXPECT_TRUE(above.IsEmpty());
-  // With all corners that it can have it is not cut.
+  // A polygon that has the most corners already is not cut.
   ConvexPolygon full;
   for (int i = 0; i < ConvexPolygon::MostCorners; ++i)
   {
@@ -739,7 +740,7 @@ TEST(ConvexPolygon, IsWholeOrEmptyBesidePlanes)
 namespace
 {
 
-/** Positions come back, and what is within a radius is in the box, which it touches on all sides.
+/** Positions come back, and what is within a radius is in the box.
  *  @param last the last sample on each axis */
 template <typename Lengths>
 void ExpectIndexBoxes(const Lengths& lengths, const Point& last, std::mt19937& random)
@@ -786,7 +787,7 @@ TEST(WorldLengths, IndexBoxHoldsWhatIsWithinARadius)
   {
     const AxisCoordinates axes = test::UnevenCoordinates({ 13, 17, 9 }, ratio);
     ExpectIndexBoxes(AxesLengths(axes, 0), last, random);
-    // With a layer of padding on all sides: what is beyond the first and the last sample, too.
+    // With a layer of padding on all sides: also positions beyond the first and the last sample.
     ExpectIndexBoxes(AxesLengths(axes, 1), last + Point{ 2, 2, 2 }, random);
   }
 }

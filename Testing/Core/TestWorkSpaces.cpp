@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What threads work with: each alone, and no more of it than needed.
+// Work spaces: each is used by one thread at a time, and no more are made than needed.
 #include "CoreTestTools.h"
 #include "Field/WorkSpaces.h"
 

@@ -15,7 +15,7 @@
 namespace test
 {
 
-/** Peers that are threads: what they have to do together is done in memory. */
+/** Peers that are threads: they combine their values in memory. */
 class ThreadPeers
 {
 public:
@@ -134,8 +134,8 @@ private:
   int Meetings = 0;
 };
 
-/** Calls check(make(peers)) in each of some peers; check in one after the other, as expectations
- *  have to be. */
+/** Calls check(make(peers)) in each of some peers; the checks run one after the other, as
+ *  expectations have to. */
 template <typename Make, typename Check>
 void ForEachPeer(int count, const Make& make, const Check& check)
 {

@@ -37,7 +37,7 @@ private:
 template <std::size_t Corners>
 using Simplices = std::vector<std::array<std::int32_t, Corners>>;
 
-/** All simplices of some of the corners of cells, as often as there are cells with them; sorted. */
+/** All simplices on corners of cells, each as often as there are cells with it; sorted. */
 template <std::size_t Corners, std::size_t CellCorners>
 Simplices<Corners> SimplicesOf(const Simplices<CellCorners>& cells)
 {
@@ -151,13 +151,13 @@ private:
 
   const Simplices<CellCorners>& Cells;
   Simplices<1> Vertices;
-  Simplices<CellCorners - 1> Sides; ///< as often as there are cells with them
+  Simplices<CellCorners - 1> Sides; ///< each as often as there are cells with it
   Groups PieceOf;
   Groups PartOf;
-  PiecesTopology Pieces; ///< by vertex; of a piece at the one that stands for it
+  PiecesTopology Pieces; ///< by vertex; a piece's is at the vertex that stands for it
 };
 
-/** Removes the cells of a mesh, with their levels, whose middle is in a hidden cell of the grid. */
+/** Removes the cells of a mesh whose middle is in a hidden cell of the grid, and their levels. */
 template <typename Point, std::size_t Corners>
 void RemoveHidden(const std::vector<Point>& points, const isodiamond::HiddenCells& hidden,
   Simplices<Corners>& cells, std::vector<std::int8_t>& levels)

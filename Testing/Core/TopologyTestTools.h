@@ -9,16 +9,17 @@
 #include <tuple>
 #include <vector>
 
-/** What homeomorphisms keep of a mesh, counted. */
+/** Counts of what homeomorphisms of a mesh preserve. */
 namespace test
 {
 
-/** A connected piece of triangles or tetrahedra. With its one component, of a surface these are its
- *  Betti numbers, and tell what it is; of a volume they are its handles less its cavities. */
+/** A connected piece of triangles or tetrahedra. As it is one component, these numbers give a
+ *  surface's Betti numbers, and tell what it is; of a volume, they give its handles less its
+ *  cavities. */
 struct PieceTopology
 {
   int EulerNumber = 0;   ///< vertices less edges plus triangles less tetrahedra
-  int BoundaryParts = 0; ///< components of the edges, or faces, that are of one cell
+  int BoundaryParts = 0; ///< components of the edges, or faces, of only one cell
 
   bool operator<(const PieceTopology& other) const
   {
@@ -36,7 +37,7 @@ using PiecesTopology = std::vector<PieceTopology>;
 PiecesTopology TopologyOf(const std::vector<std::array<std::int32_t, 3>>& triangles);
 PiecesTopology TopologyOf(const std::vector<std::array<std::int32_t, 4>>& tetrahedra);
 
-/** Of a mesh: of the isosurface, or of the interval volume and of its lower and upper surface. */
+/** Of a mesh: all pieces of the isosurface, or of the interval volume and of its two surfaces. */
 struct Topology
 {
   PiecesTopology Interval;
@@ -50,10 +51,10 @@ struct Topology
   }
   std::size_t PieceCount() const { return this->Surfaces[0].size() + this->Surfaces[1].size(); }
 };
-/** In short, for messages. */
+/** In brief, for messages. */
 std::ostream& operator<<(std::ostream& stream, const Topology& topology);
 
-/** The mesh without what lies in hidden cells; no cell may lie in several of which one is. */
+/** The mesh without what lies in hidden cells; none of its cells may lie in one only partly. */
 AnyMesh WithoutHidden(AnyMesh mesh, const isodiamond::HiddenCells& hidden);
 
 }

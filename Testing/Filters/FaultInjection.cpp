@@ -12,7 +12,7 @@
 #include <execinfo.h>
 #include <link.h>
 
-// What is behind malloc and realloc in glibc.
+// glibc's own malloc and realloc.
 extern "C"
 {
   void* __libc_malloc(std::size_t size);                // NOLINT
@@ -46,7 +46,7 @@ struct Code
   }
 };
 
-/** Tells calls of the filters from those of VTK. */
+/** Tells calls by the filters from those by VTK. */
 class Callers
 {
 public:
@@ -59,8 +59,8 @@ public:
 
   bool AreKnown() const { return this->Filters.Begin != 0 && this->Program.Begin != 0; }
 
-  /** Whether it is called by filters. Functions of templates may be theirs and yet called by VTK,
-   *  as the linker keeps one of several: so it looks at some callers, not at the first only. */
+  /** Whether the filters are calling. An instance of a template may lie in their library and yet be
+   *  called by VTK, as the linker keeps one of several: so this looks at more than one caller. */
   bool AreFilters() const
   {
     constexpr int deep = 3;
@@ -98,7 +98,7 @@ private:
     {
       self->Filters = code;
     }
-    else if (name.empty() && self->Program.Begin == 0) // the first
+    else if (name.empty() && self->Program.Begin == 0) // the program comes first
     {
       self->Program = code;
     }
@@ -140,7 +140,7 @@ constexpr std::size_t Usual = alignof(std::max_align_t);
 
 }
 
-// VTK's arrays use these. The rest of the family need not be replaced: it is the same heap.
+// VTK's arrays use these. The rest of the family need not be replaced, as the heap is the same.
 extern "C"
 {
   void* malloc(std::size_t size)

@@ -5,17 +5,17 @@
 #include <atomic>
 #include <limits>
 
-/** Allocations that fail. Who links this has its operator new and malloc; for glibc. */
+/** Allocations that fail. A program that links this gets its operator new and malloc; for glibc. */
 namespace test
 {
 
 constexpr long Never = std::numeric_limits<long>::max();
 
-/** Makes allocations fail, from one of them on, while it is armed. */
+/** While armed, makes one or more allocations in a row fail. */
 class Fault
 {
 public:
-  /** @param first the first that fails @param count how many do */
+  /** @param first number of the first that fails, from 0 @param count how many fail */
   void Arm(long first, long count)
   {
     this->First = first;
@@ -44,9 +44,9 @@ private:
   std::atomic<long> Count{ 0 };
 };
 
-/** operator new as called by the filters: VTK itself breaks where its own fails. */
+/** operator new when the filters call it: VTK itself breaks where its own calls fail. */
 extern Fault OfNew;
-/** malloc and realloc of many bytes, called by anyone: VTK's arrays. */
+/** malloc and realloc of many bytes, whoever calls them: for VTK's arrays. */
 extern Fault OfMalloc;
 
 /** Whether it is known which calls are the filters'. */

@@ -17,32 +17,33 @@ class vtkAlgorithm;
 class vtkCellArray;
 class vtkPolyData;
 
-/** Images, meshes and caught errors that the tests of the filters share. */
+/** What the filters' tests share: images, measures of meshes, caught errors. */
 namespace test
 {
 
-/** An image with the float point scalars "density" = function(x, y, z) of sample indices. */
+/** An image whose float point scalars "density" are function(x, y, z) of the samples' indices. */
 vtkSmartPointer<vtkImageData> MakeImage(
   const std::array<int, 3>& dims, const std::function<double(double, double, double)>& function);
 
-/** A bumpy ball: density falls from the middle, about 0 on its surface, well inside the image. */
+/** A bumpy ball, well inside the image: density falls from its middle to about 0 on its surface. */
 vtkSmartPointer<vtkImageData> BallImage(const std::array<int, 3>& dims);
 
 /** Like a scan of a cast part: a block with bores and thin walls, its edges blurred over two
- * voxels, 100 inside and 0 outside, with noise. Sharp edges have large field errors and little
- * shape. */
+ * voxels, 100 inside and 0 outside, with noise. Such sharp edges have large field errors where the
+ * shape is simple. */
 vtkSmartPointer<vtkImageData> PhantomImage(const std::array<int, 3>& dims, double noise);
 
-/** The same samples with a coordinate place(axis, index) for each index on each axis. */
+/** An image's samples as a rectilinear grid with the coordinates place(axis, index). */
 vtkSmartPointer<vtkRectilinearGrid> Rectilinear(
   vtkImageData* image, const std::function<double(int, int)>& place);
 
-/** Coordinates that grow along x by a constant factor, fall along y, and are of three sizes in turn
- *  along z: cells between 0.4 and 4 in a grid of about 40 samples on each axis. */
+/** Coordinates for Rectilinear(): cells grow along x by a constant factor, coordinates fall along
+ *  y, and cells have three sizes in turn along z. In a grid of about 40 samples on each axis they
+ *  are between 0.4 and 4 long. */
 double UnevenPlace(int axis, int index);
 
-/** A uint8 volume of the folder that the environment's ISODIAMONDS_DATA_DIR names; null without it.
- */
+/** A uint8 volume from the folder in the environment variable ISODIAMONDS_DATA_DIR; null if it is
+ *  not there. */
 vtkSmartPointer<vtkImageData> SampleVolume(const char* name, const std::array<int, 3>& dims);
 
 /** Collects the errors and warnings of an algorithm instead of printing them. */
@@ -68,13 +69,13 @@ double Area(vtkPointSet* mesh);
 using Triangles = std::vector<std::array<std::array<double, 3>, 3>>;
 Triangles SortedTriangles(vtkPointSet* mesh);
 
-/** Largest distance of a mesh's points to another mesh. */
+/** The largest distance from a mesh's points to another mesh. */
 double LargestDistance(vtkPolyData* from, vtkPolyData* to);
 
-/** What is not the same, to the bit, of two data sets: points, cells, arrays. Empty if nothing. */
+/** What differs, to the bit, between two data sets: points, cells, arrays. Empty if nothing. */
 std::string Difference(vtkDataSet* a, vtkDataSet* b);
 
-/** Number of edges with one triangle. */
+/** Number of edges that do not have exactly two triangles. */
 vtkIdType BoundaryEdges(vtkPolyData* mesh);
 
 }

@@ -36,14 +36,15 @@ namespace
 
 using Position = std::array<double, 3>;
 
-/** From where all views are drawn. */
+/** Where all views are drawn from. */
 constexpr Position Camera = { 3.0, -4.0, 2.5 };
 
-/** Without an array of colours. */
+/** The colour of views that show no array. */
 constexpr Position PlainColour = { 0.55, 0.7, 0.85 };
 
-/** Drivers may differ in so many pixels of a picture, which are those of thin lines: few of them
- * make up squares of four. Versions of VTK were seen to differ in 121, and in no square. */
+/** How many pixels of a picture may differ between drivers, and how many squares of four: only thin
+ * lines differ, which fill few squares. Versions of VTK were seen to differ in 121 pixels and no
+ * square. */
 constexpr int MostDifferent = 250;
 constexpr int MostSquares = 5;
 
@@ -65,7 +66,7 @@ bool AreLikeColours(const Pixel& a, const Pixel& b)
   return std::abs(a[0] - b[0]) < 26 && std::abs(a[1] - b[1]) < 26 && std::abs(a[2] - b[2]) < 26;
 }
 
-/** Whether a pixel is like one of those around it. */
+/** Whether a pixel is like the one at its place in another picture, or one next to that. */
 bool IsAround(const Pixel& pixel, vtkImageData* other, int x, int y)
 {
   const int* size = other->GetDimensions();
@@ -82,7 +83,7 @@ bool IsAround(const Pixel& pixel, vtkImageData* other, int x, int y)
   return false;
 }
 
-/** Squares of four pixels that are all different. */
+/** The number of squares of four pixels all of which differ. */
 int CountSquares(vtkImageData* difference)
 {
   const int* size = difference->GetDimensions();
@@ -153,7 +154,7 @@ vtkSmartPointer<vtkDataSet> WithoutNearest(vtkDataSet* data, vtkIdType missing)
 
 ViewFault MissingCells(vtkActor* actor, vtkDataSet* data)
 {
-  // A patch of triangles; some points are like others behind them.
+  // A patch of cells; of points a fifth, since some look like others behind them.
   const bool isOfPoints = data->GetCell(0)->GetCellDimension() == 0;
   const vtkIdType missing = isOfPoints ? data->GetNumberOfCells() / 5 : 24;
   return OtherData(actor, "cells are missing", WithoutNearest(data, missing));
@@ -190,7 +191,7 @@ ViewFault OtherPlainColour(vtkActor* actor)
     [=]() { actor->GetProperty()->SetColor(PlainColour[0], PlainColour[1], PlainColour[2]); } };
 }
 
-/** The places in a table of colours for the values of a view. */
+/** The places in a table of colours that a view's values use. */
 std::set<vtkIdType> UsedColours(vtkMapper* mapper, vtkLookupTable* colours)
 {
   int isOfCells = 0;
@@ -204,7 +205,7 @@ std::set<vtkIdType> UsedColours(vtkMapper* mapper, vtkLookupTable* colours)
   return used;
 }
 
-/** Each colour as the next one. */
+/** For each colour, a fault that shows the next one instead. */
 void AddWrongColours(vtkMapper* mapper, std::vector<ViewFault>& faults)
 {
   vtkLookupTable* colours = vtkLookupTable::SafeDownCast(mapper->GetLookupTable());
@@ -223,7 +224,7 @@ void AddWrongColours(vtkMapper* mapper, std::vector<ViewFault>& faults)
   }
 }
 
-/** Not those of points that no cell has: VTK 9.1's vtkExtractGeometry leaves some. */
+/** Without points that no cell has: VTK 9.1's vtkExtractGeometry leaves some. */
 vtkBoundingBox BoundsOfCells(vtkDataSet* data)
 {
   vtkBoundingBox box;

@@ -14,11 +14,11 @@
 class vtkActor;
 class vtkAlgorithmOutput;
 
-/** Pictures that are compared with baselines, and faults to see that the comparison notices. */
+/** Pictures to compare with baselines, and faults that the comparison has to notice. */
 namespace test
 {
 
-/** A window of viewports side by side, each with one view of what a filter gives. */
+/** A window of viewports side by side, each with one view of a filter's output. */
 class Scene
 {
 public:
@@ -37,24 +37,24 @@ private:
   std::vector<vtkSmartPointer<vtkActor>> AllActors;
 };
 
-/** Draws in colours for the whole numbers from 0 to count - 1 of an array. */
+/** Colours an actor by an array of whole numbers from 0 to count - 1. */
 void ColourBy(vtkActor* actor, const char* array, int count);
 
 /** The picture of this name in Data/Baseline. */
 vtkSmartPointer<vtkImageData> Baseline(const std::string& name);
 
-/** The pixels of a picture that are not as in another one: 255, and 0 elsewhere.
+/** 255 for the pixels of a picture that differ from another picture, 0 elsewhere.
  *
- *  A pixel is as in the other one if that has its colour there or in a pixel beside it, since
- *  drivers do not agree on where a line is. Colours are the same if no part of them differs by more
- *  than a tenth. vtkTesting's comparison is of no use here: it takes two colours for the same that
- *  differ by 105 of 255 in each part. */
+ *  A pixel differs unless the other picture has its colour there or in a pixel next to that, since
+ *  drivers do not agree on where a line is. Colours differ if one of their components does by more
+ *  than a tenth. vtkTesting's comparison is of no use here: it treats colours as the same even if
+ *  they differ by 105 of 255 in each component. */
 vtkSmartPointer<vtkImageData> Difference(vtkImageData* picture, vtkImageData* other);
 
-/** Whether each of two pictures is as the other one, but for some pixels of thin lines. */
+/** Whether neither of two pictures differs from the other, except in some pixels of thin lines. */
 bool AreLike(vtkImageData* a, vtkImageData* b);
 
-/** The number of pixels that have another colour, in pictures of the same driver. */
+/** The number of pixels whose colours differ between two pictures by the same driver. */
 int CountChanged(vtkImageData* a, vtkImageData* b);
 
 /** Writes a picture to a file. */
@@ -64,7 +64,7 @@ void Write(vtkImageData* picture, const std::string& file);
 struct ViewFault
 {
   std::string Name;
-  bool MayBeHidden = false; ///< of what may be behind something else
+  bool MayBeHidden = false; ///< what it changes may be behind something else
   std::function<void()> Plant;
   std::function<void()> Undo;
 };

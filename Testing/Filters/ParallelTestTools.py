@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests in pvbatch with any number of processes share: an image's source, meshes of all processes
-on the first one, as rows of numbers, and an end for all if one fails."""
+"""What tests in pvbatch share, with any number of processes: a source of an image, the meshes of
+all processes on the first one, as rows of numbers, and an end for all of them if one fails."""
 import os
 import sys
 import traceback
@@ -17,11 +17,11 @@ controller = vtkMultiProcessController.GetGlobalController()
 rank = controller.GetLocalProcessId()
 ranks = controller.GetNumberOfProcesses()
 
-SIZE = (35, 30, 75)  # of the image of Source
+SIZE = (35, 30, 75)  # of Source's image
 
 
 def gathered(mesh):
-    """What each process has, on the first process; nothing elsewhere."""
+    """On the first process, the meshes of all processes; elsewhere, nothing."""
     if rank > 0:
         controller.Send(mesh, 0, 7)
         return []
@@ -34,8 +34,8 @@ def gathered(mesh):
 
 
 def cells(mesh, by_name=False):
-    """The mesh's cells: corners with their point data, in the order of the arrays or of their names,
-    one row for each cell."""
+    """The mesh's cells, one row each: corners with their point data, in the order of the arrays or
+    of their names."""
     size = mesh.GetCell(0).GetNumberOfPoints() if mesh.GetNumberOfCells() > 0 else 1
     array = mesh.GetCells() if mesh.IsA("vtkUnstructuredGrid") else None
     if array is None:
@@ -51,7 +51,7 @@ def cells(mesh, by_name=False):
 
 
 def own_cells(mesh):
-    """A process's own: ParaView asks for ghosts behind a reader of files."""
+    """The cells that are a process's own: behind a file reader, ParaView asks for ghosts, too."""
     marks = mesh.GetCellData().GetArray("vtkGhostType")
     mesh.GetPointData().RemoveArray("vtkGhostType")
     rows = cells(mesh)
@@ -67,14 +67,14 @@ def rows(mesh):
 
 
 def together(filter):
-    """The cells that a filter has in all processes, on the first one."""
+    """On the first process, the cells that a filter has in all of them."""
     filter.UpdatePiece(rank, ranks, 0)
     pieces = [rows(mesh) for mesh in gathered(filter.GetOutputDataObject(0))]
     return numpy.concatenate([piece for piece in pieces if len(piece)]) if rank == 0 else None
 
 
 def new(filter, source, **properties):
-    """A filter behind a source, with properties by VTK's names."""
+    """Puts a filter behind a source, with properties by VTK's names, and returns it."""
     filter.SetInputConnection(source.GetOutputPort())
     for name, value in properties.items():
         getattr(filter, "Set" + name)(*value if isinstance(value, tuple) else (value,))
@@ -88,8 +88,8 @@ def abort_at(filter, phase):
 
 
 class Source(VTKPythonAlgorithmBase):
-    """Makes the part of an image that it is asked for, and keeps count; or has a part, whatever it is
-    asked for: see have()."""
+    """Makes the part of an image that it is asked for, and notes which slices; or always gives the
+    same part, whatever it is asked for: see have()."""
 
     def __init__(self):
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
@@ -102,7 +102,8 @@ class Source(VTKPythonAlgorithmBase):
         self.origin = (0, 0, 0)
 
     def have(self, part, ghosts=0):
-        """An extent, or None for nothing, with layers of ghost cells around it where there are cells."""
+        """Always give this extent, with layers of ghost cells around it as far as the image goes.
+        None: give what is asked for."""
         self.part, self.ghosts = part, ghosts
 
     def RequestInformation(self, request, inputs, outputs):
@@ -139,7 +140,8 @@ class Source(VTKPythonAlgorithmBase):
         return 1
 
     def mark(self, image, extent):
-        """What is blanked, and which cells are another process's, where values are not to be trusted."""
+        """Marks blanked cells and those of other processes, and spoils the values there: nobody may
+        use them."""
         x, y, z = (numpy.arange(extent[2 * i], extent[2 * i + 1]) for i in range(3))
         x, y, z = x[None, None, :], y[None, :, None], z[:, None, None]
         marks = numpy.zeros((len(z), y.size, x.size), numpy.uint8)
@@ -160,7 +162,8 @@ class Source(VTKPythonAlgorithmBase):
 
 
 def run(main):
-    """The others wait for a process that fails: without it mpiexec ends them."""
+    """Runs a test. A process in which it fails exits, so that mpiexec ends the others: they would
+    wait for it."""
     try:
         main()
     except BaseException:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What meshes have at their points: other arrays against VTK's probe, gradients against calculus.
+// Data at the points of meshes: other arrays against VTK's probe, gradients against calculus.
 #include "FilterTestTools.h"
 
 #include "vtkCellData.h"
@@ -29,8 +29,7 @@
 namespace
 {
 
-/** The ball with a vector array "flow" (active vectors), a wild short array "count" and point ids.
- */
+/** The ball with a vector array "flow" (the active vectors) and a wild short array "count". */
 vtkSmartPointer<vtkImageData> ImageWithArrays()
 {
   const auto image = test::BallImage({ 25, 21, 23 });
@@ -52,7 +51,7 @@ vtkSmartPointer<vtkImageData> ImageWithArrays()
   return image;
 }
 
-/** A copy whose components are in an array each: values are not in a row. */
+/** A copy with each component in an array of its own: values are not in a row. */
 template <typename T>
 vtkSmartPointer<vtkDataArray> AsStructureOfArrays(vtkDataArray* array)
 {
@@ -70,10 +69,10 @@ vtkSmartPointer<vtkDataArray> AsStructureOfArrays(vtkDataArray* array)
 /** Expects a mesh to have what VTK's probe finds in an image at the mesh's points. */
 void ExpectProbed(vtkPointSet* mesh, vtkImageData* image, const char* name, double tolerance)
 {
-  vtkNew<vtkPolyData> points; // the probe takes over the geometry only
+  vtkNew<vtkPolyData> points; // only the geometry, for the probe
   points->SetPoints(mesh->GetPoints());
   vtkNew<vtkProbeFilter> probe;
-  vtkNew<vtkImageData> asDoubles; // it keeps the type of integers
+  vtkNew<vtkImageData> asDoubles; // the probe would give integers for integers
   asDoubles->ShallowCopy(image);
   vtkDataArray* array = image->GetPointData()->GetArray(name);
   vtkNew<vtkFloatArray> copy;
@@ -114,7 +113,7 @@ TEST(Attributes, ArraysOfAnyLayoutGiveTheSameMesh)
 
   const auto meshOf = [](vtkImageData* input)
   {
-    vtkNew<vtkIsodiamondContour> contour; // one for each: it keeps what it has built
+    vtkNew<vtkIsodiamondContour> contour; // a new one each time: it keeps what it has built
     contour->SetInputData(input);
     contour->SetValue(0, 0.0);
     contour->SetErrorTolerance(0.2);
@@ -140,11 +139,11 @@ TEST(Attributes, OtherArraysAreWhatTheProbeFinds)
     contour->SetErrorTolerance(tolerance);
     contour->Update();
     ExpectProbed(contour->GetOutput(), image, "flow", 1e-5);
-    ExpectProbed(contour->GetOutput(), image, "count", 1e-3); // of 2000: its float has 24 bits
+    ExpectProbed(contour->GetOutput(), image, "count", 1e-3); // of 2000: floats have 24 bits
   }
   EXPECT_EQ(contour->GetOutput()->GetPointData()->GetVectors(),
     contour->GetOutput()->GetPointData()->GetArray("flow"));
-  // Positions as floats are off by half their last bit, values by as much of the slope.
+  // Positions as floats are off by half their last bit, values by that times the slope.
   contour->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
   contour->Update();
   ExpectProbed(contour->GetOutput(), image, "count", 2000 * 2e-5);
@@ -226,7 +225,7 @@ TEST(Attributes, GradientsAreTheFieldsAndNormalsPointAgainstThem)
 
 TEST(Attributes, AreKeptApartFromTheFilterOwnArrays)
 {
-  // Arrays of the input with names that the output uses itself, and ones that cannot be between.
+  // Arrays of the input with names that the output uses itself, and one that is nearly such.
   const auto image = test::BallImage({ 17, 17, 17 });
   for (const char* name : { "Normals", "vtkGhostType2", "Level" })
   {
@@ -242,9 +241,9 @@ TEST(Attributes, AreKeptApartFromTheFilterOwnArrays)
   contour->Update();
   vtkPointData* data = contour->GetOutput()->GetPointData();
   EXPECT_EQ(data->GetArray("Normals")->GetNumberOfComponents(), 3);
-  EXPECT_EQ(data->GetArray("Level")->GetTuple1(0), 7.0); // theirs is of the cells
+  EXPECT_EQ(data->GetArray("Level")->GetTuple1(0), 7.0); // the filter's own is of the cells
   EXPECT_EQ(contour->GetOutput()->GetCellData()->GetArray("Level")->GetTuple1(0), 4.0);
-  EXPECT_EQ(data->GetNumberOfArrays(), 4); // density too
+  EXPECT_EQ(data->GetNumberOfArrays(), 4); // density, too
 }
 
 TEST(Attributes, HierarchiesCarryTheArraysThatTheyAreAskedFor)

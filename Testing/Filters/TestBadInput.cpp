@@ -31,7 +31,7 @@ namespace
 
 constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
 
-/** Runs the filters that take images; each must say `cause` once and give nothing. */
+/** Runs the filters that take images; each must report `cause` once and give nothing. */
 void ExpectRefusal(const std::function<void(vtkAlgorithm*)>& prepare, const std::string& cause)
 {
   vtkNew<vtkIsodiamondContour> contour;
@@ -140,7 +140,7 @@ TEST(BadInput, NoInputAtAll)
     vtkNew<test::Messages> executive;
     filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
     filter->Update();
-    EXPECT_GT(messages->ErrorCount + executive->ErrorCount, 0); // the pipeline's own
+    EXPECT_GT(messages->ErrorCount + executive->ErrorCount, 0); // the pipeline's own error
     EXPECT_EQ(vtkPointSet::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints(), 0);
   }
 }
@@ -195,7 +195,7 @@ TEST(BadInput, TolerancesAndIsovalues)
   auto messages = test::Watch(builder);
   builder->Update();
   EXPECT_EQ(messages->ErrorCount, 1);
-  // Outside of the range is just empty.
+  // Outside the range there is no surface, and no error.
   builder->SetIsovalue(1000.0);
   builder->Update();
   vtkNew<vtkIsodiamondExtractor> extractor;
@@ -251,7 +251,7 @@ TEST(BadInput, DamagedHierarchies)
       const std::string name = good->GetArrayName(i);
       if (name.rfind("Isodiamond", 0) != 0 || name == "IsodiamondArrayName")
       {
-        continue; // numbers for who looks at them, and only a name
+        continue; // numbers for users to read, or only a name
       }
       for (int damage = 0; damage < 3; ++damage)
       {
@@ -295,8 +295,8 @@ TEST(BadInput, HeadersThatMakeNoSense)
     builder->SetInputData(test::BallImage({ 9, 9, 9 }));
     builder->SetModel(scalars ? 0 : 2);
     builder->Update();
-    // Version, model, shape, metric, exactness, both ways (not of the field), topology, sizes; an
-    // HD with distances, topology, and removed pieces.
+    // Version, model, shape, metric, exactness, whether distances are two-sided (with the field
+    // metric, they cannot be), topology, sizes; an HD with distances, topology or removed pieces.
     std::vector<std::pair<vtkIdType, double>> faults = { { 0, 1 }, { 0, 2 }, { 0, 4 }, { 1, 3 },
       { 2, 2 }, { 7, 2 }, { 8, 77 }, { 7, scalars ? 1 : -1 }, { 9, 1 }, { 9, 2 }, { 10, 2 },
       { 10, -1 }, { 11, -1 }, { 12, -1 } };
@@ -327,7 +327,7 @@ TEST(BadInput, PieceSizes)
   vtkNew<vtkIsodiamondBuilder> scalars;
   scalars->SetMinimumPieceSize(-5);
   EXPECT_EQ(scalars->GetMinimumPieceSize(), 0);
-  // An HD holds all samples, and hierarchies from it are of these.
+  // An HD holds all samples, and a hierarchy built from it is of all of them: no piece can go.
   scalars->SetInputData(test::BallImage({ 9, 9, 9 }));
   scalars->SetModelToHierarchyOfDiamonds();
   vtkNew<vtkIsodiamondBuilder> minimal;
@@ -340,7 +340,7 @@ TEST(BadInput, PieceSizes)
     EXPECT_EQ(messages->ErrorCount, 1);
     EXPECT_EQ(builder->GetOutput()->GetNumberOfCells(), 0);
     EXPECT_EQ(builder->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
-    builder->SetMinimumPieceSize(1); // which no piece is below
+    builder->SetMinimumPieceSize(1); // no piece is smaller
     builder->Update();
     EXPECT_EQ(messages->ErrorCount, 1) << messages->Errors;
     EXPECT_EQ(builder->GetOutput()->GetNumberOfCells(), 12);

@@ -31,7 +31,7 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-/** Makes just the part of an image that it is asked for, and counts. */
+/** Makes just the part of an image that it is asked for, and counts requests. */
 class PartsSource : public vtkImageAlgorithm
 {
 public:
@@ -46,13 +46,13 @@ public:
   };
   bool HasOther = true;
   bool CanMakeParts = true;
-  bool MakesMore = false;  ///< than it is asked for
-  bool MakesOther = false; ///< than it is asked for
+  bool MakesMore = false;  ///< slices than it is asked for
+  bool MakesOther = false; ///< slices than it is asked for
   bool HasGhosts = false;
-  int FailsAt = -1; ///< this request
+  int FailsAt = -1; ///< the number of the request that fails
 
   int Requests = 0;
-  vtkIdType MostVoxels = 0; ///< of all requests
+  vtkIdType MostVoxels = 0; ///< of any one request
 
 protected:
   PartsSource() { this->SetNumberOfInputPorts(0); }
@@ -132,7 +132,7 @@ protected:
 };
 vtkStandardNewMacro(PartsSource);
 
-/** The same filter on the image at once, and in blocks. */
+/** The same filter on the whole image at once, and in blocks. */
 template <typename Filter>
 struct Both
 {
@@ -188,13 +188,13 @@ TEST(Blocks, MakeTheSameSurface)
     EXPECT_GT(both.InBlocks->GetOutput()->GetNumberOfPolys(), 1000);
     EXPECT_TRUE(both.InBlocks->GetOutput()->GetPointData()->GetNormals());
     EXPECT_TRUE(both.InBlocks->GetOutput()->GetPointData()->HasArray("other"));
-    // A slab shares 8 slices on both sides.
+    // A slab shares 8 slices with each of its neighbours.
     const int thickness = (63 + blocks - 1) / blocks + 16;
     EXPECT_LE(both.SourceOfParts->MostVoxels, 33 * 31 * std::min(thickness, 63));
 
     EXPECT_EQ(both.InBlocks->GetErrorToleranceRange()[1], both.AtOnce->GetErrorToleranceRange()[1]);
 
-    // What comes after asks for nothing.
+    // Later updates ask the source for nothing.
     const int requests = both.SourceOfParts->Requests;
     both.ForEach([](vtkIsodiamondContour* contour) { contour->SetErrorTolerance(0.0); });
     EXPECT_EQ(both.Difference(), "");
@@ -321,7 +321,7 @@ TEST(Blocks, MakeTheSameOfErrorsInTheField)
   }
 }
 
-// What is around the volume is the minimum of all slabs: here the last one has it.
+// The volume is padded with the minimum over all slabs, which is in the last one here.
 TEST(Blocks, CloseTheSameBoundary)
 {
   const auto throughAllFaces = [](double x, double y, double z)
@@ -347,12 +347,12 @@ TEST(Blocks, CloseTheSameBoundary)
     EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), blocks);
     EXPECT_GT(both.InBlocks->GetOutput()->GetNumberOfPolys(), open + 500);
     EXPECT_TRUE(both.InBlocks->GetOutput()->GetPointData()->HasArray("other"));
-    // Once for the minimum; for each isovalue for signs, isovertices and what points have.
+    // Each slab once for the minimum, and for each isovalue for signs, isovertices and point data.
     EXPECT_EQ(both.SourceOfParts->Requests - requests, 7 * blocks);
     both.ForEach([](vtkIsodiamondContour* contour) { contour->SetErrorTolerance(0.0); });
     EXPECT_EQ(both.Difference(), "");
     EXPECT_EQ(both.SourceOfParts->Requests - requests, 7 * blocks);
-    // Nothing lies below: the surface of what is around the volume, too.
+    // Nothing lies below this value, not even the padding: it has no surface.
     both.ForEach([](vtkIsodiamondContour* contour) { contour->SetValue(1, -4.0); });
     EXPECT_EQ(both.Difference(), "");
     EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), blocks);
@@ -403,7 +403,7 @@ TEST(Blocks, AreOneWithAWarningWhereTheyCannotBe)
     EXPECT_EQ(messages->ErrorCount, 0);
   };
   check([](auto& both) { both.SourceOfParts->CanMakeParts = false; }, true);
-  // Which cells are hidden is known when the first slab is there.
+  // That cells are hidden is known only when the first slab is there.
   check([](auto& both) { both.Source->HasGhosts = both.SourceOfParts->HasGhosts = true; }, true);
   // A small image fits into memory.
   check([](auto& both) { both.InBlocks->SetNumberOfBlocks(0); }, false);
@@ -442,7 +442,7 @@ TEST(Blocks, ThatCannotBeHadAreAnError)
 namespace
 {
 
-/** The pages of the process, in bytes. */
+/** The size of the process's address space, in bytes. */
 double Memory()
 {
   long pages = 0;
@@ -452,7 +452,7 @@ double Memory()
   return isRead ? 4096.0 * pages : 0.0;
 }
 
-/** A surface of a volume of 512^3 floats, 512 MiB, with so much memory. */
+/** Contours a volume of 512^3 floats, 512 MiB, with so much more memory. @return 0 if it can */
 int ContourWithin(double bytes)
 {
   vtkNew<PartsSource> source;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Abortion at random moments: an output that is empty or whole, and a filter that works again.
+// Aborted at random moments: the output is empty or whole, and the filter works again.
 #include "FilterTestTools.h"
 
 #include "vtkAlgorithm.h"
@@ -39,7 +39,7 @@ public:
     if (isTime && !this->HasStopped)
     {
       this->HasStopped = true;
-      // The executive itself tells 0 before the work, and 1 after it.
+      // The executive itself reports 0 before the work, and 1 after it.
       const double progress = *static_cast<double*>(data);
       this->IsAtWork = progress > 0.0 && progress < 1.0;
       algorithm->SetAbortExecute(1);
@@ -82,7 +82,7 @@ void ExpectEmpty(vtkDataSet* output)
   EXPECT_EQ(output->GetFieldData()->GetNumberOfArrays(), 0);
 }
 
-/** Stops new filters at random events and, in turn, after random times. */
+/** Stops new filters by turns at random events and after random times. */
 void ExpectStops(const MakeFilter& make, int moments, unsigned int seed)
 {
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -102,7 +102,7 @@ void ExpectStops(const MakeFilter& make, int moments, unsigned int seed)
     const auto messages = test::Watch(filter);
     vtkNew<Stopper> stopper;
     filter->AddObserver(vtkCommand::ProgressEvent, stopper);
-    // The first is surely at work: how many events there are besides those of phases, time tells.
+    // The first stop is surely at work. How many events come, besides the phases', depends on time.
     const int any = static_cast<int>(random() % watch->Count);
     const int event = moment == 0 ? 2 : (moment % 2 == 0 ? any : -1);
     const double part = std::uniform_real_distribution<double>(0.0, 1.0)(random);
@@ -193,7 +193,7 @@ TEST(Cancel, Builder)
   };
   ExpectStops(make(vtkIsodiamondHierarchy::MINIMAL), 15, 3);
   ExpectStops(make(vtkIsodiamondHierarchy::RELEVANT), 5, 4);
-  // An HD has one phase, so small ones have nothing to tell at work.
+  // An HD is built in one phase, so small ones report nothing while at work.
   vtkNew<Stopper> stopper;
   const auto builder = make(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)();
   builder->AddObserver(vtkCommand::ProgressEvent, stopper);
@@ -232,7 +232,7 @@ TEST(Cancel, TheExtractorBehindAnAbortedBuilderIsEmptyAndSoWholeAgain)
   builder->AddObserver(vtkCommand::ProgressEvent, stopper);
   vtkNew<vtkIsodiamondExtractor> extractor;
   extractor->SetInputConnection(builder->GetOutputPort());
-  const auto messages = test::Watch(extractor); // what it says of an input without a hierarchy
+  const auto messages = test::Watch(extractor); // its errors: an input without a hierarchy
   extractor->Update();
   const vtkIdType cells = extractor->GetOutput()->GetNumberOfCells();
   ASSERT_GT(cells, 0);

@@ -71,7 +71,7 @@ TEST(Contour, EqualsFlyingEdgesOnAPlainImage)
 
 TEST(Contour, IsTheSameOfSamplesOfAnyType)
 {
-  // Values on both sides of zero, and of unsigned types of the middle of up to 32 bits.
+  // Values on both sides of zero, or, for unsigned types, of half their range (32 bits at most).
   const auto image = test::BallImage({ 12, 12, 12 });
   const auto ofType = [&](int type)
   {
@@ -120,7 +120,7 @@ TEST(Contour, MirroredImagesKeepNormalsTowardLowerValues)
 {
   const vtkSmartPointer<vtkImageData> image = test::BallImage({ 17, 17, 17 });
   const double plain = test::SixVolume(Contour(image, 0.0));
-  EXPECT_GT(plain, 0.0); // the ball is high inside
+  EXPECT_GT(plain, 0.0); // values are high inside the ball
   const double mirror[9] = { -1, 0, 0, 0, 1, 0, 0, 0, 1 };
   vtkNew<vtkMatrix3x3> direction;
   direction->DeepCopy(mirror);
@@ -192,7 +192,7 @@ TEST(Contour, BuildsOnlyWhatChanged)
   contour->Update();
   EXPECT_LT(contour->GetOutput()->GetNumberOfCells(), full);
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
-  contour->SetValue(1, 0.1); // one more isovalue builds one more
+  contour->SetValue(1, 0.1); // one more isovalue: one more build
   contour->Update();
   EXPECT_EQ(contour->GetNumberOfBuilds(), 2);
   contour->CloseBoundaryOn(); // another volume
@@ -205,7 +205,7 @@ TEST(Contour, BuildsOnlyWhatChanged)
   contour->SetInputData(test::BallImage({ 16, 16, 16 }));
   contour->Update();
   EXPECT_EQ(contour->GetNumberOfBuilds(), 8);
-  // Other ways to build, by either metric; what was built is kept.
+  // Other ways to build, with either metric; what was built is kept.
   contour->SetNumberOfContours(1);
   vtkIdType builds = 8;
   const auto expectBuild = [&](vtkIdType expected)
@@ -231,7 +231,7 @@ TEST(Contour, BuildsOnlyWhatChanged)
 
 TEST(Contour, StaysInsideOfTheImageUnlessClosed)
 {
-  // Everything above the isovalue at the boundary: open surfaces end there, closed ones do not.
+  // What is above the isovalue reaches the boundary: open surfaces end there, closed ones do not.
   for (const std::array<int, 3>& dims :
     std::vector<std::array<int, 3>>{ { 2, 2, 2 }, { 64, 64, 64 }, { 65, 65, 65 }, { 100, 37, 53 } })
   {

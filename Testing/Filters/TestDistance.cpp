@@ -37,7 +37,7 @@
 namespace
 {
 
-/** Distances of the points of one mesh to another. */
+/** Distances from the points of one mesh to another mesh. */
 struct Deviation
 {
   double Mean = 0.0;
@@ -76,7 +76,7 @@ Deviation DeviationOf(vtkPointSet* from, vtkPolyData* to)
   return deviation;
 }
 
-/** By how much a point is farther from a mesh than is tolerated of it, at most. */
+/** By how much points are farther from a mesh than is tolerated of each, at most. */
 double Excess(
   vtkPointSet* from, vtkPolyData* to, const std::function<double(const double*)>& tolerated)
 {
@@ -87,7 +87,7 @@ double Excess(
   return excess;
 }
 
-/** Distances that are only rounding: of float coordinates as large as the bounds. */
+/** What distance may come from rounding alone, for float coordinates as large as the bounds. */
 double Rounding(vtkDataSet* data)
 {
   double bounds[6];
@@ -100,8 +100,8 @@ double Rounding(vtkDataSet* data)
   return 4e-7 * largest;
 }
 
-/** Points of triangles, no more than a step apart; farther, and of some triangles only, where
- *  there were too many. */
+/** Points on a mesh's triangles, no more than a step apart; farther apart, and on some triangles
+ *  only, where these would be too many. */
 vtkSmartPointer<vtkPolyData> SamplesOf(vtkPolyData* mesh, double step)
 {
   constexpr double most = 6000.0;
@@ -144,13 +144,13 @@ vtkSmartPointer<vtkPolyData> SamplesOf(vtkPolyData* mesh, double step)
   return result;
 }
 
-/** That of the way back: no point of a mesh is farther from full resolution. */
+/** The largest deviation of the way back: from points on a mesh to full resolution. */
 double DeviationBack(vtkPolyData* mesh, vtkPolyData* full, double voxel)
 {
   return DeviationOf(SamplesOf(mesh, voxel / 8.0), full).Largest;
 }
 
-/** @param grid an image or a rectilinear grid @param voxel a length that is its cells' */
+/** @param grid an image or a rectilinear grid @param voxel about the length of its cells */
 void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, bool close = false)
 {
   vtkNew<vtkIsodiamondContour> contour;
@@ -177,7 +177,7 @@ void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, boo
       filter->Update();
       if (filter == onlyOne && inVoxels != 0.25 && inVoxels != 1.0)
       {
-        continue; // measuring takes its time
+        continue; // measuring takes long
       }
       EXPECT_LE(DeviationOf(full, filter->GetOutput()).Largest, tolerance + Rounding(full))
         << "tolerance " << inVoxels << " voxels";
@@ -194,7 +194,7 @@ void ExpectPromiseOfContour(vtkDataSet* grid, double isovalue, double voxel, boo
   EXPECT_EQ(onlyOne->GetNumberOfBuilds(), 1);
 }
 
-/** One surface of an interval volume: the faces of one tetrahedron whose corners all lie on it. */
+/** One surface of an interval volume: faces of only one tetrahedron, with all corners on it. */
 vtkSmartPointer<vtkPolyData> SurfaceOf(vtkUnstructuredGrid* volume, int surface)
 {
   vtkDataArray* surfaces = volume->GetPointData()->GetArray("Surface");
@@ -237,7 +237,7 @@ vtkSmartPointer<vtkPolyData> SurfaceOf(vtkUnstructuredGrid* volume, int surface)
   return result;
 }
 
-/** The points of a volume on one surface. */
+/** The points of a volume that lie on one of its surfaces. */
 vtkSmartPointer<vtkPolyData> PointsOn(vtkUnstructuredGrid* volume, int surface)
 {
   vtkDataArray* surfaces = volume->GetPointData()->GetArray("Surface");
@@ -322,7 +322,7 @@ TEST(Distance, IsAPromiseOfClosedBoundaries)
   ExpectPromiseOfContour(image, 0.1, 0.9, true);
 }
 
-// Where ISODIAMONDS_LONG is set, of 129 samples on each axis too.
+// If ISODIAMONDS_LONG is set, with 129 samples on each axis, too.
 TEST(Distance, IsAPromiseOnNoisyWaves)
 {
   std::vector<int> sizes = { 33, 65 };
@@ -392,7 +392,7 @@ TEST(Distance, IsAPromiseOnBothSurfacesOfIntervalVolumes)
   }
 }
 
-// It follows from the properties alone: not from what the filter knows already.
+// The mesh depends on the properties alone, not on what the filter knows already.
 TEST(Distance, OfOneToleranceDoesNotDependOnOthers)
 {
   const auto image = test::PhantomImage({ 40, 36, 44 }, 5.0);
@@ -400,7 +400,7 @@ TEST(Distance, OfOneToleranceDoesNotDependOnOthers)
   known->SetInputData(image);
   known->SetValue(0, 50.0);
   known->SetErrorTolerance(0.5);
-  known->Update(); // all errors
+  known->Update(); // measures all errors
   vtkNew<vtkPolyData> ofAll;
   ofAll->DeepCopy(known->GetOutput());
   EXPECT_NE(ofAll->GetFieldData()->GetNumberOfArrays(), 0);
@@ -432,7 +432,7 @@ TEST(Distance, OfOneToleranceDoesNotDependOnOthers)
   EXPECT_EQ(test::Difference(known->GetOutput(), ofAll), "");
 }
 
-// One mesh with a region of interest, or from a viewpoint: what holds at each place.
+// With a region of interest, or from a viewpoint, the tolerance of each place holds there.
 TEST(Distance, OfOneToleranceHoldsWhereItIsAskedFor)
 {
   const auto image = test::PhantomImage({ 40, 40, 40 }, 5.0);
@@ -553,7 +553,7 @@ TEST(Distance, SimplifiesSharpEdgesThatTheFieldMetricKeeps)
   const vtkIdType triangles = contour->GetOutput()->GetNumberOfCells();
   const Deviation distance = DeviationOf(full, contour->GetOutput());
   EXPECT_LT(triangles, full->GetNumberOfCells() / 4);
-  // With no fewer triangles the field metric's mesh is farther away.
+  // Even with no fewer triangles, the field metric's mesh is farther away.
   contour->SetErrorMetricToField();
   contour->SetErrorTolerance(100.0);
   while (contour->Update(), contour->GetOutput()->GetNumberOfCells() < triangles)
@@ -578,14 +578,14 @@ TEST(Distance, KeepsThinFeaturesUnlessToldOtherwise)
   contour->SetInputData(image);
   contour->SetValue(0, 0.0);
   contour->PreserveTopologyOff();  // or the speck would stay anyway
-  contour->SetErrorTolerance(5.0); // the speck is thinner, but farther from the ball
+  contour->SetErrorTolerance(5.0); // the speck is thinner than this, but farther from the ball
   contour->Update();
   EXPECT_GT(contour->GetOutput()->GetBounds()[1], 26.0);
   contour->PreserveFeaturesOff();
   contour->Update();
   EXPECT_EQ(contour->GetNumberOfBuilds(), 2);
   EXPECT_LT(contour->GetOutput()->GetBounds()[1], 26.0);
-  contour->SetErrorTolerance(0.01); // thinner than the tolerance only
+  contour->SetErrorTolerance(0.01); // only what is thinner than the tolerance goes
   contour->Update();
   EXPECT_GT(contour->GetOutput()->GetBounds()[1], 26.0);
 }
@@ -603,7 +603,7 @@ TEST(Distance, LinearIsoverticesLeaveTheSurfaceExactOnesDoNot)
   contour->SetErrorTolerance(10.0);
   contour->Update();
   const double exact = DeviationOf(contour->GetOutput(), full).Largest;
-  // One coefficient step of the longest edge that the mesh has, by its coarsest level.
+  // One step of a coefficient on the mesh's longest edge, which is of its coarsest level.
   double levels[2];
   contour->GetOutput()->GetCellData()->GetArray("Level")->GetRange(levels);
   EXPECT_LE(exact, std::sqrt(3.0) * std::pow(2.0, 6 - levels[0]) / 256);
@@ -625,7 +625,7 @@ TEST(Distance, NeedsAnIsovalue)
   EXPECT_EQ(messages->ErrorCount, 1);
   EXPECT_NE(messages->Errors.find("field metric"), std::string::npos);
   EXPECT_EQ(diamonds->GetOutput()->GetNumberOfPoints(), 0);
-  // From an HD others can have it: its samples are all that is needed.
+  // Other models built from an HD can have it: they only need its samples.
   diamonds->SetErrorMetricToField();
   vtkNew<vtkIsodiamondBuilder> minimal[2];
   for (int i = 0; i < 2; ++i)
@@ -667,7 +667,7 @@ TEST(Distance, NeedsCoordinatesThatRiseOrFall)
 {
   const auto image = test::BallImage({ 17, 17, 17 });
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double bad : { 7.0, 6.5, nan, -HUGE_VAL }) // the one before is 7
+  for (const double bad : { 7.0, 6.5, nan, -HUGE_VAL }) // the coordinate before is 7
   {
     const auto grid = test::Rectilinear(
       image, [&](int axis, int i) { return axis == 1 && i == 8 ? bad : i + 0.0 * axis; });
@@ -720,7 +720,7 @@ TEST(Distance, BuildsAgainOnlyForWhatMatters)
   expectBuilds(1);
   contour->SetErrorMetricToField();
   expectBuilds(1);
-  contour->PreserveFeaturesOn(); // says nothing to the field metric
+  contour->PreserveFeaturesOn(); // means nothing to the field metric
   image->SetSpacing(1.0, 1.0, 1.0);
   expectBuilds(0);
   contour->SetValue(0, 0.05);

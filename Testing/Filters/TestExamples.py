@@ -48,7 +48,7 @@ writer.Write()
 angles = run("dihedral_angles.py", made("volume.vtu"))
 assert re.search(r"\d", angles), angles
 
-# With an interpreter that has the libraries, if there is one: ParaView's need not.
+# With /usr/bin/python3, if that has the libraries: ParaView's interpreter need not.
 heat = os.path.join(EXAMPLES, "heat.py")
 libraries = ["/usr/bin/python3", "-c", "import getfem, meshio, scipy"]
 if subprocess.run(libraries, check=False, stderr=subprocess.DEVNULL).returncode == 0:

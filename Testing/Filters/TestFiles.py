@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A hierarchy that four processes build together and save by ParaView's parallel writer, and that
-any number of processes read: the same arrays as one process builds, and the same mesh."""
+"""Four processes build a hierarchy together and save it with ParaView's parallel writer; any number
+of processes read it, and have the same arrays and the same mesh as one process that builds it."""
 import os
 import sys
 
@@ -22,7 +22,7 @@ def save():
     hierarchy = IsodiamondHierarchy(Wavelet(WholeExtent=EXTENT), Isovalue=150, ErrorMetric="Distance")
     SaveData(PATH, hierarchy, DataMode="Binary")  # see README.md on files
     controller.Barrier()
-    # One of them has written it all: no process has a part of a hierarchy.
+    # One process has written it all: none has only a part of a hierarchy.
     assert os.listdir(PATH[:-5]) == ["hierarchy_0.vtp"], os.listdir(PATH[:-5])
 
 

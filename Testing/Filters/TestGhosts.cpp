@@ -27,7 +27,7 @@
 namespace
 {
 
-/** Corners of cells, as global ids. */
+/** A cell's corners, as global ids. */
 using Corners = std::vector<vtkIdType>;
 
 vtkIdType GlobalId(vtkDataSetAttributes* data, vtkIdType id)
@@ -47,7 +47,8 @@ Corners CornersOf(vtkDataSet* mesh, vtkIdType cell)
   return corners;
 }
 
-/** The numbers of cells that share a point with some, level by level, and are not among them. */
+/** The numbers of the cells around some: those that share a point with them, then with those, and
+ *  so on for each level. */
 std::set<vtkIdType> CellsAround(
   const std::vector<Corners>& cells, const std::set<vtkIdType>& some, int levels)
 {
@@ -134,7 +135,7 @@ void ExpectGhosts(vtkIsodiamondAlgorithm* filter, int pieces, int levels)
       pointOwners[id] += isDuplicate ? 0 : 1;
     }
   }
-  // Each has one owner.
+  // Each cell and each point has one owner.
   EXPECT_EQ(static_cast<vtkIdType>(cellOwners.size()), whole->GetNumberOfCells());
   EXPECT_EQ(static_cast<vtkIdType>(pointOwners.size()), whole->GetNumberOfPoints());
   for (const std::map<vtkIdType, int>& owners : { cellOwners, pointOwners })

@@ -41,7 +41,7 @@ vtkSmartPointer<vtkPolyData> Contour(
   return contour->GetOutput();
 }
 
-/** The same samples at place(x, y, z) of their indices. */
+/** An image's samples as a structured grid, at place(x, y, z) of their indices. */
 template <typename Place>
 vtkSmartPointer<vtkStructuredGrid> Structured(vtkImageData* image, const Place& place)
 {
@@ -64,7 +64,7 @@ vtkSmartPointer<vtkStructuredGrid> Structured(vtkImageData* image, const Place& 
   return grid;
 }
 
-/** Expects our surface of a grid to be VTK's of the same grid, to a part of a voxel. */
+/** Expects our surface of a grid to be VTK's of the same grid, within a part of a voxel. */
 void ExpectSameAsContourFilter(vtkDataSet* grid, double voxel)
 {
   vtkNew<vtkContourFilter> filter;
@@ -78,7 +78,7 @@ void ExpectSameAsContourFilter(vtkDataSet* grid, double voxel)
   EXPECT_LT(test::LargestDistance(ours, theirs), 0.3 * voxel);
   EXPECT_EQ(test::BoundaryEdges(ours), 0);
   EXPECT_NEAR(test::Area(ours), test::Area(theirs), 0.05 * test::Area(theirs));
-  // VTK's own has normals to lower values unless the grid mirrors; ours always, and it is a ball.
+  // VTK's normals point to lower values unless the grid mirrors; ours always, so out of the ball.
   EXPECT_NEAR(
     test::SixVolume(ours), std::fabs(test::SixVolume(theirs)), 0.05 * test::SixVolume(ours));
   for (const double tolerance : { 0.05, 0.2, 1e9 })
@@ -93,7 +93,7 @@ std::array<double, 3> Bent(double x, double y, double z)
   return { (10 + 0.5 * y) * std::sin(angle), (10 + 0.5 * y) * std::cos(angle), 0.7 * z + 0.1 * x };
 }
 
-/** Area of a mesh, no triangle of which is to have its centre in a box. */
+/** The area of a mesh. Expects no triangle to have its centre in a box. */
 double AreaOutside(vtkPolyData* mesh, const std::array<double, 6>& box)
 {
   double area = 0.0;
@@ -127,7 +127,7 @@ TEST(Grids, EvenRectilinearGridsAreImages)
     [&](int axis, int i) { return image->GetOrigin()[axis] + i * image->GetSpacing()[axis]; });
   for (const double tolerance : { 0.0, 0.2 })
   {
-    vtkNew<vtkIsodiamondContour> contour; // the distance metric, too
+    vtkNew<vtkIsodiamondContour> contour; // with the distance metric, too
     contour->SetValue(0, 0.0);
     contour->SetErrorTolerance(tolerance);
     contour->SetInputData(image);
@@ -152,7 +152,7 @@ TEST(Grids, StructuredGridsHaveTheSurfaceOfTheContourFilter)
 {
   const auto image = test::BallImage({ 25, 21, 23 });
   ExpectSameAsContourFilter(Structured(image, Bent), 1.0);
-  // Mirrored, and of doubles.
+  // Mirrored, with points in double precision.
   const auto mirrored = Structured(image,
     [](double x, double y, double z)
     {
@@ -274,7 +274,7 @@ TEST(Grids, BlankedAndGhostCellsHaveNoSurface)
 {
   const auto image = test::BallImage({ 24, 24, 24 });
   const auto full = Contour(image, 0.0);
-  // A box of cells, blanked in three ways: [8, 12) x [0, 23) x [0, 23), and one point.
+  // A box of cells, [8, 12) x [0, 23) x [0, 23): blanked, with blanked points, or ghosts.
   const std::array<double, 6> box = { 8, 12, 0, 23, 0, 23 };
   const auto inBox = [&](int x) { return x >= 8 && x < 12; };
   vtkNew<vtkUniformGrid> blankedCells;
@@ -286,7 +286,7 @@ TEST(Grids, BlankedAndGhostCellsHaveNoSurface)
       blankedCells->BlankCell(cell);
     }
   }
-  vtkNew<vtkUniformGrid> blankedPoints; // inside of the same box
+  vtkNew<vtkUniformGrid> blankedPoints; // inside the same box: its cells are hidden with them
   blankedPoints->ShallowCopy(image);
   for (vtkIdType point = 0; point < image->GetNumberOfPoints(); ++point)
   {
@@ -306,7 +306,7 @@ TEST(Grids, BlankedAndGhostCellsHaveNoSurface)
       inBox(static_cast<int>(cell % 23)) ? vtkDataSetAttributes::DUPLICATECELL : 0);
   }
   ghosts->GetCellData()->AddArray(types);
-  double area = 0.0; // of what full resolution has elsewhere
+  double area = 0.0; // of the surface at full resolution, elsewhere
   for (const auto& triangle : test::SortedTriangles(full))
   {
     const double x = (triangle[0][0] + triangle[1][0] + triangle[2][0]) / 3.0;
@@ -343,7 +343,7 @@ TEST(Grids, BlankedAndGhostCellsHaveNoSurface)
         EXPECT_LT(surface->GetNumberOfCells(), full->GetNumberOfCells());
       }
     }
-    vtkNew<vtkIsodiamondIntervalVolume> volume; // its inside as well
+    vtkNew<vtkIsodiamondIntervalVolume> volume; // the inside is left out, too
     volume->SetInputData(grid);
     volume->SetIsorange(-1e9, 1e9);
     volume->SetErrorTolerance(1e9);
@@ -485,7 +485,7 @@ TEST(Grids, HierarchiesAreKnownByContentAndKeptWithinTheCache)
   contour->SetValue(1, 0.1);
   contour->SetValue(2, -0.1);
   contour->Update();
-  EXPECT_EQ(contour->GetNumberOfBuilds(), 5); // those of one execution stay together
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 5); // those of one execution are kept together
   EXPECT_EQ(contour->GetNumberOfCachedHierarchies(), 3);
   contour->SetValue(2, -0.2);
   contour->Update();

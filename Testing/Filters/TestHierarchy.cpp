@@ -315,7 +315,7 @@ TEST(Hierarchy, OfVersion2IsReadAsWhatItIs)
     EXPECT_EQ(hierarchy->GetFieldData()->GetArray("IsodiamondHeader")->GetTuple1(0), 2);
     EXPECT_EQ(hierarchy->GetModel(), name[0] - '0');
     EXPECT_EQ(hierarchy->GetShape(), name[1] - '0');
-    vtkNew<vtkXMLPolyDataReader> current; // MakeFiles' of the same
+    vtkNew<vtkXMLPolyDataReader> current; // the same, as MakeFiles made it
     current->SetFileName((std::string(DATA_FOLDER) + "/Files/" + name + "-ascii.vtp").c_str());
     for (const double tolerance : { 0.0, 0.3 })
     {
@@ -379,9 +379,9 @@ TEST(Hierarchy, OfVersion2HasOneSidedDistancesAndAllPieces)
   vtkNew<vtkIsodiamondExtractor> extractors[2];
   extractors[0]->SetInputData(builder->GetOutput());
   extractors[1]->SetInputData(old);
-  EXPECT_LT(extractors[0]->GetErrorToleranceRange()[1], 2.0); // the distance of interest
+  EXPECT_LT(extractors[0]->GetErrorToleranceRange()[1], 2.0); // 2 % of the diagonal
   EXPECT_EQ(extractors[0]->GetErrorToleranceRange()[1], extractors[1]->GetErrorToleranceRange()[1]);
-  // Headers and versions of each other are neither.
+  // An old header with the current version's number is refused.
   header->SetTuple1(0, 3);
   header->Modified();
   old->Modified();

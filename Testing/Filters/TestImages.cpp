@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What users see, against baselines in Data/Baseline. Numbers check the geometry elsewhere; these
-// check the look: shading, edges, colours, what is inside and what is outside.
+// What users see, against baselines in Data/Baseline. Other tests check the geometry by numbers;
+// these check the look: shading, edges, colours, what is inside and what is outside.
 #include "FilterTestTools.h"
 #include "ImageTestTools.h"
 
@@ -30,8 +30,8 @@ namespace
 using test::ColourBy;
 using test::Scene;
 
-/** A picture is like the baseline of this test's name. Then faults are planted in what is drawn,
- * one at a time: none may go unnoticed. */
+/** Expects a picture to be like the baseline with the current test's name. Then plants faults in
+ * what is drawn, one at a time: none may go unnoticed. */
 void Compare(const Scene& scene)
 {
   const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
@@ -55,7 +55,7 @@ void Compare(const Scene& scene)
     {
       fault.Plant();
       const auto wrong = scene.Draw();
-      // What hardly anybody sees is none of a picture's subjects.
+      // A picture need not show a fault that can hardly be seen.
       const bool isHidden = fault.MayBeHidden && test::CountChanged(wrong, right) < 50;
       EXPECT_TRUE(isHidden || !test::AreLike(wrong, baseline)) << fault.Name;
       fault.Undo();
@@ -194,7 +194,7 @@ TEST(Images, IntervalVolumes)
 
 TEST(Images, ColouredByAnotherArray)
 {
-  // Stripes by height, the same at full resolution, coarse, and from a hierarchy that carries them.
+  // Stripes by height: the same at full resolution, coarse, and from a hierarchy that carries them.
   const auto image = test::BallImage({ 33, 33, 33 });
   vtkNew<vtkFloatArray> stripes;
   stripes->SetName("stripes");
@@ -264,7 +264,7 @@ TEST(Images, SeveralIsovalues)
 
 TEST(Images, DiamondMeshesOfHierarchiesOfDiamondsAndMinimalOnes)
 {
-  // The paper's figure 14: an HD's mesh is all of the domain, an MI's what carries the surface.
+  // The paper's figure 14: an HD's mesh fills the grid, an MI's is only what carries the surface.
   Scene scene(2);
   vtkNew<vtkIsodiamondBuilder> builders[2];
   vtkNew<vtkDiamondMesh> meshes[2];
@@ -291,8 +291,8 @@ TEST(Images, DiamondMeshesOfHierarchiesOfDiamondsAndMinimalOnes)
 
 TEST(Images, KindsOfIsodiamonds)
 {
-  // Active, creation and relevant ones of RI; MI has no relevant ones; interval volumes have an
-  // inside.
+  // An RI's active, creation and relevant ones; an MI, which has no relevant ones; an interval
+  // volume's, which has an inside.
   Scene scene(3);
   vtkNew<vtkIsodiamondBuilder> builders[3];
   vtkNew<vtkIsodiamondPoints> points[3];

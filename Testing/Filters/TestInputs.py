@@ -24,7 +24,7 @@ wavelet.UpdatePipeline()
 expected = cells(IsodiamondContour(wavelet, Isosurfaces=[150]))
 assert expected > 0
 
-# Cell data, by the conversion that is an option of ParaView's: the same as by hand.
+# Cell data, converted by ParaView, where that is an option: the same as by hand.
 of_cells = PointDatatoCellData(wavelet)
 by_hand = CellDatatoPointData(of_cells)
 by_hand.UpdatePipeline()
@@ -35,7 +35,7 @@ region = IsodiamondIntervalVolume(of_cells, Isorange=[150, 300])
 assert cells(region) == cells(IsodiamondIntervalVolume(by_hand, Isorange=[150, 300])) > 0
 vtkSMInputArrayDomain.SetAutomaticPropertyConversion(False)
 
-# Composite data sets, by ParaView's iteration; a new tolerance builds nothing.
+# Composite data sets, block by block; a new tolerance builds nothing.
 small = Wavelet(WholeExtent=[-5, 5] * 3)
 group = GroupDatasets(Input=[wavelet, small])
 group.UpdatePipeline()

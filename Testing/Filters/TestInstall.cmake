@@ -1,4 +1,4 @@
-# The installed library as its users meet it: installs to an empty folder, builds and runs the C++
+# The installed library as its users find it: installs to an empty folder, builds and runs the C++
 # example against it, and runs TestPython.py with its Python package.
 # Needs: BUILD, SOURCE, FOLDER, GENERATOR. If there is a package: PYTHON, PACKAGES (its folder).
 function(run)

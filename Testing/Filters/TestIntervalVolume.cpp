@@ -34,7 +34,7 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** The sum of the volumes; every one must be a positive tetrahedron. */
+/** The sum of the cells' volumes; every cell must be a tetrahedron of positive volume. */
 double PositiveVolume(vtkUnstructuredGrid* mesh)
 {
   double sum = 0.0;
@@ -141,8 +141,8 @@ TEST(IntervalVolume, KeepsPositiveVolumesInTheWorld)
   EXPECT_NEAR(PositiveVolume(far->GetOutput()), 3.0 * volume, 1e-3 * volume);
 }
 
-// Values far beyond the range put isovertices next to the lattice's vertices; a spacing that is no
-// power of two has every coordinate rounded.
+// Values far beyond the range put isovertices next to the lattice's vertices; with a spacing that
+// is no power of two, every coordinate is rounded.
 TEST(IntervalVolume, KeepsThinTetrahedraPositive)
 {
   unsigned state = 1;
@@ -194,7 +194,7 @@ TEST(IntervalVolume, BuildsOnceForAllTolerances)
   const vtkIdType coarse = volume->GetOutput()->GetNumberOfCells();
   EXPECT_LT(coarse, full);
   EXPECT_EQ(volume->GetNumberOfBuilds(), 1);
-  volume->SetInteriorTolerance(0.01); // the first one needs more
+  volume->SetInteriorTolerance(0.01); // the first of these needs another build
   volume->Update();
   EXPECT_GT(volume->GetOutput()->GetNumberOfCells(), coarse);
   EXPECT_EQ(volume->GetNumberOfBuilds(), 2);
@@ -279,7 +279,7 @@ TEST(IntervalVolume, OneHierarchyOfDiamondsAnswersBothShapes)
     volume->Update();
     EXPECT_TRUE(SortedTetrahedra(extractor->GetOutput()) == SortedTetrahedra(volume->GetOutput()));
   }
-  // What RI and MI cannot do is said once, and has no effect.
+  // RI and MI warn once of what they cannot do; it has no effect.
   builder->SetModelToMinimal();
   builder->SetIsovalue(0.0);
   const auto messages = test::Watch(extractor);
@@ -326,7 +326,7 @@ TEST(IntervalVolume, RefusesRangesThatAreNone)
       EXPECT_EQ(vtkPointSet::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints(), 0);
     }
   }
-  // Outside of the data: empty, no error.
+  // Outside the data: empty, no error.
   for (const double lower : { -100.0, 100.0 })
   {
     const auto volume = MakeVolume(test::BallImage({ 9, 9, 9 }), lower, lower + 1.0);
@@ -336,7 +336,7 @@ TEST(IntervalVolume, RefusesRangesThatAreNone)
     EXPECT_EQ(volume->GetOutput()->GetNumberOfCells(), 0);
     EXPECT_NE(volume->GetOutput()->GetPointData()->GetArray("density"), nullptr);
   }
-  // Beyond it on both sides: the whole box.
+  // Beyond the data on both sides: the whole box.
   const auto all = MakeVolume(test::BallImage({ 9, 9, 9 }), -100.0, 100.0);
   all->SetErrorTolerance(Infinity);
   all->Update();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Allocations that fail: an error and an empty output, and a filter that works again afterwards.
-// FaultInjection replaces the allocation functions of its whole program, so it is one of its own.
+// FaultInjection replaces the allocation functions of its whole program, so this is one of its own.
 #include "FaultInjection.h"
 #include "FilterTestTools.h"
 
@@ -102,7 +102,7 @@ bool IsEmpty(vtkDataSet* data)
 
 using MakeFilter = std::function<vtkSmartPointer<vtkAlgorithm>()>;
 
-/** The first of many allocations, and some of the others at random. */
+/** Numbers of allocations to fail: the first of so many, and some of the others at random. */
 std::set<long> Chosen(long count, unsigned int seed)
 {
   constexpr long first = 40;
@@ -120,7 +120,7 @@ std::set<long> Chosen(long count, unsigned int seed)
   return chosen;
 }
 
-/** Lets allocations fail in new filters. @param failures how many, one after the other */
+/** Lets allocations fail in new filters. @param failures how many in a row */
 void ExpectErrors(const MakeFilter& make, Fault& fault, long failures, unsigned int seed)
 {
   Injected = { &fault, Never, 0 };
@@ -141,13 +141,13 @@ void ExpectErrors(const MakeFilter& make, Fault& fault, long failures, unsigned 
     const bool isWhole = messages->ErrorCount == 0 && !IsEmpty(OutputOf(filter));
     if (isWhole || (failures == 1 && messages->ErrorCount == 0))
     {
-      // Something optional; or this time there were fewer allocations: batches are cut by time.
+      // It was for something optional, or there were fewer this time: batches are cut by time.
       EXPECT_EQ(test::Difference(OutputOf(filter), OutputOf(whole)), "");
     }
     else
     {
       EXPECT_TRUE(IsEmpty(OutputOf(filter)));
-      EXPECT_LE(messages->ErrorCount, 1) << messages->Errors; // without memory, there may be none
+      EXPECT_LE(messages->ErrorCount, 1) << messages->Errors; // without memory, maybe none
     }
     filter->Modified();
     filter->Update();
@@ -286,7 +286,7 @@ TEST(Memory, ContourOfOneTolerance)
 
 TEST(Memory, ContourOfSeveralValues)
 {
-  // Not malloc: vtkAppendPolyData allocates itself, where it has been made sure that it can.
+  // Not malloc: vtkAppendPolyData calls it itself, after the filter has made sure that it can.
   const auto image = ImageWithAttributes(Size);
   const MakeFilter make = [&]
   {
@@ -335,7 +335,7 @@ TEST(Memory, BuilderAndWhatReadsHierarchies)
     ExpectAllErrors(makeBuilder, 5);
     const auto builder = makeBuilder();
     builder->Update();
-    // A copy that is no vtkIsodiamondHierarchy is read anew by each.
+    // A copy that is no vtkIsodiamondHierarchy is read anew by each filter.
     vtkNew<vtkPolyData> hierarchy;
     hierarchy->ShallowCopy(builder->GetOutputDataObject(0));
     const auto makeReader = [&](auto make) -> MakeFilter
@@ -377,10 +377,10 @@ TEST(Memory, CountsOnDemand)
 namespace
 {
 
-/** Arenas of threads reserve memory, which could be used whatever the limit: one for all. */
+/** Threads' arenas reserve memory that could be used whatever the limit: so one for all threads. */
 [[maybe_unused]] const int OneArena = mallopt(M_ARENA_MAX, 1);
 
-/** What the process has of the address space, in bytes. */
+/** The size of the process's address space, in bytes. */
 rlim_t AddressSpace()
 {
   long pages = 0;
@@ -395,11 +395,11 @@ rlim_t AddressSpace()
   return static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-/** Runs a filter with some bytes more than the process has; then without a limit. @return what went
- *  wrong */
+/** Runs a filter with some bytes more than the process has; then without a limit. @return 0 if it
+ *  failed as it should, 3 if there was enough memory, otherwise what went wrong */
 int RunLimited(const MakeFilter& make, rlim_t bytes)
 {
-  // TBB 2022.3 waits for itself forever where it finds no memory, in any program.
+  // Where TBB 2022.3 finds no memory it waits for itself forever, in any program.
   if (std::strcmp(vtkSMPTools::GetBackend(), "TBB") == 0)
   {
     vtkSMPTools::SetBackend("Sequential");
@@ -429,7 +429,7 @@ int RunLimited(const MakeFilter& make, rlim_t bytes)
   return isEmpty ? 0 : 3;
 }
 
-/** In children, with more and more memory until there is enough. */
+/** Runs a filter in child processes, with more and more memory until there is enough. */
 void ExpectErrorsWithLimits(const MakeFilter& make)
 {
   constexpr rlim_t mebibyte = 1 << 20;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Filters whose properties and inputs change between updates, in random order: always as new ones.
+// Filters whose properties and inputs change between updates, at random: always like new ones.
 #include "FilterTestTools.h"
 
 #include "vtkDoubleArray.h"
@@ -117,7 +117,7 @@ public:
 
   void Change(Settings& settings)
   {
-    // Nonsense goes again soon: most steps are to have an output.
+    // Nonsense is taken back in the next step, as most steps should have an output.
     const bool isNonsense = this->Repair != nullptr;
     if (isNonsense)
     {
@@ -348,7 +348,7 @@ private:
     }
   }
 
-  /** Sets what makes no sense, and keeps how to take it back. */
+  /** Sets nonsense, and keeps how to take it back. */
   template <typename T>
   void Break(Settings& settings, T Settings::*member, const T& nonsense)
   {
@@ -394,7 +394,7 @@ private:
   std::function<void(Settings&)> Repair;
 };
 
-/** A filter, or several, that makes a mesh of settings. */
+/** One filter or several that make a mesh as settings say. */
 class Subject
 {
 public:
@@ -549,7 +549,7 @@ public:
     this->Extractor->SetOutputType(settings.OutputType);
     this->Extractor->SetInteriorTolerance(settings.InteriorTolerance);
     this->Extractor->SetUseInteriorTolerance(settings.UseInterior);
-    // Only an HD has others than its own; RI and MI warn of that.
+    // Only an HD can give another shape or value than its own; RI and MI warn.
     this->Extractor->SetShape(settings.Gradients ? settings.Shape : -1);
     this->Extractor->StoreIsovalue(isovalue + 0.05);
     this->Extractor->SetUseIsovalue(settings.Scalars);
@@ -596,7 +596,7 @@ void ExpectSameAsNew(int steps, unsigned int seed, bool onlyImages)
       ++errors;
       EXPECT_EQ(subject.Output()->GetNumberOfPoints(), 0);
     }
-    // What did not change anything is not executed again, and says nothing again.
+    // After a step that changes nothing, nothing is executed again, so no error is repeated.
     EXPECT_LE(isRefused, isFreshRefused);
     meshes += fresh.Output()->GetNumberOfCells() > 0 ? 1 : 0;
   }

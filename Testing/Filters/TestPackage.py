@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The package as it was installed: ParaView lists the plugin by itself and loads it by its name, and
-Python finds the VTK module. scripts/try-package.sh runs it."""
+"""The package as installed: ParaView lists the plugin without being told, and loads it by its name;
+Python finds the VTK module. scripts/try-package.sh runs this."""
 from paraview.simple import *
 from isodiamonds import vtkIsodiamondContour
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""In pvbatch with any number of processes: the shares of all of them are the mesh that one process
+"""In pvbatch with any number of processes: their shares together are the mesh that one process
 makes, with each cell once and no crack.
 
-Every process runs this script (pvbatch --symmetric), and the filters of its own part of ParaView's
-pipeline; the first one collects the meshes and compares them."""
+Every process runs this script (pvbatch --symmetric), and with it the filters of ParaView's pipeline
+for its own share; the first one collects the meshes and compares them."""
 import os
 import sys
 
@@ -21,8 +21,8 @@ LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
 
 
 def faces_of_one(rows, size):
-    """The sides (edges of triangles, faces of tetrahedra) of one cell alone, by exact positions of
-    their corners; none may be of more than two."""
+    """The sides (edges of triangles, faces of tetrahedra) that only one cell has, told apart by
+    exact positions of their corners; no side may have more than two cells."""
     width = rows.shape[1] // size
     positions = rows.reshape(-1, width)[:, :3]
     points, ids = numpy.unique(positions, axis=0, return_inverse=True)
@@ -34,14 +34,14 @@ def faces_of_one(rows, size):
 
 
 def on_border(sides):
-    """Whether every side lies in one of the volume's six faces."""
+    """For every side, whether it lies in one of the volume's six faces."""
     bounds = numpy.array(EXTENT, dtype=float).reshape(3, 2)
     on = [(sides[:, :, axis] == bound).all(axis=1) for axis in range(3) for bound in bounds[axis]]
     return numpy.any(on, axis=0)
 
 
 def pieces(proxy):
-    """What each process has of a filter's output, on the first process; nothing elsewhere."""
+    """On the first process, what each process has of a filter's output; elsewhere, nothing."""
     proxy.UpdatePipeline()
     output = proxy.GetClientSideObject().GetOutputDataObject(0)
     if output.IsA("vtkCompositeDataSet"):
@@ -52,7 +52,7 @@ def pieces(proxy):
 
 
 def compare(name, proxy, filter):
-    """The pieces of a filter of ParaView with the mesh of one of VTK."""
+    """Compares the pieces of a ParaView filter with the whole mesh of a VTK filter."""
     meshes = pieces(proxy)
     if rank > 0:
         return
@@ -113,7 +113,7 @@ def main():
                    ErrorTolerance=tolerance),
         )
 
-    # Each has asked for its part of the volume.
+    # Each process has asked for its part of the volume only.
     extent = wavelet.GetClientSideObject().GetOutputDataObject(0).GetExtent()
     assert ranks == 1 or extent[5] - extent[4] < EXTENT[5] - EXTENT[4], extent
 
@@ -141,7 +141,7 @@ def main():
         IsodiamondExtract(XMLPolyDataReader(FileName=[path]), ErrorTolerance=0.3),
         of_hierarchy(isodiamonds.vtkIsodiamondExtractor(), 0.3),
     )
-    # A group of what each process has asks for what is asked of it: the whole volume, not pieces.
+    # Behind a group, filters ask for the whole volume, not pieces, and the group passes that on.
     compare(
         "contour of a group",
         IsodiamondContour(

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""In pvbatch with two or four processes, a source that has a part of an image in each of them, whatever
-it is asked for, as a simulation has: together they have the mesh that one process makes of the whole,
-to the bit. Parts that do not make a whole are an error in all of them."""
+"""In pvbatch with two or four processes: a source that gives a part of an image in each process,
+whatever it is asked for, as a simulation does. Together the processes have the mesh that one makes
+of the whole, to the bit. Parts that do not make a whole are an error in all processes."""
 import numpy
 
 import isodiamonds
@@ -9,7 +9,7 @@ from ParallelTestTools import SIZE, Source, abort_at, lexsorted, new, rank, rank
 
 
 def slabs_of(axis, shared):
-    """Each process's slab across an axis. @param shared whether neighbours share samples"""
+    """This process's slab across an axis. @param shared whether neighbours share samples"""
     bounds = [(SIZE[axis] - 1) * i // ranks for i in range(ranks + 1)]
     part = [bound for length in SIZE for bound in (0, length - 1)]
     part[2 * axis] = bounds[rank] + (0 if shared or rank == 0 else 1)
@@ -18,7 +18,7 @@ def slabs_of(axis, shared):
 
 
 def boxes():
-    """Each process's, not in rows: planes that cut a part end at its neighbours."""
+    """This process's box. The boxes form no grid: a plane between two may end at a third."""
     x, y, z = (length - 1 for length in SIZE)
     parts = {
         2: [[0, x, 0, y, 0, 9], [0, x, 0, y, 9, z]],
@@ -88,7 +88,7 @@ def check_refused(name, part, message, change=lambda source: None):
 
 
 def check_change(part):
-    """Of one process's part, while all are asked for another tolerance: all build anew."""
+    """One process's part changes while all are asked for another tolerance: all build anew."""
     source, whole = Source(), Source()
     source.have(part)
     contour = new(isodiamonds.vtkIsodiamondContour(), source, Value=(0, 0.0), ErrorTolerance=0.4)
@@ -106,7 +106,7 @@ def check_change(part):
 
 
 def check_abortion(phase, part, process):
-    """By one process: all have an empty mesh, and the whole one afterwards."""
+    """One process aborts: all have an empty mesh, and the whole one afterwards."""
     source = Source()
     source.have(part)
     contour = new(isodiamonds.vtkIsodiamondContour(), source, Value=(0, 0.0), ErrorTolerance=0.4, ComputeNormals=1)

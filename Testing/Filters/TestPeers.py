@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""In pvbatch with any number of processes, a source that gives each of them what it asks for, and no
-more: each asks for its share of the volume, and together they have the mesh that one process makes,
-to the bit. Whoever fails does not let the others wait."""
+"""In pvbatch with any number of processes: a source that gives each process what it asks for, and
+no more. Each asks for its share of the volume, and together they have the mesh that one process
+makes, to the bit. A process that fails does not keep the others waiting."""
 import numpy
 from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.vtkImagingCore import vtkImageShiftScale
@@ -11,7 +11,7 @@ from ParallelTestTools import SIZE, Source, abort_at, lexsorted, new, rank, rank
 
 
 def check(name, make, settings, has_nan=False, blocks=0):
-    """A filter in all processes, with some settings one after the other, against one alone."""
+    """Compares a filter in all processes with one in a single one, for some settings in turn."""
     source = Source()
     source.has_nan = has_nan
     shared = new(make(), source, NumberOfBlocks=blocks)
@@ -40,7 +40,7 @@ def check(name, make, settings, has_nan=False, blocks=0):
 
 
 def check_hierarchy():
-    """One that all build: the same everywhere as one process's."""
+    """A hierarchy that all processes build together: in each, the same as one builds alone."""
     settings = dict(Isovalue=0.0, ErrorMetric=1, PreserveTopology=1, ComputeNormals=1)
     source = Source()
     builder = new(isodiamonds.vtkIsodiamondBuilder(), source, **settings)
@@ -68,7 +68,7 @@ def check_hierarchy():
 
 
 def check_failure(name, fail, **properties):
-    """Of one process: all have an error, and go on afterwards."""
+    """One process fails: all have an error, and work again afterwards."""
     source = Source()
     contour = new(isodiamonds.vtkIsodiamondContour(), source, Value=(0, 0.0), ErrorTolerance=0.4, NumberOfBlocks=8,
                   **properties)
@@ -79,7 +79,7 @@ def check_failure(name, fail, **properties):
         fail(source, contour)
     contour.UpdatePiece(rank, ranks, 0)
     assert contour.GetOutput().GetNumberOfPoints() == 0, name
-    # Who aborts it knows without being told.
+    # The process that aborts needs no error to know.
     assert errors or (rank == ranks - 1 and name.startswith("aborted")), name
     contour.UpdatePiece(rank, ranks, 0)  # executed again by all of them or by none
     source.fails_at = None
@@ -94,7 +94,7 @@ def check_failure(name, fail, **properties):
 
 
 def check_failure_upstream():
-    """Of one process's source, behind a filter, which keeps what it made before."""
+    """One process's source fails, behind a filter that keeps what it made before."""
     source, between = Source(), vtkImageShiftScale()
     between.SetInputConnection(source.GetOutputPort())
     contour = new(isodiamonds.vtkIsodiamondContour(), between, Value=(0, 0.0), ErrorTolerance=0.4)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each process of several gets: shares that together are the whole.
+// What each of several processes gets: shares that together are the whole.
 #include "FilterTestTools.h"
 
 #include "vtkCellData.h"
@@ -31,7 +31,7 @@
 namespace
 {
 
-/** A cell: its type, its corners, and all data there and of itself. */
+/** A cell: its type, its corners with their point data, and its cell data. */
 using Cell = std::vector<double>;
 
 void Append(vtkDataSetAttributes* data, vtkIdType id, Cell& cell)
@@ -44,7 +44,7 @@ void Append(vtkDataSetAttributes* data, vtkIdType id, Cell& cell)
   }
 }
 
-/** Adds a mesh's cells in their order. Each of its points is to have one. */
+/** Adds a mesh's cells in their order. Expects each of its points to be used by one. */
 void AddCells(vtkDataSet* mesh, std::vector<Cell>& cells)
 {
   std::set<vtkIdType> used;
@@ -84,7 +84,7 @@ std::string Arrays(vtkDataSet* mesh)
   return text + vtkPointSet::SafeDownCast(mesh)->GetPoints()->GetData()->GetDataTypeAsString();
 }
 
-/** The cells of a mesh, as pieces are found to have them. */
+/** The cells of a mesh that no piece has had yet. */
 class CellsLeft
 {
 public:
@@ -97,7 +97,7 @@ public:
     }
   }
 
-  /** Takes those of a piece. @return whether they were left, and are in the whole mesh's order */
+  /** Takes a piece's cells. @return whether they were left, and are in the whole mesh's order */
   bool Take(const std::vector<Cell>& piece)
   {
     int last = -1;
@@ -128,7 +128,7 @@ enum class Cut
   Evenly ///< its cells in their order, into pieces that differ by at most one
 };
 
-/** Of an evenly cut mesh. */
+/** Checks a piece of an evenly cut mesh. */
 void ExpectNumbers(
   const std::vector<Cell>& own, const std::vector<Cell>& cells, int piece, int pieces)
 {
@@ -140,7 +140,7 @@ void ExpectNumbers(
   EXPECT_TRUE(own == expected) << "piece " << piece << " of " << pieces;
 }
 
-/** All pieces of a filter's mesh together have each of its cells once. */
+/** Expects all pieces of a filter's mesh together to have each of its cells once. */
 void ExpectShares(vtkAlgorithm* filter, int pieces, Cut cut)
 {
   filter->UpdatePiece(0, 1, 0);
@@ -280,7 +280,7 @@ TEST(Pieces, HiddenCellsAreInNone)
   ExpectShares(contour, Cut::Evenly);
 }
 
-// They are cut before anything is counted.
+// Only about: they are cut before any cells are counted.
 TEST(Pieces, AreAboutAsLarge)
 {
   vtkNew<vtkIsodiamondContour> contour;

@@ -11,12 +11,13 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 LoadPlugin(os.environ["ISODIAMONDS_PLUGIN"], remote=False, ns=globals())
 
-# A pipeline in one go: ParaView knows no array of an input that was never updated.
+# A pipeline in one go: ParaView knows no arrays of an input that was never updated.
 fresh = IsodiamondContour(Input=Wavelet(), Isosurfaces=[157])
 fresh.UpdatePipeline()
 assert fresh.GetDataInformation().GetNumberOfCells() > 0
 
-# Nor bounds: then a region of interest has no size, and the filter says so, and none inside out.
+# Nor does it know bounds: the region of interest has no size then, of which the filter warns, and
+# is not inside out.
 assert list(fresh.RegionOfInterestSize) == [0, 0, 0], fresh.RegionOfInterestSize
 
 wavelet = Wavelet()
@@ -29,7 +30,7 @@ extent = high - low
 # data's bounds. All are numbers that a person would type.
 contour = IsodiamondContour(wavelet)
 assert list(contour.ContourBy) == ["POINTS", "RTData"], contour.ContourBy
-assert list(contour.Isosurfaces) == [160], contour.Isosurfaces  # of 37.4 to 276.8
+assert list(contour.Isosurfaces) == [160], contour.Isosurfaces  # the array: 37.4 to 276.8
 assert contour.ErrorTolerance == 0 and contour.ToleranceUnit == "World Units"
 assert contour.TargetNumberOfTriangles == 0 and contour.ComputeScalars == 1
 assert contour.ErrorMetric == "Distance" and contour.ExactIsovertices and contour.PreserveFeatures
@@ -50,13 +51,13 @@ contour.ErrorTolerance = 1
 contour.UpdatePipeline()
 coarse = contour.GetDataInformation().GetNumberOfCells()
 assert 0 < coarse < full / 2
-# The Information tab tells how many triangles there would be.
+# The Information tab tells how many triangles there would be at other tolerances.
 table = {name: contour.FieldData[name].GetRange()[0] for name in contour.FieldData.keys()}
 assert table["Triangles at tolerance 0"] == full, table
 assert full > table["Triangles at tolerance 0.1"] > table["Triangles at tolerance 0.5"] > coarse
 
 
-# Of each axis by itself: the same number on two of them is no reason to change one.
+# The viewpoint is found for each axis by itself: the same number on two of them changes neither.
 long = Wavelet(WholeExtent=[0, 140, -10, 10, -10, 10])
 long.UpdatePipeline()
 assert list(IsodiamondContour(long).ViewPosition) == [70, 0, 70]
@@ -69,10 +70,10 @@ for blocks in (1, 4):
     cut.UpdatePipeline()
     triangles.append(cut.GetDataInformation().GetNumberOfCells())
     made = parts.GetClientSideObject().GetOutputDataObject(0).GetExtent()
-    assert made[5] - made[4] == (32 if blocks == 1 else 16), made  # of 33 slices a fourth, and 8 more
+    assert made[5] - made[4] == (32 if blocks == 1 else 16), made  # a quarter of 33 slices, plus 8
 assert triangles[0] == triangles[1] > 0, triangles
 
-# Tolerances in voxels, of which there are two in a unit; the slider, too.
+# Tolerances in voxels of half a unit; the slider is in voxels, too.
 source = vtkRTAnalyticSource()
 source.SetWholeExtent(-10, 10, -10, 10, -10, 10)
 source.Update()
@@ -115,7 +116,7 @@ contour.RegionOfInterestSize = [10, 10, 10]
 contour.UpdatePipeline()
 chosen = contour.GetDataInformation().GetNumberOfCells()
 assert coarse < chosen < full
-contour.OutsideErrorTolerance = 1  # a voxel, as was chosen
+contour.OutsideErrorTolerance = 1  # a voxel, as the default chose
 contour.UpdatePipeline()
 assert contour.GetDataInformation().GetNumberOfCells() == chosen
 contour.UseRegionOfInterest = 0
@@ -146,7 +147,7 @@ assert contour.GetDataInformation().GetNumberOfCells() == 0
 contour.MinimumPieceSize = 0
 assert removed() == 0
 
-# Data that are all the same, and such with an infinite value, have defaults to begin with, too.
+# Data that are all the same, and data with an infinite value, have usable defaults, too.
 odd = vtkImageData()
 odd.SetDimensions(3, 3, 3)
 for name, values in (("constant", [3] * 27), ("spike", [float("inf")] + list(range(1, 27)))):
@@ -163,7 +164,7 @@ assert list(constant.Isorange) == [3, 6], constant.Isorange
 constant.UpdatePipeline()
 assert constant.GetDataInformation().GetNumberOfCells() > 0
 spike = IsodiamondContour(producer, ContourBy=["POINTS", "spike"])
-assert list(spike.Isosurfaces) == [14], spike.Isosurfaces  # of 1 to 26
+assert list(spike.Isosurfaces) == [14], spike.Isosurfaces  # finite values: 1 to 26
 spike.UpdatePipeline()
 assert spike.GetDataInformation().GetNumberOfCells() > 0
 
@@ -184,7 +185,7 @@ assert extract.GetDataInformation().GetDataSetTypeAsString() == "vtkUnstructured
 display = Show(extract)
 assert display.ColorArrayName[1] in ("", None), "in no colour of the isovalue"
 Hide(extract)
-# As poly data what takes surfaces can follow.
+# As poly data it suits filters that take surfaces.
 extract.OutputType = "Poly Data"
 decimated = Decimate(extract, TargetReduction=0.5)
 decimated.UpdatePipeline()
@@ -201,12 +202,12 @@ mesh = DiamondMesh(hierarchy)
 mesh.UpdatePipeline()
 assert mesh.GetDataInformation().GetNumberOfCells() > 0
 
-# All point arrays: the one that the hierarchy is of anyway is passed over.
+# All point arrays: the one that the hierarchy is built from is passed over.
 carrying = IsodiamondHierarchy(wavelet, PointArrays=["RTData"])
 carrying.UpdatePipeline()
 assert carrying.FieldData["Isovalue"].GetRange() == (160, 160)
 
-# Interval volumes: defaults of the array's range, tolerances that can be set.
+# Interval volumes: defaults from the array's range, tolerances that can be set.
 volume = IsodiamondIntervalVolume(wavelet)
 assert volume.PreserveTopology == 1 and volume.MinimumPieceSize == 0
 assert list(volume.Isorange) == [120, 200], volume.Isorange  # about the middle third
@@ -235,7 +236,7 @@ extract = IsodiamondExtract(tetrahedra_builder)
 extract.UpdatePipeline()
 assert extract.GetDataInformation().GetNumberOfCells() == tetrahedra
 
-# The extractor's range and box follow the hierarchy's metric and bounds.
+# The extractor's slider and box follow the hierarchy's metric and bounds.
 distances = IsodiamondHierarchy(wavelet, ErrorMetric="Distance")
 distances.UpdatePipeline()
 extract = IsodiamondExtract(distances)
@@ -253,12 +254,12 @@ mesh.RegionOfInterestSize = [3, 3, 3]
 mesh.UpdatePipeline()
 assert mesh.GetDataInformation().GetNumberOfCells() > 0
 
-# A hierarchy of diamonds uses the extractor's values only when it is told to.
+# From a hierarchy of diamonds, an extractor uses its own values only when told to.
 diamonds = IsodiamondHierarchy(wavelet, Model="Hierarchy of Diamonds (any isovalue)")
 extract = IsodiamondExtract(diamonds)
 extract.UpdatePipeline()
 assert extract.GetDataInformation().GetNumberOfCells() == full
-extract = IsodiamondExtract(diamonds)  # whose values are known now
+extract = IsodiamondExtract(diamonds)  # the hierarchy's values are known now
 assert extract.Isovalue == 160 and list(extract.Isorange) == [120, 200]
 extract.UseIsovalue = 1
 extract.UpdatePipeline()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Progress in named phases, and abortion at any of its reports.
+// Progress in named phases, and aborting at any report of it.
 #include "FilterTestTools.h"
 
 #include "vtkCallbackCommand.h"
@@ -65,7 +65,8 @@ vtkIdType CellsOf(vtkAlgorithm* algorithm)
   return vtkDataSet::SafeDownCast(algorithm->GetOutputDataObject(0))->GetNumberOfCells();
 }
 
-/** Aborts a filter at each of its first reports, and expects nothing then, and all after. */
+/** Aborts a filter at each of its first reports. Expects an empty mesh at least twice, and the
+ *  whole one after each. */
 void ExpectAborts(vtkAlgorithm* filter, vtkIdType expected)
 {
   ASSERT_GT(expected, 0);

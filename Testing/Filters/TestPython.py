@@ -25,7 +25,7 @@ assert isinstance(hierarchy, isodiamonds.vtkIsodiamondHierarchy)
 assert hierarchy.GetModel() == hierarchy.MINIMAL
 assert hierarchy.GetNumberOfActiveIsodiamonds() > 0
 assert not builder.GetPreserveTopology() and not hierarchy.GetPreservesTopology()
-assert not hierarchy.GetTwoSidedDistances()  # of the field metric
+assert not hierarchy.GetTwoSidedDistances()  # with the field metric
 assert builder.GetMinimumPieceSize() == hierarchy.GetMinimumPieceSize() == 0
 assert hierarchy.GetNumberOfRemovedPieces() == 0
 output = extractor.GetOutput()

@@ -26,7 +26,7 @@ namespace
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
 
-/** The triangles that lie in a box with all corners. */
+/** The triangles with all corners in a box. */
 test::Triangles Within(const test::Triangles& triangles, const double box[6])
 {
   test::Triangles within;
@@ -195,7 +195,7 @@ TEST(RegionOfInterest, AtItsExtremes)
   EXPECT_TRUE(with({ 20, 10, 0, 32, 0, 32 }, 1.0) == coarse);
   EXPECT_TRUE(with({ 1, 0, 1, 0, 1, 0 }, Infinity) == coarsest);
   EXPECT_TRUE(with({ 100, 200, 0, 32, 0, 32 }, 1e-12) == fine);
-  // 0 chooses: four times the error tolerance, or a voxel.
+  // 0 chooses: four times the error tolerance or a voxel, whichever is more.
   EXPECT_TRUE(with({ 100, 200, 0, 32, 0, 32 }, 0.0) == coarse);
   contour->SetErrorTolerance(0.25);
   EXPECT_TRUE(with({ 100, 200, 0, 32, 0, 32 }, 0.0) == coarse);
@@ -254,7 +254,7 @@ TEST(RegionOfInterest, RefusesWhatIsNoBoxOrTolerance)
   contour->Update();
   EXPECT_EQ(messages->ErrorCount, 2);
   EXPECT_NE(messages->Errors.find("outside error tolerance"), std::string::npos);
-  contour->UseRegionOfInterestOff(); // then it does not matter
+  contour->UseRegionOfInterestOff(); // the outside tolerance does not matter then
   contour->Update();
   EXPECT_EQ(messages->ErrorCount, 2);
   contour->UseRegionOfInterestOn();
@@ -288,7 +288,7 @@ TEST(RegionOfInterest, CountsOfTheLastExecution)
   EXPECT_LT(extractor->GetNumberOfFrontDiamonds(), front);
   subdivided = extractor->GetNumberOfSubdividedDiamonds();
   front = extractor->GetNumberOfFrontDiamonds();
-  // HD says the same, MI less; the diamond mesh has the same query.
+  // An HD counts the same, an MI less; the diamond mesh has the same query.
   vtkNew<vtkDiamondMesh> mesh;
   mesh->SetInputConnection(builder->GetOutputPort());
   mesh->SetErrorTolerance(0.05);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A hierarchy in a file, extracted from by a process that never saw the volume."""
+"""A hierarchy in a file: a process that never saw the volume extracts the same meshes."""
 import os
 import subprocess
 import sys
@@ -11,7 +11,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
 
 def describe(hierarchy_port):
-    """The extracted mesh, as text."""
+    """The meshes extracted at some tolerances, as text."""
     lines = []
     for tolerance in [0.0, 3.0, 20.0]:
         extractor = isodiamonds.vtkIsodiamondExtractor()
@@ -49,6 +49,6 @@ for model in [0, 1, 2]:
     expected = describe(builder.GetOutputPort())
     output = subprocess.check_output(
         [os.environ["ISODIAMONDS_PYTHON"], sys.argv[0], sys.argv[1], path], text=True)
-    found = "\n".join(output.splitlines()[-3:])  # MPI may have something to say before
+    found = "\n".join(output.splitlines()[-3:])  # MPI may print something before
     assert found == expected, f"{found}\n{expected}"
     print(found)

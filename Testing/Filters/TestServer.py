@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin on a pvserver, which the command after the first argument starts: the same meshes as
-without one, pictures and data of which come back to the client."""
+"""The plugin on a pvserver, started by the command after the first argument: the same meshes as
+without a server, and pictures and data of them come back to the client."""
 import os
 import socket
 import subprocess
@@ -13,7 +13,7 @@ LoadPlugin(PLUGIN, remote=False, ns=globals())
 
 
 def counts():
-    """Cells of each filter's output, all of its pieces together."""
+    """The number of cells of each filter's output, of all its pieces together."""
     wavelet = Wavelet(WholeExtent=[-16, 16] * 3)
     wavelet.UpdatePipeline()
     contour = IsodiamondContour(wavelet, Isosurfaces=[150], ErrorTolerance=0.2)
@@ -43,7 +43,7 @@ Disconnect()
 with socket.socket() as free:
     free.bind(("127.0.0.1", 0))
     port = free.getsockname()[1]
-# This process may be one of MPI's itself; what it knows of that is not for the server's.
+# This process may run under MPI itself; the server's must not inherit the variables that say so.
 environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_"))}
 server = subprocess.Popen(
     [*sys.argv[2:], f"--server-port={port}"], stdout=subprocess.PIPE, text=True, env=environment

@@ -54,8 +54,8 @@ vtkSmartPointer<vtkPolyData> Full(vtkImageData* image)
   return Update(MakeContour(image));
 }
 
-/** The greatest excess of distances of a mesh's points, and of points on its triangles, from
- *  another mesh over what is tolerated there. */
+/** By how much a mesh's points, and points on its triangles, are farther from another mesh than is
+ *  tolerated there, at most. */
 double Excess(
   vtkPolyData* from, vtkPolyData* to, const std::function<double(const double[3])>& tolerance)
 {
@@ -162,7 +162,7 @@ TEST(Simplify, KeepsToleranceAndTopology)
     EXPECT_LE(Excess(full, simple, everywhere), 0.0);
     EXPECT_LE(Excess(simple, full, everywhere), 0.0);
     ExpectSameShape(simple, full);
-    // Points with their data, of the mesh at a part of the tolerance; no levels.
+    // Its points are those of the mesh at a part of the tolerance, with their data; no levels.
     EXPECT_EQ(
       simple->GetPointData()->GetNormals()->GetNumberOfTuples(), simple->GetNumberOfPoints());
     EXPECT_EQ(simple->GetCellData()->GetNumberOfArrays(), 0);
@@ -175,9 +175,8 @@ TEST(Simplify, KeepsToleranceAndTopology)
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
 }
 
-// Of each triangle as much is left as the error of its diamond leaves. With the whole tolerance
-// left for each, these surfaces are up to a twentieth too far away, one of them with OneTolerance
-// only.
+// A triangle may move by what the error of its diamond leaves of the tolerance. If each could use
+// all of it, these surfaces would be up to a twentieth too far away, one only with OneTolerance.
 TEST(Simplify, AddsUpWithTheErrorsOfTheHierarchy)
 {
   for (const int seed : { 16, 24, 50 })
@@ -206,7 +205,7 @@ TEST(Simplify, AddsUpWithTheErrorsOfTheHierarchy)
   }
 }
 
-// Of a noisy ball: how far normals are from the right ones, beside the gradients at the same
+// On a noisy ball: how far normals are from the right ones, compared with the gradients at the same
 // points.
 TEST(Simplify, NormalsAreMeans)
 {
@@ -287,7 +286,7 @@ TEST(Simplify, ToleranceOfEachPlace)
   const auto fromView = [&](const double place[3])
   {
     const double eye[3] = { -40, 14, 14 };
-    // A triangle has the tolerance of its nearest point.
+    // A triangle has the tolerance of its point nearest to the eye.
     const double distance = std::sqrt(vtkMath::Distance2BetweenPoints(place, eye));
     return std::max(0.25, perDistance * distance) + 1e-6;
   };
@@ -320,7 +319,7 @@ TEST(Simplify, SeveralIsovaluesHiddenCellsAndCaps)
 
 TEST(Simplify, GoesAlongTheBoundary)
 {
-  // A field that goes on beyond the image, in a world of its own.
+  // A surface that goes on beyond the image, which has an origin and a spacing.
   const auto image = test::MakeImage({ 24, 22, 20 },
     [](double x, double y, double z) { return std::sin(0.3 * x) + std::cos(0.25 * y) + 0.2 * z; });
   image->SetSpacing(0.4, 0.5, 0.6);
@@ -380,7 +379,7 @@ TEST(Simplify, HasATargetToo)
   const auto everywhere = [&](const double[3]) { return achieved * (1.0 + 1e-6); };
   EXPECT_LE(Excess(full, simple, everywhere), 0.0);
   EXPECT_LE(Excess(simple, full, everywhere), 0.0);
-  // In two steps the same.
+  // The same in two steps.
   vtkNew<vtkIsodiamondBuilder> builder;
   builder->SetInputData(image);
   builder->SetIsovalue(50.0);

@@ -55,7 +55,7 @@ TEST(Speed, ExtractionIsNotSlowerThanFlyingEdges)
   vtkSMPTools::LocalScope(vtkSMPTools::Config{ 1, "Sequential", false },
     [&]
     {
-      for (int i = 0; i < 7; ++i) // interleaved, so that the machine's drift cancels
+      for (int i = 0; i < 7; ++i) // interleaved, so that drift cancels
       {
         theirs.push_back(Milliseconds(flyingEdges));
         ours.push_back(Milliseconds(extractor));

@@ -14,8 +14,8 @@ names = ("contour", "region", "hierarchy", "extract", "points", "mesh")
 
 
 def session():
-    """What a user does, with hardly a property as it comes; sources are known by name. A trace has
-    what properties are when a filter is made, and what the window's Apply changes."""
+    """What a user does, with hardly a property at its default; sources are known by name. A trace
+    has the properties that a filter is made with, and those that the window's Apply changes."""
     wavelet = Wavelet(registrationName="volume", WholeExtent=[-20, 20] * 3)
     wavelet.UpdatePipeline()
     IsodiamondContour(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes by their number of cells, and what tells of other numbers.
+// Meshes for a target number of cells, and the table of numbers at other tolerances.
 #include "FilterTestTools.h"
 
 #include "vtkDataArray.h"
@@ -26,7 +26,7 @@ vtkIdType CellsOf(Filter* filter)
   return filter->GetOutput()->GetNumberOfCells();
 }
 
-/** Within 5 % below the target; and that at the tolerance which the filter tells. */
+/** Expects at most 5 % less than a target, and the same at the tolerance that the filter tells. */
 template <typename Filter>
 void ExpectTargetIsMet(Filter* filter, vtkIdType target)
 {
@@ -44,7 +44,7 @@ void ExpectTargetIsMet(Filter* filter, vtkIdType target)
   EXPECT_EQ(CellsOf(filter), cells);
   EXPECT_EQ(filter->GetAchievedTolerance(), tolerance);
   EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("AchievedTolerance"), nullptr);
-  // It is the least one: codes are 2^-9 apart.
+  // It is the least tolerance that does: codes are 2^-9 apart.
   filter->SetErrorTolerance(tolerance * (1.0 - 1.0 / 500.0));
   EXPECT_GT(CellsOf(filter), target);
 }
@@ -170,7 +170,7 @@ TEST(Target, TableOfTolerances)
     contour->SetErrorTolerance(std::stod(name.substr(prefix.size())));
     EXPECT_EQ(CellsOf(contour.GetPointer()), table->GetArray(i)->GetTuple1(0)) << name;
   }
-  // From 2 % of the diagonal down, in voxels: 1.7.
+  // The table goes down from 2 % of the diagonal, 1.7 voxels.
   EXPECT_NE(table->GetArray("Triangles at tolerance 1"), nullptr);
   EXPECT_EQ(table->GetArray("Triangles at tolerance 2"), nullptr);
   EXPECT_NEAR(contour->GetErrorToleranceRange()[1], 1.7, 0.1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is kept and what is not: the topology of full resolution at every tolerance, and pieces of
-// fewer samples than asked for.
+// The topology of full resolution, which is kept at every tolerance, and pieces of fewer samples
+// than asked for, which are not.
 #include "FilterTestTools.h"
 
 #include "vtkFieldData.h"
@@ -61,7 +61,7 @@ private:
 
 using Simplices = std::map<std::vector<vtkIdType>, int>;
 
-/** All corners, edges, triangles and tetrahedra of a mesh, and of how many cells each is. */
+/** All corners, edges, triangles and tetrahedra of a mesh, and how many cells have each of them. */
 Simplices SimplicesOf(vtkPointSet* mesh)
 {
   Simplices simplices;
@@ -86,8 +86,9 @@ Simplices SimplicesOf(vtkPointSet* mesh)
   return simplices;
 }
 
-/** Euler's number of each piece of a mesh, and in how many parts its boundary is: with pieces and
- *  boundaries the Betti numbers of surfaces, and handles of volumes less cavities. */
+/** For each piece of a mesh, its Euler characteristic and the number of parts of its boundary. With
+ *  the number of pieces, these give the Betti numbers of surfaces and, of volumes, handles less
+ *  cavities. */
 using Topology = std::multiset<std::pair<vtkIdType, vtkIdType>>;
 
 Topology TopologyOf(vtkPointSet* mesh)
@@ -133,7 +134,7 @@ vtkPointSet* Updated(vtkAlgorithm* filter)
   return vtkPointSet::SafeDownCast(filter->GetOutputDataObject(0));
 }
 
-/** At every tolerance, in a region and from a viewpoint: the topology of full resolution. */
+/** Expects the topology of full resolution at every tolerance, in a region and from a viewpoint. */
 void ExpectTopologyOfFullResolution(vtkIsodiamondVolumeAlgorithm* filter)
 {
   filter->SetInputDataObject(0, NoisyImage());
@@ -151,7 +152,7 @@ void ExpectTopologyOfFullResolution(vtkIsodiamondVolumeAlgorithm* filter)
       EXPECT_TRUE(TopologyOf(Updated(filter)) == full) << tolerance << ", metric " << metric;
       EXPECT_LT(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), fullSize);
     }
-    // Else it is lost: the test can see that.
+    // Otherwise it is lost, and the test can see that.
     filter->PreserveTopologyOff();
     EXPECT_FALSE(TopologyOf(Updated(filter)) == full);
     filter->PreserveTopologyOn();
@@ -170,8 +171,9 @@ void ExpectTopologyOfFullResolution(vtkIsodiamondVolumeAlgorithm* filter)
 }
 
 /**
- * Connected sets of samples on either side of a value. Edges of the finest tetrahedra connect them:
- * between samples that are one apart on some axes, if their indices there are all even or all odd.
+ * Connected sets of samples on either side of a value. Samples are connected by edges of the finest
+ * tetrahedra: if they are one apart on some axes, and the indices of each on these axes are all
+ * even or all odd.
  */
 class Sides
 {
@@ -188,7 +190,7 @@ public:
 
   vtkIdType Count() const { return static_cast<vtkIdType>(this->Members().size()); }
 
-  /** Gives small sets above, then below, the other side. @return how many there were */
+  /** Moves small sets to the other side: those above, then those below. @return how many */
   vtkIdType RemoveSmall(int size)
   {
     vtkIdType removed = 0;
@@ -215,7 +217,7 @@ private:
     return p[0] + vtkIdType{ 1 } * this->Dimensions[0] * (p[1] + this->Dimensions[1] * p[2]);
   }
 
-  /** The neighbours of a sample whose ids are greater. */
+  /** The neighbours of a sample that have greater ids. */
   std::vector<vtkIdType> NextTo(const std::array<int, 3>& p) const
   {
     std::vector<vtkIdType> found;
@@ -382,8 +384,8 @@ TEST(Topology, IsAMatterOfTheQueryOfAnHDAndOfTheBuildOfOthers)
   }
 }
 
-// In a box the surface's pieces part the sets of samples: one more of these than of those. So the
-// neighbours above are those of the mesh.
+// In a box the surface's pieces separate the sets of samples, so there is one set more than pieces.
+// That shows that the neighbours in Sides are those of the mesh.
 TEST(SmallPieces, AreThoseOfAFloodFill)
 {
   vtkNew<vtkIsodiamondContour> contour;

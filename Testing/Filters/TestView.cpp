@@ -24,7 +24,7 @@
 namespace
 {
 
-/** The largest error of a mesh in pixels, over the vertices of the full resolution. */
+/** The largest error of a mesh in pixels, over the points at full resolution. */
 double LargestErrorInPixels(
   vtkPolyData* mesh, vtkPolyData* full, const double eye[3], double angle, double height)
 {
@@ -100,11 +100,11 @@ TEST(View, ErrorsStayWithinThePixelTolerance)
       // Coordinates are floats.
       EXPECT_LE(LargestErrorInPixels(mesh, full, eye, 40.0, 100.0), 1.001 * pixels);
     }
-    EXPECT_LT(contour->GetOutput()->GetNumberOfCells(), before); // the eyes go away
+    EXPECT_LT(contour->GetOutput()->GetNumberOfCells(), before); // each eye is farther away
     before = contour->GetOutput()->GetNumberOfCells();
   }
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
-  // Nothing is tolerated: full resolution. Much is tolerated anyway: that counts.
+  // Nothing is tolerated: full resolution. An error tolerance that is greater counts instead.
   contour->SetPixelTolerance(0.0);
   contour->Update();
   EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), full->GetNumberOfCells());
@@ -150,7 +150,7 @@ TEST(View, IsFinerNearTheEyeThanAnEqualToleranceNeeds)
   contour->Update();
   const vtkIdType seen = contour->GetOutput()->GetNumberOfCells();
   contour->ViewDependentOff();
-  // What the nearest vertex is granted, for all.
+  // For all, what is tolerated at the sample nearest to the eye.
   contour->SetErrorTolerance(2.0 * std::tan(vtkMath::RadiansFromDegrees(20.0)) * 20.0 / 100.0);
   contour->Update();
   EXPECT_LT(1.3 * seen, contour->GetOutput()->GetNumberOfCells());
@@ -231,7 +231,7 @@ TEST(View, RefusesWhatMakesNoSense)
   contour->Update();
   EXPECT_EQ(messages->ErrorCount, errors);
   EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
-  vtkNew<vtkIsodiamondBuilder> builder; // the field metric
+  vtkNew<vtkIsodiamondBuilder> builder; // with the field metric
   builder->SetInputData(image);
   vtkNew<vtkIsodiamondExtractor> extractor;
   extractor->SetInputConnection(builder->GetOutputPort());

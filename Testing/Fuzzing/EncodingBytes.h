@@ -10,8 +10,8 @@
 #include <vector>
 
 /**
- * Hierarchies as a row of bytes for the fuzzer: any bytes are some hierarchy, most of them damaged
- * ones. Numbers that are missing at the end are 0, arrays as short as what is left.
+ * Hierarchies as rows of bytes for the fuzzer: any bytes are some hierarchy, mostly a damaged one.
+ * Numbers that are missing at the end are 0, and arrays are only as long as the bytes left.
  */
 namespace fuzz
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hierarchies of any arrays: refused, or else every query gives a mesh whose cells have points.
+// Hierarchies of any arrays: either refused, or every query gives a mesh whose cells have points.
 #include "EncodingBytes.h"
 
 #include "Build/Builder.h"
@@ -98,7 +98,7 @@ void QueryScalars(const fuzz::Arrays& arrays)
     {
       using View = std::decay_t<decltype(view)>;
       const View shaped(view.Pointer(), header.Dimensions);
-      // Whoever reads an array compares its size with the dimensions.
+      // Whoever reads an array has to compare its size with the dimensions.
       const bool fits = std::all_of(
         header.Dimensions.begin(), header.Dimensions.end(), [](int size) { return size > 0; });
       if (!fits || shaped.Size() != view.Size())
@@ -130,7 +130,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::array<int, 3>& dimensions = arrays.Isodiamonds.Header.Dimensions;
     if (*std::max_element(dimensions.begin(), dimensions.end()) > 1000)
     {
-      return 0; // takes long without anything to find; TestEncoding looks at the limits
+      return 0; // takes long, with nothing to find; TestEncoding tests the limits
     }
     if (arrays.Isodiamonds.Header.TheModel == Model::HierarchyOfDiamonds)
     {

@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   {
     reader->Update();
   }
-  catch (const std::bad_alloc&) // VTK believes any size that a file tells
+  catch (const std::bad_alloc&) // VTK believes any size that a file states
   {
     return 0;
   }

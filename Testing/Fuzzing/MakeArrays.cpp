@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes where the fuzzer of arrays begins: small hierarchies of each kind.
+// Writes what the fuzzer of arrays begins with: small hierarchies of each model and form.
 #include "Build/Builder.h"
 #include "EncodingBytes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes where the fuzzer of files begins: small hierarchies in the encodings of VTK's writer.
+// Writes what the fuzzer of files begins with: small hierarchies in encodings of VTK's writer.
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondHierarchy.h"
 

@@ -46,7 +46,7 @@ void ChangeOne(std::vector<T>& values, std::minstd_rand& random)
 
 }
 
-/** Bytes as such are seldom a hierarchy: most changes are of one number, and lengths follow. */
+/** Random bytes are seldom a hierarchy: most changes are of one number, and lengths may follow. */
 extern "C" std::size_t LLVMFuzzerCustomMutator(
   std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
 {

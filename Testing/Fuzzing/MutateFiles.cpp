@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Changes to the field data of .vtp files in ASCII: types, names, sizes and numbers. VTK's reader
-// ends the program on much that is no such file at all; that is not ours to find.
+// ends the program on many inputs that are no such files at all; that is not ours to find.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -48,7 +48,7 @@ std::string AnyNumber(Random& random)
                            : std::to_string(static_cast<int>(random() % 70000));
 }
 
-/** Replaces the value of an attribute of a tag, if it has it. */
+/** Replaces the value of an attribute, if the tag has it. */
 void SetAttribute(std::string& text, std::size_t tag, const char* name, const std::string& value)
 {
   const std::size_t begin = text.find(std::string(" ") + name + "=\"", tag);
@@ -138,7 +138,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(
   return text.size();
 }
 
-/** No parts of two files together. */
+/** Never puts parts of two files together: copies the first. */
 extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data, std::size_t size,
   const std::uint8_t* /*other*/, std::size_t /*otherSize*/, std::uint8_t* out, std::size_t most,
   unsigned /*seed*/)

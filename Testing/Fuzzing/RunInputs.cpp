@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a fuzz target once over the files of folders: any compiler can.
+// Runs a fuzz target once over the files in folders; any compiler will do.
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +17,7 @@ int main(int argc, char** argv)
   {
     for (const auto& entry : std::filesystem::directory_iterator(argv[i]))
     {
-      std::cout << entry.path() << std::endl; // what is last is what failed
+      std::cout << entry.path() << std::endl; // the last one printed is the one that failed
       std::ifstream file(entry.path(), std::ios::binary);
       const std::vector<char> bytes{ std::istreambuf_iterator<char>(file), {} };
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

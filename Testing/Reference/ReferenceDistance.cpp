@@ -64,9 +64,9 @@ double DistanceFromSegment(
 }
 
 /**
- * The distance from the plane of a triangle if the nearest point there is in the triangle, else
- * infinite. Thin triangles do no harm: nothing is rounded in the normal in index space, and the
- * spacing changes its length and direction, but no cancellation makes this inaccurate.
+ * The distance from the plane of a triangle if the nearest point of the plane is in the triangle,
+ * otherwise infinity. Thin triangles do no harm: in index space the normal is not rounded, and the
+ * spacing changes its length and direction without any cancellation.
  */
 double DistanceFromInterior(
   const Vector& point, const SurfaceTriangle& triangle, const Vector& spacing)
@@ -139,8 +139,8 @@ Vector PositionBetween(const Hierarchy& hierarchy, const ScalarField& field, dou
 }
 
 /**
- * Four vertices c, i, j, k, two of either sign: c is the youngest, k has its sign, and i and j are
- * in the order that makes the tetrahedron positively oriented.
+ * The four vertices as c, i, j, k, two of each sign: c is the youngest, k has the same sign as c,
+ * and i and j are in the order that makes the tetrahedron positively oriented.
  */
 std::array<Point, 4> OrderedForDiagonal(
   const Hierarchy& hierarchy, std::vector<Point> upper, std::vector<Point> lower)
@@ -191,7 +191,7 @@ FineIsovertex FineIsovertexAt(const ScalarField& field, double isovalue, const I
   return fine;
 }
 
-/** Whether a closed tetrahedron holds a point that is given in steps of 1/256, exactly. */
+/** Whether a closed tetrahedron holds a point, given in steps of 1/256; exact. */
 bool Holds(const Tetrahedron& tetrahedron, const Point& steps)
 {
   std::array<Point, 4> vertices = tetrahedron.Vertices;
@@ -278,14 +278,14 @@ struct Member
   int Index;
 };
 
-/** From index space to the world: a move of positions, then a spacing for what they span. */
+/** From index space to the world: moves positions, then scales the differences between them. */
 struct World
 {
   std::function<Vector(const Vector&)> Move;
   Vector Spacing;
 };
 
-/** All that the errors depend on. */
+/** Finds errors; holds all that they depend on. */
 class ErrorFinder
 {
 public:
@@ -366,7 +366,7 @@ private:
     return this->Diamonds.At(member.Diamond).Origins[member.Index];
   }
 
-  /** The tetrahedron that one was bisected from, which must not be one of the root. */
+  /** The tetrahedron that a member was bisected from; the member must not be one of the root's. */
   Member CoarserThan(const Member& member) const
   {
     const std::array<Point, 4>& vertices = this->At(member).Vertices;
@@ -385,7 +385,8 @@ private:
     throw std::logic_error("no tetrahedron of the parent has this half");
   }
 
-  /** A tetrahedron and those it comes from, as far as they have the spine of its diamond. */
+  /** A tetrahedron and those it was bisected from, as far up as they have its diamond's spine and
+   *  all samples. */
   Place ChainFrom(const Member& member) const
   {
     const std::array<Point, 2>& spine = this->Diamonds.At(member.Diamond).Spine;
@@ -432,7 +433,7 @@ private:
     return farthest;
   }
 
-  /** The distance from the nearest place; any distance that is small enough will do too. */
+  /** The distance from the nearest place, or any distance that is small enough. */
   double DistanceFrom(
     const std::vector<Place>& places, const Vector& position, double smallEnough) const
   {

@@ -18,18 +18,20 @@ struct SurfaceTriangle
 
 /**
  * The triangles of the isosurface in a tetrahedron: none, one or two. None if a vertex has no
- * sample. If two vertices lie on either side, the four isovertices need not lie in one plane, and
- * the diagonal between the triangles matters. It starts at an isovertex next to the youngest vertex
- * of the tetrahedron and is told by orientation; all four ages differ, so there is no choice left.
- * @param exact whether isovertices are at their ExactPosition() or where linear interpolation puts
- * them
+ * sample. If two vertices lie on each side, the four isovertices need not lie in one plane, so it
+ * matters which diagonal separates the triangles. It starts at one of the two isovertices next to
+ * the youngest vertex of the tetrahedron; orientation tells which. As all four ages differ, no
+ * choice is left.
+ * @param exact true if isovertices are at their ExactPosition(), false if they are where linear
+ * interpolation puts them
  */
 std::vector<SurfaceTriangle> TrianglesOf(const Hierarchy& hierarchy, const ScalarField& field,
   double isovalue, const Tetrahedron& tetrahedron, bool exact);
 
 /**
- * The distance of a point from a triangle in world units: both are given in index space, where they
- * are multiples of 1/256, and the spacing leads from there to the world.
+ * The distance of a point from a triangle, in world units. Both are given in a space that the
+ * spacing scales to the world: in index space, where coordinates are multiples of 1/256, or, with a
+ * spacing of 1, in the world itself.
  */
 double Distance(const std::array<double, 3>& point, const SurfaceTriangle& triangle,
   const std::array<double, 3>& spacing);
@@ -38,17 +40,18 @@ double Distance(const std::array<double, 3>& point, const std::vector<SurfaceTri
   const std::array<double, 3>& spacing);
 
 /**
- * The distance errors of all diamonds alone, whatever their descendants', in world units. If in a
- * closed mesh all diamonds on the front have errors of at most t, then no isovertex of full
- * resolution is farther than t from the isosurface in the mesh.
+ * The distance errors of all diamonds by themselves, whatever their descendants' errors, in world
+ * units. If in a closed mesh all diamonds on the front have errors of at most t, then no isovertex
+ * of full resolution is farther than t from the isosurface in the mesh.
  *
  * The error of a diamond D is the largest distance error of any isovertex of full resolution, seen
- * from any closed tetrahedron T of D that holds it. That is the smallest distance that is certain
- * in every mesh with T as a leaf, given what surrounds the spine of D there:
+ * from any closed tetrahedron T of D that holds it. This distance error is the smallest distance
+ * that is certain in every mesh with T as a leaf, given what surrounds the spine of D there:
  *  - T itself;
  *  - the tetrahedra of D that the same parent made, since one bisection makes them all;
- *  - of any other tetrahedron of D, itself or one of those it was bisected from, as far up as they
- *    have the spine as an edge; one of them is a leaf, so the farthest one counts.
+ *  - for any other tetrahedron of D, itself or one of those it was bisected from, as far up as they
+ *    have the spine as an edge and samples at all vertices; one of them is a leaf, so the farthest
+ *    one counts.
  * The distance from a tetrahedron without triangles is infinite.
  *
  * -Infinity for diamonds whose domain holds no isovertex of full resolution. Infinity for those
@@ -56,8 +59,8 @@ double Distance(const std::array<double, 3>& point, const std::vector<SurfaceTri
  *  - diamonds that hold one and stick out of the grid, or have a vertex that is not finite,
  *  - diamonds that hold one on an edge with an end that is not finite,
  *  - diamonds with an isovertex whose distance error is infinite, if features are to be preserved.
- * If not, these have their diameter instead: the largest distance between two of their vertices.
- * This is less than a promise.
+ * If features are not preserved, the last get their diameter instead: the largest distance between
+ * two of their vertices. This is less than a promise.
  */
 std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
   double isovalue, const std::array<double, 3>& spacing, bool exact, bool preserveFeatures = true);
@@ -69,8 +72,8 @@ using Coordinates = std::array<std::vector<double>, 3>;
 std::array<double, 3> PlaceByCoordinates(
   const std::array<double, 3>& point, const Coordinates& coordinates);
 
-/** The same errors where samples have coordinates instead of a spacing. Isovertices are moved to
- *  the world, with straight edges and flat triangles between them there. */
+/** The same errors if samples have coordinates instead of a spacing. Isovertices are moved to the
+ *  world, where edges between them are straight and triangles flat. */
 std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
   double isovalue, const Coordinates& coordinates, bool exact, bool preserveFeatures = true);
 

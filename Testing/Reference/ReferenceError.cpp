@@ -8,7 +8,7 @@ namespace reference
 namespace
 {
 
-/** The first code that something holds of; it holds of all that follow. */
+/** The first code for which something holds; it must hold for all later ones, too. */
 template <typename Predicate>
 int FirstCode(const Predicate& holds)
 {
@@ -40,7 +40,7 @@ double ErrorCodes::ErrorOf(int code) const
 {
   const int part = code % 512;
   const int exponent = code / 512 - 31;
-  // Powers of two round nothing.
+  // Scaling by a power of two rounds nothing.
   return code == Infinite ? HUGE_VAL : std::ldexp(this->Scale * (512 + part), exponent - 9);
 }
 

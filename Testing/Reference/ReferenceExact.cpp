@@ -14,7 +14,7 @@ namespace reference
 namespace
 {
 
-/** A surface: the value on it, and the side of it that a value is on. */
+/** A surface: the value on it, and whether another value lies above it. */
 struct Separator
 {
   double Value;
@@ -145,7 +145,7 @@ std::array<int, 2> CoefficientsOfBoth(const std::vector<double>& samples, const 
   int upperStep = -1;
   for (int i = 0; i < steps && upperStep < 0; ++i)
   {
-    // The unit steps come in the order of the way up.
+    // The unit steps in order from the end below the range to the end above.
     const int step = isRising ? i : steps - 1 - i;
     const int signFrom = SignOf(samples[isRising ? step : step + 1], range);
     const int signTo = SignOf(samples[isRising ? step + 1 : step], range);
@@ -162,7 +162,7 @@ std::array<int, 2> CoefficientsOfBoth(const std::vector<double>& samples, const 
     Coded(samples, CrossingOnStep(samples, upperStep, range.Upper)) };
 }
 
-/** Moves two coefficients apart, of which the first one is to be nearer to the younger end. */
+/** Moves two coefficients apart if need be; the first is to be nearer to the younger end. */
 void Separate(int& first, int& second)
 {
   if (second > first)

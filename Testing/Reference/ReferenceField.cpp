@@ -100,7 +100,7 @@ int SignOf(double value, double isovalue)
 std::vector<Kind> Classify(const Hierarchy& hierarchy, const ScalarField& field, double isovalue)
 {
   std::vector<Kind> kinds(hierarchy.Size(), Kind::Inactive);
-  // Children come after their parents, so backwards every child is known before its parents.
+  // Children come after their parents, so going backwards every child is known before its parents.
   for (int index = hierarchy.Size() - 1; index >= 0; --index)
   {
     const Diamond& diamond = hierarchy.At(index);

@@ -47,7 +47,7 @@ struct Counts
   int Active = 0;
   /** m_c. */
   int Creation = 0;
-  /** m_r: relevant diamonds, with the creation diamonds among them. */
+  /** m_r: relevant diamonds, including the creation diamonds. */
   int Relevant = 0;
   /** v_i: subdivision edges of diamonds with two sampled ends of different sign. */
   int Isovertices = 0;
@@ -65,10 +65,10 @@ Counts Count(const Hierarchy& hierarchy, const ScalarField& field, double isoval
 std::vector<Point> DomainPoints(const Hierarchy& hierarchy, int diamond);
 
 /**
- * The field error of a diamond alone, whatever its descendants' (the paper's error): the
- * largest difference at any lattice point of the closed domain between the field and the linear
- * interpolation of the vertices of the tetrahedron holding the point. Infinite where this has no
- * meaning: for diamonds that stick out of the grid and for domains with a sample that is not
+ * The field error of a diamond by itself, whatever its descendants' errors (the paper's error): the
+ * largest difference, at any lattice point of the closed domain, between the field and its linear
+ * interpolation from the vertices of the tetrahedron that holds the point. Infinite where this has
+ * no meaning: for diamonds that stick out of the grid and for domains with a sample that is not
  * finite.
  */
 double OwnFieldError(const Hierarchy& hierarchy, const ScalarField& field, int diamond);

@@ -13,7 +13,7 @@ namespace reference
 namespace
 {
 
-/** The signs that occur at the points that have a sample. */
+/** The signs that occur at those points that have a sample. */
 std::set<int> SignsAt(const Hierarchy& hierarchy, const ScalarField& field, const Isorange& range,
   const std::vector<Point>& points)
 {
@@ -30,7 +30,7 @@ std::set<int> SignsAt(const Hierarchy& hierarchy, const ScalarField& field, cons
 
 const std::set<int> AllInside{ 0 };
 
-/** What a diamond is for its own sake: active or creation if it is a seed, else inactive. */
+/** A diamond's kind by itself: active or creation if it is a seed, else inactive. */
 Kind SeedKind(const Hierarchy& hierarchy, const ScalarField& field, const Isorange& range,
   bool refineInterior, const Diamond& diamond)
 {
@@ -93,7 +93,7 @@ std::vector<Kind> Classify(
   const Hierarchy& hierarchy, const ScalarField& field, const Isorange& range, bool refineInterior)
 {
   std::vector<Kind> kinds(hierarchy.Size(), Kind::Inactive);
-  // Children come after their parents, so backwards every child is known before its parents.
+  // Children come after their parents, so going backwards every child is known before its parents.
   for (int index = hierarchy.Size() - 1; index >= 0; --index)
   {
     const Diamond& diamond = hierarchy.At(index);
@@ -171,7 +171,7 @@ DiamondSet RefineInterior(const Hierarchy& hierarchy, const DiamondSet& subdivid
   const std::vector<double>& errors, const DiamondSet& inside, double interiorTolerance)
 {
   DiamondSet set = subdivided;
-  // Children come after their parents, so backwards whatever forces a diamond is known before it.
+  // Children come after their parents, so going backwards all that forces a diamond is known first.
   for (int index = hierarchy.Size() - 1; index >= 0; --index)
   {
     if (inside[index] && errors[index] > interiorTolerance)

@@ -20,8 +20,8 @@ struct Isorange
 int SignOf(double value, const Isorange& range);
 
 /**
- * Whether all sampled vertices of a diamond are inside the range, and there is one. The diamond is
- * full of the interval volume, unless something below it says otherwise.
+ * Whether a diamond has sampled vertices and they are all inside the range. It is then full of the
+ * interval volume, unless a descendant says otherwise.
  */
 bool HasVerticesInside(
   const Hierarchy& hierarchy, const ScalarField& field, const Isorange& range, int diamond);
@@ -66,7 +66,7 @@ DiamondSet CarryingDomains(
 
 /**
  * What makes a diamond worth subdividing: its domain carries something and its error exceeds the
- * tolerance. An infinite error exceeds every tolerance, the infinite one too.
+ * tolerance. An infinite error exceeds every tolerance, even an infinite one.
  * @param errors the error of every diamond, for instance OwnFieldErrors()
  * @param carrying CarryingDomains(). Both lists must outlive the criterion.
  */

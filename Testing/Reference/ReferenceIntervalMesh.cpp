@@ -48,7 +48,7 @@ IntervalPoint LatticeVertex(const Point& vertex)
   return { vertex, vertex, 0 };
 }
 
-/** The surfaces that one crosses on the way from a vertex to another, in order. */
+/** The surfaces crossed on the way from one vertex to another, in order. */
 std::vector<int> SurfacesBetween(int signFrom, int signTo)
 {
   std::vector<int> surfaces;
@@ -74,7 +74,7 @@ void SmallestFirst(const Hierarchy& hierarchy, IntervalPolygon& polygon)
     polygon.begin(), std::min_element(polygon.begin(), polygon.end(), isBefore), polygon.end());
 }
 
-/** The triangles of a fan around the corner at some place. */
+/** Appends the triangles of a fan around one corner of a polygon. */
 void AppendFan(
   const IntervalPolygon& polygon, std::size_t hub, std::vector<IntervalTriangle>& triangles)
 {
@@ -254,7 +254,7 @@ IntervalPolygon SurfacePolygon(
   }
   if (surface > 0)
   {
-    // An isosurface is anticlockwise seen from below, but the outside is above.
+    // An isosurface is anticlockwise as seen from below, but here the outside is above.
     std::reverse(polygon.begin(), polygon.end());
   }
   SmallestFirst(hierarchy, polygon);
@@ -321,7 +321,7 @@ int CountTetrahedra(const std::array<int, 4>& signs)
 {
   const auto count = [&signs](int sign)
   { return static_cast<int>(std::count(signs.begin(), signs.end(), sign)); };
-  // By the number of vertices inside and the number on the emptier side outside.
+  // By the number of vertices inside, and the smaller of the numbers below and above.
   const std::map<std::array<int, 2>, int> tetrahedra{ { { 4, 0 }, 1 }, { { 3, 0 }, 3 },
     { { 2, 0 }, 3 }, { { 1, 0 }, 1 }, { { 0, 0 }, 0 }, { { 2, 1 }, 5 }, { { 1, 1 }, 5 },
     { { 0, 1 }, 3 }, { { 0, 2 }, 6 } };

@@ -25,7 +25,7 @@ struct IntervalPoint
 };
 
 bool operator==(const IntervalPoint& a, const IntervalPoint& b);
-/** Some order, for sorting. ComesBefore() is the one that means something. */
+/** An arbitrary order, for sorting; the meaningful one is that of ComesBefore(). */
 bool operator<(const IntervalPoint& a, const IntervalPoint& b);
 
 /**
@@ -40,10 +40,10 @@ std::array<double, 3> Position(
   const ScalarField& field, const Isorange& range, const IntervalPoint& point);
 
 /**
- * The order of the points in one tetrahedron, whose vertices are all of different ages: lattice
- * vertices before isovertices, the younger vertex first. Isovertices by the younger ends of their
- * edges, the younger first, then by the older ends in the same way, then lower before upper. On a
- * common face of two tetrahedra it is the same for both.
+ * The order of the points in a tetrahedron, whose vertices all differ in age: lattice vertices come
+ * before isovertices, the younger first. Isovertices are ordered by the younger ends of their
+ * edges, the younger first, then by the older ends in the same way, then lower before upper
+ * surface. On their common face two tetrahedra have the same order.
  */
 bool ComesBefore(const Hierarchy& hierarchy, const IntervalPoint& a, const IntervalPoint& b);
 
@@ -57,7 +57,7 @@ std::vector<Tetrahedron> SampledLeaves(const Hierarchy& hierarchy, const Diamond
 /** The level of the diamond that a tetrahedron lies in: 0 for the root, N at full resolution. */
 int LevelOf(const Hierarchy& hierarchy, const Tetrahedron& tetrahedron);
 
-/** The signs of the vertices, which are the same in all that follows. */
+/** The signs of the vertices, as the functions below take them. */
 std::array<int, 4> SignsOf(
   const ScalarField& field, const Isorange& range, const Tetrahedron& leaf);
 
@@ -67,34 +67,35 @@ std::vector<IntervalPoint> PointsOf(const Hierarchy& hierarchy, const ScalarFiel
 
 /**
  * The parts of the four faces of a tetrahedron that are inside the range; the face opposite to the
- * first vertex comes first. The first corner is the smallest by ComesBefore(), the others follow
- * anticlockwise for who looks at the tetrahedron from outside. Empty if the part is.
+ * first vertex comes first. The first corner of a part is the smallest by ComesBefore(), the others
+ * follow anticlockwise as seen from outside the tetrahedron. Empty where nothing of a face is
+ * inside.
  */
 std::array<IntervalPolygon, 4> InsideFaces(
   const Hierarchy& hierarchy, const Tetrahedron& leaf, const std::array<int, 4>& signs);
 
 /**
  * How the faces are cut into triangles: the part of every face inside the range is a fan around its
- * smallest corner. So the two tetrahedra on either side agree. The triangles have their smallest
- * corner first and are anticlockwise seen from outside.
+ * smallest corner, so the tetrahedra on both sides of a face agree. The triangles have their
+ * smallest corner first and are anticlockwise as seen from outside.
  */
 std::vector<IntervalTriangle> FaceTriangles(
   const Hierarchy& hierarchy, const Tetrahedron& leaf, const std::array<int, 4>& signs);
 
 /**
  * The piece of the lower (-1) or the upper (1) surface in a tetrahedron: none, three or four
- * points. The smallest corner comes first, the others follow anticlockwise for who looks from
- * outside the range.
+ * points. The smallest corner comes first, the others follow anticlockwise as seen from outside the
+ * range.
  */
 IntervalPolygon SurfacePolygon(const Hierarchy& hierarchy, const Tetrahedron& leaf,
   const std::array<int, 4>& signs, int surface);
 
 /**
- * The four corners of a piece of a surface need not lie in one plane, so it matters which diagonal
- * cuts it into two triangles: false for the one from the first corner of SurfacePolygon(), true for
- * the other. Without meaning for triangles. If both pieces have four corners, they cut the same
- * edges; then equal choices join the same two edges on both surfaces, and different choices may let
- * the surfaces cross.
+ * Which diagonals cut the pieces of both surfaces into triangles, which matters as the four corners
+ * of a piece need not lie in one plane: false for the diagonal from the first corner of
+ * SurfacePolygon(), true for the other. Without meaning for pieces that are triangles. If both
+ * pieces have four corners, they cut the same edges; then equal choices join the same two edges on
+ * both surfaces, and different choices may let the surfaces cross.
  */
 struct Diagonals
 {
@@ -104,7 +105,7 @@ struct Diagonals
 
 /**
  * The boundary of the part of a tetrahedron inside the range: its FaceTriangles() and its pieces of
- * both surfaces, anticlockwise seen from outside.
+ * both surfaces, anticlockwise as seen from outside.
  */
 std::vector<IntervalTriangle> BoundaryTriangles(const Hierarchy& hierarchy, const Tetrahedron& leaf,
   const std::array<int, 4>& signs, const Diagonals& diagonals);
@@ -114,8 +115,8 @@ double LeafVolume(const Hierarchy& hierarchy, const ScalarField& field, const Is
   const Tetrahedron& leaf, const Diagonals& diagonals);
 
 /**
- * The smallest and the largest volume that a choice of diagonals gives, the same one for both
- * surfaces if both have four corners there.
+ * The smallest and the largest volume that a choice of diagonals gives. If both surfaces have four
+ * corners there, the choice is the same for both.
  */
 ValueRange LeafVolumes(const Hierarchy& hierarchy, const ScalarField& field, const Isorange& range,
   const Tetrahedron& leaf);
@@ -124,8 +125,8 @@ ValueRange VolumesOf(const Hierarchy& hierarchy, const ScalarField& field, const
   const std::vector<Tetrahedron>& leaves);
 
 /**
- * The number of tetrahedra that the library cuts the part inside the range into, which depends only
- * on how many vertices are below, inside and above.
+ * Into how many tetrahedra the library cuts the part inside the range; this depends only on how
+ * many vertices are below, inside and above.
  */
 int CountTetrahedra(const std::array<int, 4>& signs);
 

@@ -105,8 +105,8 @@ Hierarchy::Hierarchy(const Point& dims)
   {
     this->AddTetrahedron(tetrahedron, -1, 0);
   }
-  // Diamonds are appended while they are visited: breadth first. When one is visited, all diamonds
-  // of its depth have all their tetrahedra, since those were made by diamonds of the depth before.
+  // Breadth first: diamonds are appended while others are visited. When a diamond is visited, all
+  // diamonds of its depth have all their tetrahedra, which the diamonds of the depth before made.
   for (int index = 0; index < this->Size(); ++index)
   {
     this->ListVertices(this->AllDiamonds[index]);
@@ -206,7 +206,7 @@ bool Hierarchy::IsBaseCorner(const Point& point) const
 
 std::vector<Tetrahedron> Hierarchy::BaseTetrahedra() const
 {
-  // Every order of the three axes is a path along the cube's edges from the origin to the far
+  // Every order of the three axes gives a path along the cube's edges from the origin to the far
   // corner.
   std::vector<Tetrahedron> tetrahedra;
   std::array<int, 3> axes{ 0, 1, 2 };
@@ -270,8 +270,9 @@ int Hierarchy::Age(const Point& vertex) const
 {
   if (this->IsBaseCorner(vertex))
   {
-    // In an endless lattice the corner with 3, 2, 1 coordinates 2^N would be the central vertex of
-    // a diamond of class 0, 1, 2 and of the scale above the root's; the origin is older than all.
+    // In an endless lattice, a corner with 3, 2 or 1 coordinates equal to 2^N would be the central
+    // vertex of a diamond of class 0, 1 or 2, one scale above the root; the origin is older than
+    // all.
     const std::array<int, 4> ages{ -4, -1, -2, -3 };
     return ages[std::count(vertex.begin(), vertex.end(), this->BaseSize())];
   }

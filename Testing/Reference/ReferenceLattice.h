@@ -53,7 +53,7 @@ struct Diamond
   std::vector<Tetrahedron> Tetrahedra;
   /** For every tetrahedron, the parent whose bisection made it; -1 in the root. */
   std::vector<int> Origins;
-  /** The vertices of the tetrahedra, in grid order, sampled or not; the central vertex is none. */
+  /** The vertices of the tetrahedra, in grid order, sampled or not, without the central vertex. */
   std::vector<Point> Vertices;
   /** Indices of the diamonds whose bisection makes tetrahedra of this one, ascending. */
   std::vector<int> Parents;
@@ -62,18 +62,18 @@ struct Diamond
   /** Whether one of the vertices has no sample. */
   bool SticksOut = false;
 
-  /** Bisection repeats itself at half the size after three steps: one level. */
+  /** After three steps bisection repeats itself at half the size: one level. */
   int Level() const { return this->Depth / 3; }
   /** 0, 1, 2: the spine is a diagonal of a cube, a diagonal of a face, an edge of a cube. */
   int Class() const { return this->Depth % 3; }
 };
 
 /**
- * The hierarchy of all diamonds over a grid, the paper's HD less the field.
+ * The hierarchy of all diamonds over a grid: the paper's HD without the field.
  *
  * The samples lie at the integer points from 0 to dims - 1. The base cube [0, 2^N]^3, N >= 1, is
  * the smallest that covers them; it starts as six tetrahedra around the diagonal from the origin.
- * Every tetrahedron is bisected at the middle of its longest edge for as long as that is a lattice
+ * Every tetrahedron is bisected at the middle of its longest edge as long as that is a lattice
  * point. A tetrahedron belongs to the grid if its bounding box shares volume with the sampled box;
  * all others are ignored. So the hierarchy depends on dims alone and knows no field.
  */
@@ -111,8 +111,8 @@ public:
 
   /**
    * When a vertex came into being; larger is younger. For a central vertex this is the depth of its
-   * diamond. The corners of the base cube continue the row upwards, as if the base cube were one
-   * cube of an endless lattice.
+   * diamond. For the corners of the base cube it is negative, as if the base cube were one of the
+   * cubes of an endless lattice.
    */
   int Age(const Point& vertex) const;
   /** An edge as (younger end, older end). */

@@ -12,12 +12,12 @@ namespace
 {
 
 /**
- * The part of a tetrahedron with ascending values where the interpolation is below a limit strictly
- * between the first and the last value.
+ * The fraction of a tetrahedron where the interpolation is below a limit. The values ascend, and
+ * the limit is strictly between the first and the last.
  */
 double FractionBelow(const std::array<double, 4>& values, double limit)
 {
-  // Where the limit is found on the edge between two vertices on either side of it.
+  // How far along the edge between two vertices on different sides of the limit it is reached.
   const auto cut = [&](int from, int to)
   { return (limit - values[from]) / (values[to] - values[from]); };
   if (limit < values[1])
@@ -46,7 +46,7 @@ std::array<Tetrahedron, 6> VoxelTetrahedra(const Point& voxel)
   {
     even[axis] = voxel[axis] + voxel[axis] % 2;
   }
-  // Every order of the three axes is a path along the voxel's edges.
+  // Every order of the three axes gives a path along the voxel's edges.
   std::array<Tetrahedron, 6> tetrahedra;
   std::array<int, 3> axes{ 0, 1, 2 };
   for (Tetrahedron& tetrahedron : tetrahedra)
@@ -68,8 +68,8 @@ double FractionInside(const std::array<double, 4>& values, const Isorange& range
 {
   std::array<double, 4> ascending = values;
   std::sort(ascending.begin(), ascending.end());
-  // A tetrahedron of a single value is a step: it is inside as a whole or not at all. Elsewhere
-  // the level sets have no volume, so that it does not matter whether the bounds are included.
+  // A tetrahedron with a single value is inside as a whole or not at all. Elsewhere the level sets
+  // have no volume, so it does not matter whether the bounds are included.
   if (ascending[0] == ascending[3])
   {
     return SignOf(ascending[0], range) == 0 ? 1.0 : 0.0;

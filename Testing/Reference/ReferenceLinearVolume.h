@@ -17,8 +17,8 @@ namespace reference
 std::array<Tetrahedron, 6> VoxelTetrahedra(const Point& voxel);
 
 /**
- * The part of a tetrahedron, from 0 to 1, where the linear interpolation of four finite values at
- * its vertices is inside the range.
+ * The fraction of a tetrahedron, from 0 to 1, where the linear interpolation of four finite values
+ * at its vertices is inside the range.
  */
 double FractionInside(const std::array<double, 4>& values, const Isorange& range);
 

@@ -35,7 +35,7 @@ Point DoubledMiddle(const Isovertex& isovertex)
 /**
  * Orders the corners so that the normal points from an upper to a lower vertex. With the
  * isovertices at the middles of their edges the patch is planar and all upper vertices are on one
- * side of it; moving them along their edges does not turn it over.
+ * side of it; moving isovertices along their edges does not turn it over.
  */
 void Orient(std::vector<Isovertex>& corners, const Point& upper, const Point& lower)
 {

@@ -25,8 +25,8 @@ bool operator<(const Isovertex& a, const Isovertex& b);
 
 /**
  * Where the isosurface cuts an edge by linear interpolation, in steps of 1/256 of the edge, counted
- * from the younger end, as the paper codes it but for the bounds; 1 to 255, so that an isovertex is
- * never an end of its edge. In the middle if an end is not finite.
+ * from the younger end, coded as in the paper except for the bounds: 1 to 255, so that an isovertex
+ * is never an end of its edge. 128, the middle, if an end is not finite.
  */
 int Coefficient(const ScalarField& field, double isovalue, const Isovertex& isovertex);
 /** The position of an isovertex in index space. */
@@ -34,14 +34,15 @@ std::array<double, 3> Position(const Isovertex& isovertex, int coefficient);
 
 /**
  * The part of the isosurface in one tetrahedron: a triangle, or a quadrilateral if two vertices lie
- * on either side. The corners are in order, anticlockwise for who looks from the lower values, so
- * that normals point to these. The smallest corner comes first: equal patches compare equal.
+ * on each side. The corners are in order, anticlockwise as seen from the lower values, so that
+ * normals point towards these. The smallest corner comes first, so that equal patches compare
+ * equal.
  */
 struct Patch
 {
   std::vector<Isovertex> Corners;
-  /** Twice the central vertex of the diamond that the tetrahedron lies in. At full resolution that
-   * is the middle of a voxel, which is no lattice point. */
+  /** Twice the central vertex of the diamond that the tetrahedron lies in. At full resolution it is
+   * twice the middle of a voxel, which is no lattice point. */
   Point DoubledCenter;
   /** The level of that diamond: 0 for the root, N at full resolution. */
   int Level = 0;
@@ -56,7 +57,7 @@ Patch PatchOf(
 
 /**
  * The tetrahedra of the current diamond mesh: what is left of the base cube if exactly the
- * subdivided diamonds are bisected. Contains tetrahedra with vertices that have no sample.
+ * subdivided diamonds are bisected. Some of them have vertices without a sample.
  */
 std::vector<Tetrahedron> LeafTetrahedra(const Hierarchy& hierarchy, const DiamondSet& subdivided);
 

@@ -27,25 +27,27 @@ struct MinimalRefinement
 };
 
 /**
- * The minimal isodiamond hierarchy MI (section 7 of the paper): active and creation diamonds alone,
- * for each its central vertex, the central vertex's sign and a threshold; apart from them only the
+ * The minimal isodiamond hierarchy MI (section 7 of the paper): only active and creation diamonds,
+ * for each its central vertex, the central vertex's sign and a threshold; besides these only the
  * signs of the base cube's corners. It never sees the field.
  *
- * Arcs (the paper's Table 1) are not stored. One leads from a subdivided diamond to an active child
- * if their duet is active: if a tetrahedron that they share has vertices of both signs. None leads
- * into a creation diamond: these are kept in a list of their own, and all vertices of one have the
- * sign that its central vertex has not. Since the parent of an active duet is itself active or a
- * creation diamond (Theorem 7.1), every active diamond hangs on the root or on a creation diamond.
+ * Arcs (the paper's Table 1) are not stored. An arc leads from a subdivided diamond to an active
+ * child if their duet is active: if a tetrahedron that they share has vertices of both signs. No
+ * arc leads to a creation diamond: creation diamonds are in a list of their own, and all vertices
+ * of one have the sign opposite to its central vertex's. Since the parent of an active duet is
+ * itself active or a creation diamond (Theorem 7.1), every active diamond can be reached from the
+ * root or from a creation diamond.
  *
  * The signs of a diamond's vertices come from its active duets. A tetrahedron in none of these has
- * one sign: that of the spine, which is common to all tetrahedra of the diamond. At the grid's
- * border, where both ends of the spine may have no sample, it is that of any other vertex of the
- * tetrahedron that is already known.
+ * only one sign: that of the spine, which is common to all tetrahedra of the diamond. At the grid's
+ * border, where both ends of the spine may have no sample, it is that of any vertex of the
+ * tetrahedron whose sign is already known.
  *
  * The thresholds must be closed: a stored diamond's threshold is no larger than a stored parent's.
- * Then subdivision never forces another one. The closure over the children of a creation diamond
- * (section 7.3) is left out: it stands in for what the relevant diamonds, which MI lacks, would
- * have forced, and that is in the thresholds already. It would subdivide more than they ask for.
+ * Then subdividing one diamond never forces another. The closure over the children of a creation
+ * diamond (section 7.3) is left out: it makes up for what the relevant diamonds, which MI lacks,
+ * would have forced, and the thresholds contain that already. It would subdivide more than they ask
+ * for.
  */
 class MinimalHierarchy
 {

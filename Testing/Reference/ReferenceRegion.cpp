@@ -48,7 +48,7 @@ HalfSpace HalfSpaceOf(const std::array<Point, 3>& face, const Point& inside)
   }
   HalfSpace halfSpace{ Cross(edges[0], edges[1]), 0.0 };
 
-  // The components are integers. Without their common divisor all that follows stays small.
+  // The components are integers. Dividing by their common divisor keeps all that follows small.
   long long divisor = 0;
   for (const double component : halfSpace.Normal)
   {
@@ -90,8 +90,8 @@ void AppendHalfSpaces(const Box& box, std::vector<HalfSpace>& halfSpaces)
 }
 
 /**
- * Whether the planes of three half-spaces meet in a single point and all others contain it. The
- * point is left as a fraction, so that nothing is rounded as long as there are bits enough.
+ * Whether the planes of three half-spaces meet in a single point that all the others contain. The
+ * point is left as a fraction, so that nothing is rounded as long as there are enough bits.
  */
 bool HaveVertexAt(
   const std::vector<HalfSpace>& halfSpaces, const std::array<std::size_t, 3>& planes)

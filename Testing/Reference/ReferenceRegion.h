@@ -18,9 +18,9 @@ struct Box
 };
 
 /**
- * Whether the domain of a diamond, the closed union of its tetrahedra, has a point in common with a
- * box; a single one is enough. The domain may lead out of the sampled box, and so may the common
- * point. There is no rounding if the corners of the box are multiples of 1/8.
+ * Whether the domain of a diamond, the closed union of its tetrahedra, has at least one point in
+ * common with a box. The domain may extend beyond the sampled box, and the common point may lie
+ * there. Nothing is rounded if the corners of the box are multiples of 1/8.
  */
 bool Touches(const Hierarchy& hierarchy, int diamond, const Box& box);
 
@@ -28,9 +28,9 @@ bool Touches(const Hierarchy& hierarchy, int diamond, const Box& box);
 DiamondSet CloseOverParents(const Hierarchy& hierarchy, DiamondSet diamonds);
 
 /**
- * What is subdivided for a region of interest: the smallest closed superset of one set and of the
- * active and creation diamonds of another that touch the region.
- * @param outside what is subdivided everywhere, for the tolerance outside of the region; closed
+ * What is subdivided for a region of interest: the smallest closed set that contains all of one
+ * set, and those active and creation diamonds of another that touch the region.
+ * @param outside what is subdivided everywhere, for the tolerance outside the region; closed
  * @param inside what would be subdivided if the tolerance in the region held everywhere
  */
 DiamondSet RefineRegion(const Hierarchy& hierarchy, const DiamondSet& outside,

@@ -34,7 +34,8 @@ std::vector<Polygon> PolygonsIn(const Hierarchy& hierarchy,
   return polygons;
 }
 
-/** For every vertex the smallest one that it is connected with, if each group is. */
+/** For every vertex the smallest one that it is connected with; the vertices of a group are
+ *  connected. */
 std::map<Isovertex, Isovertex> Connect(const std::vector<std::vector<Isovertex>>& groups)
 {
   std::map<Isovertex, Isovertex> smallest;

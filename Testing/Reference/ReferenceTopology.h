@@ -11,8 +11,8 @@
 /**
  * Which diamonds change the topology of a surface when they are bisected, from the definition of
  * Gerstner and Pajarola ("Topology preserving and controlled topology simplifying multiresolution
- * isosurface extraction", IEEE Visualization 2000): the surface is made, before and after, and
- * looked at.
+ * isosurface extraction", IEEE Visualization 2000): the surfaces before and after are made and
+ * compared.
  */
 namespace reference
 {
@@ -26,10 +26,10 @@ struct DomainPiece
 {
   /** Vertices less edges plus faces. */
   int EulerNumber = 0;
-  /** The components of the edges that one face has. */
+  /** The connected components of those edges that have only one face. */
   int BoundaryLoops = 0;
   /** The crossed edges that bisection of the diamond leaves as they are: edges between vertices of
-   *  the diamond, but for the spine. They are all on the boundary of the domain. */
+   *  the diamond, except the spine. They are all on the boundary of the domain. */
   std::set<Isovertex> OuterEdges;
 };
 
@@ -38,14 +38,14 @@ bool operator<(const DomainPiece& a, const DomainPiece& b);
 
 /**
  * The pieces of the surface in a diamond's domain, sorted. All vertices must have samples.
- * @param isBisected whether in the halves of the diamond's tetrahedra, not in the tetrahedra
+ * @param isBisected true for the surface in the halves of the diamond's tetrahedra
  */
 std::vector<DomainPiece> PiecesInDomain(
   const Hierarchy& hierarchy, int diamond, const SideOfVertex& isAbove, bool isBisected);
 
 /**
- * Whether bisection of a diamond that does not stick out of the grid changes the topology of the
- * surface in its domain: there are not the same pieces, met by the same outer edges, before and
+ * Whether bisection changes the topology of the surface in the domain of a diamond, which must not
+ * stick out of the grid: whether the pieces, or the outer edges that each meets, differ before and
  * after.
  */
 bool IsCritical(const Hierarchy& hierarchy, int diamond, const SideOfVertex& isAbove);

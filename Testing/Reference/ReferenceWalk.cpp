@@ -195,9 +195,9 @@ std::vector<double> Thresholds(
   }
 
   std::vector<double> thresholds(hierarchy.Size(), -Infinity);
-  // From one error to the next the criterion does not change, hence neither does what is
-  // subdivided: whatever is subdivided at the lower of the two is so at all tolerances below the
-  // upper.
+  // Between one error and the next the criterion does not change, so neither does what is
+  // subdivided: whatever is subdivided at the lower tolerance is subdivided at all tolerances below
+  // the upper.
   double tolerance = -Infinity;
   for (const double value : values)
   {

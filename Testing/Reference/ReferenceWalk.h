@@ -34,14 +34,15 @@ struct Refinement
 {
   /** Always closed: with a diamond it contains all its parents. */
   DiamondSet Subdivided;
-  /** The active front: diamonds not subdivided with a subdivided parent, or the root alone. */
+  /** The active front: diamonds that are not subdivided but have a subdivided parent, or the root
+   *  alone. */
   DiamondSet Front;
 };
 
 /**
- * Selective refinement from the top, the paper's walk. The front, at first the root alone,
- * is searched for diamonds that meet the criterion; such a diamond is subdivided, after all its
- * parents that are not yet, and its children join the front.
+ * Selective refinement from the top, the paper's walk. The front, at first the root alone, is
+ * searched for diamonds that meet the criterion; such a diamond is subdivided, after those of its
+ * parents that are not subdivided yet, and its children join the front.
  */
 Refinement Refine(const Hierarchy& hierarchy, const Criterion& criterion);
 
@@ -62,9 +63,9 @@ bool IsClosed(const Hierarchy& hierarchy, const DiamondSet& diamonds);
 
 /**
  * The activation threshold of every diamond: the supremum of the tolerances at which the walk with
- * the uniform criterion subdivides it. So the walk at tolerance t subdivides just the diamonds with
- * a threshold above t. -Infinity for the diamonds that no tolerance, however negative, subdivides.
- * Found by repeating the walk for every distinct error.
+ * the uniform criterion subdivides it. So the walk at tolerance t subdivides exactly the diamonds
+ * with a threshold above t. -Infinity for the diamonds that no tolerance, however negative,
+ * subdivides. Found by repeating the walk for every distinct error.
  */
 std::vector<double> Thresholds(
   const Hierarchy& hierarchy, const std::vector<double>& errors, const std::vector<bool>& crossed);

@@ -8,11 +8,12 @@
 #include <functional>
 
 /**
- * Faults that are switched on one at a time, in the environment: all are in one program, which is
+ * Faults that are switched on one at a time, by the environment: all are in one program, which is
  * built once. scripts/mutate.py puts them into a copy of the core, and this header before each
  * file.
  *
- * An operator's operands need not be found: `a < b` becomes `a < (Tag) > b`, which binds as it did.
+ * The operands of an operator need not be found: `a < b` becomes `a < (Tag) > b`, which binds in
+ * the same way.
  */
 namespace mutants
 {
@@ -51,7 +52,7 @@ inline bool IsActive(int number)
   return number == Active;
 }
 
-/** Of no constant expression: tables are made at the start, so that faults are in them, too. */
+/** Never a constant expression: tables are made at the start, so that faults are in them, too. */
 constexpr bool On(int number)
 {
   return number < 0 || IsActive(number);
