@@ -3,7 +3,12 @@
 
 #include "Private/HierarchyQuery.h"
 #include "Private/PlacedTolerance.h"
+#include "Stuffing/TetrahedronMesh.h"
 
+#include "vtkCellArray.h"
+#include "vtkPoints.h"
+
+#include <array>
 #include <cmath>
 
 namespace vtkIsodiamond
@@ -14,6 +19,31 @@ namespace
 /** In each round, leaves that are too far away become a level finer; smooth volumes need three to
  *  eight. */
 constexpr int MostRounds = 10;
+
+/** The volume of what a query gives if it is not for simulations. */
+double PlainVolume(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond::Query& query,
+  const MeshOptions& options, Task& task)
+{
+  MeshOptions plain = options;
+  plain.PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;
+  plain.MorePointData = nullptr;
+  plain.Wanted = {};
+  const Mesh mesh = ExtractMesh(isodiamond::RefinedSet(hierarchy, query, task.For()), plain, task);
+  double volume = 0.0;
+  std::array<isodiamond::Vector, 4> corners{};
+  for (vtkIdType cell = 0; cell < mesh.Cells->GetNumberOfCells(); ++cell)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    mesh.Cells->GetCellAtId(cell, size, ids);
+    for (int i = 0; i < 4; ++i)
+    {
+      mesh.Points->GetPoint(ids[i], corners[i].data());
+    }
+    volume += isodiamond::SixVolumes(corners[0], corners[1], corners[2], corners[3]) / 6.0;
+  }
+  return volume;
+}
 
 }
 
@@ -35,6 +65,8 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   asked.KeepsInside = std::isfinite(query.InteriorTolerance);
   isodiamond::Query core =
     CoreQuery(HierarchyQuery(query, measure, options.World), hierarchy, options.World);
+  asked.VolumeAtTolerance =
+    PlainVolume(hierarchy, CoreQuery(query, hierarchy, options.World), options, task);
   Mesh mesh = ExtractMesh(refined, asked, task);
   for (int round = 1; round <= MostRounds && !mesh.FarDiamonds.empty(); ++round)
   {

@@ -121,6 +121,7 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   const isodiamond::Grid& grid = hierarchy.SampleGrid();
   isodiamond::StuffingInput input{ leaves, vertices, positions, options.World, grid, move };
   input.KeepsInside = options.KeepsInside;
+  input.VolumeAtTolerance = options.VolumeAtTolerance;
   FindAllowances(hierarchy, options, input);
   const isodiamond::StuffedMesh result = isodiamond::Stuff(input, parallelFor);
   const isodiamond::TetrahedronMesh& stuffed = result.Mesh;

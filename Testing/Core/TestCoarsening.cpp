@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tetrahedra for simulations, made coarser: promises by brute force, what stays, undoing.
+// Coarser meshes for simulations: promises by brute force, what stays as it is, and undoing.
 #include "RandomTestTools.h"
 #include "StuffingTestTools.h"
 
@@ -18,13 +18,13 @@ using namespace isodiamond;
 namespace
 {
 
-/** A stuffed mesh, coarser. */
+/** A stuffed mesh, made coarser. */
 struct Coarsened
 {
   test::Stuffed Result;
   std::vector<std::uint32_t> FarLeaves;
 
-  /** @param canBeFiner all of it */
+  /** @param canBeFiner the same for all leaves */
   Coarsened(const test::Stuffed& stuffed, double allowance, bool canBeFiner,
     bool keepsInside = false, double usedPart = 0.75)
     : Result(stuffed)
@@ -37,8 +37,7 @@ struct Coarsened
   }
 };
 
-/** Of the dihedral angle, 16 degrees, that what collapses leave has at the least, but for rounding.
- */
+/** The sine of 16 degrees, the least dihedral angle that collapses make, less some for rounding. */
 constexpr double LeastSine = 0.27563;
 
 double WorstSine(const TetrahedronMesh& mesh)
@@ -58,7 +57,14 @@ test::Stuffed Gyroid(double tolerance, const Isoregion& region = { 0.1, HUGE_VAL
   return { *test::BuildVolume(test::GyroidField(33, 1.5), region).Hierarchy, query };
 }
 
-/** By point: the length of the longest edge there. */
+/** The volume that a mesh has, to be kept. */
+VolumeRange OwnVolume(const TetrahedronMesh& mesh)
+{
+  const double volume = VolumeOf(mesh);
+  return { volume, volume };
+}
+
+/** By point: the length of its longest edge. */
 std::vector<double> LongestEdges(const TetrahedronMesh& mesh)
 {
   std::vector<double> longest(mesh.Positions.size());
@@ -76,7 +82,7 @@ std::vector<double> LongestEdges(const TetrahedronMesh& mesh)
   return longest;
 }
 
-/** The triangles that are there, each from its least point on. */
+/** The triangles that are there, each beginning with its least point. */
 std::set<Triangle> SetOf(const std::vector<Triangle>& triangles)
 {
   std::set<Triangle> all;
@@ -92,7 +98,7 @@ std::set<Triangle> SetOf(const std::vector<Triangle>& triangles)
   return all;
 }
 
-/** The tetrahedra, each with its corners sorted, in an order of their own. */
+/** The tetrahedra, each with its corners sorted, whatever their order in the mesh. */
 std::set<Corners> SetOf(const TetrahedronMesh& mesh)
 {
   std::set<Corners> all;
@@ -119,7 +125,7 @@ TEST(Coarsening, KeepsPromiseShapeAndTopologyOfRandomFields)
       const double allowance = std::exp(test::Uniform(random, -3.0, 1.5));
       const bool canBeFiner = random() % 2 == 0;
       const bool keepsInside = random() % 4 == 0;
-      // Samples that allow too much leave it to the measuring.
+      // If samples may use too much, measuring has to find what is too far away.
       const double usedPart = random() % 2 == 0 ? 0.75 : 4.0;
       const Coarsened coarse(stuffed, allowance, canBeFiner, keepsInside, usedPart);
       const test::Volume volume = coarse.Result.AsVolume();
@@ -171,7 +177,7 @@ TEST(Coarsening, SavesMostOfSmoothSurfaces)
   EXPECT_LT(coarse.Result.Mesh.Tetrahedra.size(), stuffed.Mesh.Tetrahedra.size() / 2);
   EXPECT_EQ(test::FarByForce(stuffed.Plain, coarse.Result.AsVolume(), 0.5), "");
   EXPECT_NEAR(VolumeOf(coarse.Result.Mesh) / VolumeOf(stuffed.PlainMesh()), 1.0, 0.01);
-  // No edge gets much longer than those around were, so what is inside stays fine.
+  // No edge gets much longer than those around it were, so the inside stays fine.
   const std::vector<double> before = LongestEdges(stuffed.Mesh);
   const TetrahedronMesh& mesh = coarse.Result.Mesh;
   for (const Corners& corners : mesh.Tetrahedra)
@@ -190,7 +196,7 @@ TEST(Coarsening, SavesMostOfSmoothSurfaces)
   }
 }
 
-// Two surfaces with less between them than they may move: what they gain they also lose.
+// Two surfaces that may move farther than they are apart: gained and lost volume has to balance.
 TEST(Coarsening, KeepsTheVolumeOfWhatIsThin)
 {
   const test::Stuffed stuffed = Gyroid(0.3, { -0.2, 0.2 });
@@ -201,7 +207,7 @@ TEST(Coarsening, KeepsTheVolumeOfWhatIsThin)
   EXPECT_NEAR(VolumeOf(coarse.Result.Mesh), wanted, std::abs(VolumeOf(stuffed.Mesh) - wanted));
 }
 
-// What is too far away from the start has to be finer; where nothing is, it stays as it is.
+// What is too far away from the start has to be finer; where it cannot be, it is left as it is.
 TEST(Coarsening, LeavesAloneWhatIsFarFromTheStart)
 {
   const test::Stuffed stuffed = Gyroid(0.5);
@@ -237,19 +243,19 @@ TEST(Coarsening, IsTheSameWithThreads)
   EXPECT_EQ(four.Result.Mesh.Positions, one.Result.Mesh.Positions);
 }
 
-// Any collapses are undone, with what builds on them; of all nothing is left.
+// Any collapses can be undone, with those that build on them; once all are, the mesh is as before.
 TEST(TetrahedronCollapses, CanBeUndone)
 {
   test::Stuffed stuffed = Gyroid(0.1);
   const std::set<Corners> before = SetOf(stuffed.Mesh);
   test::Random random(7);
-  TetrahedronCollapses collapses(stuffed.Mesh, 20.0, VolumeOf(stuffed.Mesh));
+  TetrahedronCollapses collapses(stuffed.Mesh, 20.0, OwnVolume(stuffed.Mesh));
   std::vector<std::uint32_t> all;
   for (std::uint32_t point = 0; point < stuffed.Mesh.Positions.size(); ++point)
   {
     all.push_back(point);
   }
-  std::size_t together = 0; // that went with those that were asked for
+  std::size_t together = 0; // undone though not asked for
   for (int round = 0; round < 20; ++round)
   {
     collapses.CollapseInside(SerialFor);
@@ -275,11 +281,11 @@ TEST(TetrahedronCollapses, CanBeUndone)
   EXPECT_EQ(SetOf(collapses.Take()), before);
 }
 
-// Where points inside have moved more edges can collapse; surfaces stay.
+// Once points inside have moved, more edges can collapse; surfaces stay as they are.
 TEST(TetrahedronCollapses, GoOnWhereThingsAreRelaxed)
 {
   const test::Stuffed stuffed = Gyroid(0.1);
-  TetrahedronCollapses collapses(stuffed.Mesh, 16.0, VolumeOf(stuffed.Mesh));
+  TetrahedronCollapses collapses(stuffed.Mesh, 16.0, OwnVolume(stuffed.Mesh));
   std::size_t before = 0;
   do
   {
@@ -331,7 +337,7 @@ TEST(Relaxation, MovesPointsInsideToBetterPlaces)
   EXPECT_TRUE(RelaxInside(four, options, SerialFor).empty());
 }
 
-// What is undone on a surface takes with it what builds on it inside, and on the surface by that.
+// Undoing on a surface also undoes what builds on it inside, and what builds on that on a surface.
 TEST(TetrahedronCollapses, AreUndoneTogetherWithThoseOfSurfaces)
 {
   for (std::uint32_t seed = 1; seed <= 20; ++seed)
@@ -351,7 +357,7 @@ TEST(TetrahedronCollapses, AreUndoneTogetherWithThoseOfSurfaces)
     const std::vector<double> allowances(stuffed.LeafCount, 1.0);
     const MeasuredSurfaces surfaces(stuffed.PlainMesh(), stuffed.Mesh, allowances, SerialFor);
     const std::size_t count = surfaces.Part.Simple.Triangles.size();
-    TetrahedronCollapses tetrahedra(stuffed.Mesh, 10.0, VolumeOf(stuffed.Mesh));
+    TetrahedronCollapses tetrahedra(stuffed.Mesh, 10.0, OwnVolume(stuffed.Mesh));
     if (!surfaces.AreSound || count == 0)
     {
       continue;

@@ -19,6 +19,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTetra.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -38,7 +39,7 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** A ball for simulations. */
+/** Tetrahedra of a ball, for simulations. */
 vtkSmartPointer<vtkIsodiamondIntervalVolume> Ball(vtkImageData* image, double tolerance)
 {
   auto volume = vtkSmartPointer<vtkIsodiamondIntervalVolume>::New();
@@ -95,7 +96,23 @@ double SmallestAngle(vtkUnstructuredGrid* mesh)
   return smallest;
 }
 
-/** The faces of one tetrahedron alone that are on the lower surface. */
+double VolumeOf(vtkUnstructuredGrid* mesh)
+{
+  double volume = 0.0;
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    std::array<std::array<double, 3>, 4> corners{};
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      mesh->GetCell(i)->GetPoints()->GetPoint(corner, corners[corner].data());
+    }
+    volume += vtkTetra::ComputeVolume(
+      corners[0].data(), corners[1].data(), corners[2].data(), corners[3].data());
+  }
+  return volume;
+}
+
+/** The lower surface: the faces on it that only one tetrahedron has. */
 vtkSmartPointer<vtkPolyData> LowerSurface(vtkUnstructuredGrid* mesh)
 {
   vtkDataArray* surfaces = mesh->GetPointData()->GetArray("Surface");
@@ -157,7 +174,7 @@ vtkSmartPointer<vtkPolyData> SamplesOf(vtkPolyData* surface)
   return samples;
 }
 
-/** Of triangles with an angle below 15 degrees. */
+/** The share of triangles with an angle below 15 degrees. */
 double ShareOfSmallAngles(vtkPolyData* surface)
 {
   vtkIdType small = 0;
@@ -213,7 +230,7 @@ TEST(SimulationQuality, TellsTheAnglesThatItReaches)
 
 TEST(SimulationQuality, KeepsTheToleranceBothWays)
 {
-  // From a voxel on: cells of full resolution may move their part of a surface by less than that.
+  // Tolerances from a voxel on: cells at full resolution may move their part of a surface by less.
   const auto image = test::BallImage({ 33, 33, 33 });
   const auto full = Ball(image, 0.0);
   full->SimulationQualityOff();
@@ -241,10 +258,34 @@ TEST(SimulationQuality, MakesFewerTetrahedra)
   const vtkIdType coarse = volume->GetOutput()->GetNumberOfCells();
   EXPECT_LT(coarse, 0.8 * plain);
   EXPECT_GE(volume->GetSmallestDihedralAngle(), 15.0);
-  // Who asks for something inside keeps the points there.
+  // With an interior tolerance, points inside stay.
   volume->SetInteriorTolerance(1e9);
   volume->Update();
   EXPECT_GT(volume->GetOutput()->GetNumberOfCells(), coarse);
+}
+
+// What is convex loses volume with each edge that collapses: it may, up to what it would lose
+// without SimulationQuality.
+TEST(SimulationQuality, LosesNoMoreVolumeThanIsTolerated)
+{
+  const auto volume = Ball(test::BallImage({ 25, 25, 25 }), 0.0);
+  volume->SimulationQualityOff();
+  volume->Update();
+  const double full = VolumeOf(volume->GetOutput());
+  for (const double tolerance : { 1.0, 2.0 })
+  {
+    volume->SetErrorTolerance(tolerance);
+    volume->SimulationQualityOff();
+    volume->Update();
+    const double plain = VolumeOf(volume->GetOutput());
+    const vtkIdType count = volume->GetOutput()->GetNumberOfCells();
+    EXPECT_LT(plain, 0.99 * full);
+    volume->SimulationQualityOn();
+    volume->Update();
+    EXPECT_GE(VolumeOf(volume->GetOutput()), 0.995 * plain);
+    EXPECT_LE(VolumeOf(volume->GetOutput()), full);
+    EXPECT_LT(volume->GetOutput()->GetNumberOfCells(), 0.8 * static_cast<double>(count));
+  }
 }
 
 TEST(SimulationQuality, MeetsATarget)
@@ -289,7 +330,7 @@ TEST(SimulationQuality, HasValuesLevelsAndOtherArrays)
   EXPECT_EQ(levels->GetRange()[1], 4.0);
 }
 
-// In noise some points on the surface move, and are on it afterwards, too.
+// In noise some points on the surface move, and are still on it afterwards.
 TEST(SimulationQuality, HasAClosedSurfaceInNoise)
 {
   std::minstd_rand random(3);
@@ -317,7 +358,7 @@ TEST(SimulationQuality, HasAClosedSurfaceInNoise)
   EXPECT_GT(counts.size(), 1000U);
   EXPECT_TRUE(std::all_of(
     counts.begin(), counts.end(), [](const auto& edge) { return edge.second % 2 == 0; }));
-  // Some of its points are not on an edge of the grid, nor on a diagonal of a cell or a side.
+  // Some of its points are on no edge of the grid, and on no diagonal of a cell or of its sides.
   const auto isBetween = [](double coordinate)
   { return std::abs(coordinate - std::round(coordinate)) > 1e-9; };
   int moved = 0;
@@ -413,7 +454,7 @@ TEST(SimulationQuality, WorksInRegionsViewsAndOtherWorlds)
   uneven->Update();
   EXPECT_GT(uneven->GetSmallestDihedralAngle(), 0.0);
 
-  // By the field metric nothing is measured.
+  // With the field metric, no distances are measured.
   volume->SetErrorMetricToField();
   volume->SetErrorTolerance(0.01);
   volume->Update();
@@ -454,7 +495,7 @@ TEST(SimulationQuality, OfSurfacesLeavesFewSmallAngles)
     const double promised = std::max(tolerance, 0.25);
     EXPECT_LE(test::LargestDistance(SamplesOf(shaped), full), promised);
     EXPECT_LE(test::LargestDistance(SamplesOf(full), shaped), promised);
-    // With Simplify it is the same; an extractor makes it of a hierarchy.
+    // The same with Simplify, too, and from a hierarchy.
     extractor->SetErrorTolerance(tolerance);
     extractor->SimplifyOn();
     extractor->SimulationQualityOn();

@@ -84,7 +84,10 @@ std::vector<std::uint32_t> Coarsen(
     return far;
   }
 
-  TetrahedronCollapses tetrahedra(std::move(mesh), LeastAngle, VolumeOf(input.Plain));
+  const double plain = VolumeOf(input.Plain);
+  const double other = input.VolumeAtTolerance.value_or(plain);
+  TetrahedronCollapses tetrahedra(
+    std::move(mesh), LeastAngle, { std::min(other, plain), std::max(other, plain) });
   EdgeCollapses edges(part, input.UsedPart, &tetrahedra);
   std::vector<bool> isTouched;
   std::size_t before = 0;

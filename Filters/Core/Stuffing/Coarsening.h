@@ -5,6 +5,8 @@
 #include "Field/Parallel.h"
 #include "Stuffing/TetrahedronMesh.h"
 
+#include <optional>
+
 namespace isodiamond
 {
 
@@ -21,6 +23,9 @@ struct CoarseningInput
   double UsedPart = 0.75;
   /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
   std::array<Vector, 3> Axes{};
+  /** The volume of a mesh that uses the whole tolerance already: the result's may lie anywhere
+   *  between this and that of Plain. None if it has to be near the latter. */
+  std::optional<double> VolumeAtTolerance = {};
 };
 
 /** The leaves that could be finer and where a surface of a stuffed mesh is too far away, sorted. */

@@ -98,6 +98,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   options.LeavesFewer = !getsCoarser;
   const TetrahedronMesh plain = getsCoarser ? vertices.Cut(parallelFor) : TetrahedronMesh();
   CoarseningInput coarsening{ plain, input.Allowances, input.CanBeFiner, input.KeepsInside };
+  coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
   coarsening.Axes = options.Axes;
   vertices.MoveAll(parallelFor);
   StuffedMesh result;

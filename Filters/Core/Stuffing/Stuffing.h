@@ -8,6 +8,8 @@
 #include "Mesh/CutMesh.h"
 #include "Stuffing/TetrahedronMesh.h"
 
+#include <optional>
+
 namespace isodiamond
 {
 
@@ -25,6 +27,7 @@ struct StuffingInput
   std::vector<double> Allowances = {};
   std::vector<bool> CanBeFiner = {};
   bool KeepsInside = false;
+  std::optional<double> VolumeAtTolerance = {};
   ///@}
 };
 

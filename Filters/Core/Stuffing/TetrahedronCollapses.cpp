@@ -29,12 +29,13 @@ constexpr std::size_t TriesOfStep = 64;
 
 }
 
-TetrahedronCollapses::TetrahedronCollapses(TetrahedronMesh mesh, double leastAngle, double volume)
+TetrahedronCollapses::TetrahedronCollapses(
+  TetrahedronMesh mesh, double leastAngle, const VolumeRange& wanted)
   : Mesh(std::move(mesh))
   , LeastSine(std::sin(leastAngle / DegreesOfRadian))
-  , WantedVolume(volume)
+  , WantedVolume(wanted)
   , Volume(VolumeOf(this->Mesh.Mesh()))
-  , MostChange(std::max(MostOfVolume * volume, std::abs(this->Volume - volume)))
+  , MostOutside(std::max(MostOfVolume * wanted.Most, wanted.Outside(this->Volume)))
   , Longest(this->Mesh.Mesh().Positions.size())
   , IsTried(this->Longest.size())
   , IsShortOfVolume(this->Longest.size())
@@ -66,7 +67,7 @@ bool TetrahedronCollapses::IsLong(std::uint32_t a, std::uint32_t b, double mostT
 }
 
 /** Whether each edge of a point would be short enough at a place, or no longer than it is now. */
-bool TetrahedronCollapses::IsNear(std::uint32_t point, const Vector& place) const
+bool TetrahedronCollapses::KeepsEdgesShort(std::uint32_t point, const Vector& place) const
 {
   const LocalMesh::Star star = this->Mesh.StarOf(point);
   return std::all_of(star.begin(), star.end(),
@@ -137,9 +138,9 @@ double TetrahedronCollapses::GainOf(std::uint32_t vertex, std::uint32_t target) 
 
 bool TetrahedronCollapses::KeepsVolume(double gain) const
 {
-  const double before = std::abs(this->Volume - this->WantedVolume);
-  const double after = std::abs(this->Volume + gain - this->WantedVolume);
-  return after <= std::max(before, this->MostChange); // undoing may have led beyond
+  const double before = this->WantedVolume.Outside(this->Volume);
+  const double after = this->WantedVolume.Outside(this->Volume + gain);
+  return after <= std::max(before, this->MostOutside); // undoing may have led beyond
 }
 
 bool TetrahedronCollapses::Allows(std::uint32_t vertex, std::uint32_t target)
@@ -242,7 +243,8 @@ void TetrahedronCollapses::RelaxInside(
   const std::array<Vector, 3>& axes, const ParallelFor& parallelFor)
 {
   const RelaxationOptions options{ std::sin(RelaxedAngle / DegreesOfRadian), axes,
-    [this](std::uint32_t point, const Vector& place) { return this->IsNear(point, place); } };
+    [this](std::uint32_t point, const Vector& place)
+    { return this->KeepsEdgesShort(point, place); } };
   for (const std::uint32_t point : isodiamond::RelaxInside(this->Mesh, options, parallelFor))
   {
     this->LookAgainAround(this->Mesh.StarOf(point));

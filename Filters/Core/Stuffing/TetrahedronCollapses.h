@@ -6,11 +6,25 @@
 #include "Simplification/EdgeCollapses.h"
 #include "Stuffing/LocalMesh.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 namespace isodiamond
 {
+
+/** What the volume of a mesh should lie between. */
+struct VolumeRange
+{
+  double Least = 0.0;
+  double Most = 0.0;
+
+  /** How far a volume is outside. */
+  double Outside(double volume) const
+  {
+    return std::max({ this->Least - volume, volume - this->Most, 0.0 });
+  }
+};
 
 /**
  * Collapses edges of a tetrahedral mesh into one of their ends, wherever that leaves tetrahedra of
@@ -24,9 +38,9 @@ class TetrahedronCollapses : public CollapseGuard
 public:
   /** @param leastAngle in degrees: new dihedral angles are between this and 180 less this, or as
    *         good as what they replace
-   *  @param volume that the mesh should have: it gets no farther from this than half a percent, or
-   *         than it already is */
-  TetrahedronCollapses(TetrahedronMesh mesh, double leastAngle, double volume);
+   *  @param wanted volume: the mesh's own gets no farther outside than half a percent, or than it
+   *         already is */
+  TetrahedronCollapses(TetrahedronMesh mesh, double leastAngle, const VolumeRange& wanted);
 
   /** Collapses edges where the vertex that is removed is on no surface. */
   void CollapseInside(const ParallelFor& parallelFor);
@@ -64,7 +78,7 @@ private:
   double GainOf(std::uint32_t vertex, std::uint32_t target) const;
   bool KeepsVolume(double gain) const;
   double MostLength(std::uint32_t a, std::uint32_t b, double mostTimes) const;
-  bool IsNear(std::uint32_t point, const Vector& place) const;
+  bool KeepsEdgesShort(std::uint32_t point, const Vector& place) const;
   bool IsLong(std::uint32_t a, std::uint32_t b, double mostTimes) const;
   void FindTargets(std::uint32_t vertex, double needed);
   /** Changed tetrahedra make their points worth another try. */
@@ -72,9 +86,9 @@ private:
 
   LocalMesh Mesh;
   double LeastSine;
-  double WantedVolume;
+  VolumeRange WantedVolume;
   double Volume;
-  double MostChange;           ///< of it
+  double MostOutside;          ///< how far it may be outside
   std::vector<double> Longest; ///< by point: the longest edge, squared, as it was at first
   std::vector<Step> Steps;
   std::vector<bool> IsTried;         ///< by point: and nothing around it has changed since
