@@ -65,8 +65,8 @@ struct MeshOptions
   /** The same in a triangle or tetrahedron, given its corners in the world; empty to not
    *  measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
-  bool MayRefine = true;       ///< whether FarDiamonds are looked at
-  bool KeepsInside = false;    ///< whether points on no surface stay
+  bool MayRefine = true;    ///< whether FarDiamonds are looked at
+  bool KeepsInside = false; ///< whether points on no surface stay
   /** What is cut out of the grid by a mesh that is not for simulations, at the whole tolerance;
    *  none if the mesh does not get coarser. */
   std::optional<double> VolumeAtTolerance = {};

@@ -86,7 +86,7 @@ TetrahedronMesh Stuffed::PlainMesh() const
 {
   TetrahedronMesh plain = this->Mesh;
   plain.Tetrahedra.clear();
-  plain.Positions.resize(this->Plain.Points.size());
+  plain.Positions = this->Plain.Points;
   plain.OnWalls.resize(plain.Positions.size());
   plain.Blended.clear();
   plain.Surfaces = this->Plain.Surfaces;

@@ -266,31 +266,6 @@ TEST(Improvement, DoesNotDependOnThreads)
   EXPECT_FALSE(one.Mesh.Blended.empty());
 }
 
-// Nearly flat tetrahedra leave a choice.
-TEST(Improvement, LeavesFewerIfThatIsWanted)
-{
-  const test::Built built =
-    test::BuildVolume(test::NoiseField({ 11, 11, 11 }, 5), { 3.7, HUGE_VAL });
-  const TetrahedronMesh plain = test::Stuffed(*built.Hierarchy, Query{}).PlainMesh();
-  const auto improved = [&](bool leavesFewer)
-  {
-    ImprovementOptions options;
-    options.LeavesFewer = leavesFewer;
-    return Improve(plain, options, SerialFor);
-  };
-  const auto countBad = [](const TetrahedronMesh& mesh)
-  {
-    const double wanted = WantedSine(ImprovementOptions());
-    return std::count_if(mesh.Tetrahedra.begin(), mesh.Tetrahedra.end(),
-      [&](const Corners& corners) { return SmallestSine(mesh, corners) < wanted; });
-  };
-  const TetrahedronMesh all = improved(false);
-  const TetrahedronMesh fewer = improved(true);
-  EXPECT_LT(fewer.Tetrahedra.size(), 0.995 * all.Tetrahedra.size()); // 17265 of 17456
-  EXPECT_LT(countBad(fewer), 1.1 * countBad(all));                   // 859 and 838 of 3005
-  EXPECT_LT(countBad(all), countBad(plain) / 3);
-}
-
 // Where the surface hugs a wall, the nearest isovertex may be off the wall, and another one on it.
 TEST(MovedVertices, TakeTheNearestIsovertexOnTheirWall)
 {
@@ -337,7 +312,7 @@ TEST(MovedVertices, LeavePositiveTetrahedraAndTheTopology)
       cut.Mesh = moved.Cut(SerialFor);
       EXPECT_EQ(test::FindFault(cut.AsVolume(), field.Dims), "") << seed << " " << isMoved;
       EXPECT_EQ(test::TopologyOf(cut.AsVolume(), plain), test::Topology(plain));
-      moved.MoveAll(SerialFor);
+      moved.MoveAll(0.3, SerialFor);
     }
     bad += cut.CountBad();
     onSurfaces += stuffed.Plain.Tetrahedra.size() - cut.Mesh.Tetrahedra.size();
@@ -414,10 +389,8 @@ TEST(Stuffing, LeavesOutWhatIsHidden)
 namespace
 {
 
-/** Compares the measured distance with that of brute force: it may not be less.
- *  @param mostOver how many times as large it may be */
-void ExpectDistanceOfBruteForce(
-  const test::Field& field, const Isoregion& region, double tolerance, double mostOver = 1.1)
+/** Compares the measured distance with that of brute force: it may not be less, and hardly more. */
+void ExpectDistanceOfBruteForce(const test::Field& field, const Isoregion& region, double tolerance)
 {
   const test::Built built = test::BuildVolume(field, region);
   Query query;
@@ -435,7 +408,7 @@ void ExpectDistanceOfBruteForce(
     least *= 1.1;
   }
   EXPECT_GT(least, 0.1);
-  EXPECT_FALSE(isFar(mostOver * least));
+  EXPECT_FALSE(isFar(1.15 * least));
   EXPECT_FALSE(isFar(HUGE_VAL));
 }
 
@@ -446,8 +419,7 @@ TEST(MeasuredSurfaces, IsNoLessThanThatOfBruteForce)
   const test::Field gyroid = test::GyroidField(17, 1.5);
   const test::Field sphere = test::SphereField({ 17, 17, 17 });
   ExpectDistanceOfBruteForce(gyroid, { -0.2, 0.6 }, 0.5);
-  // Another sheet is nearer there through space, but the way over the surface is measured.
-  ExpectDistanceOfBruteForce(gyroid, { 0.1, HUGE_VAL }, 1.0, 4.0);
+  ExpectDistanceOfBruteForce(gyroid, { 0.1, HUGE_VAL }, 1.0);
   ExpectDistanceOfBruteForce(sphere, { sphere.Isovalue, HUGE_VAL }, 1.0);
   ExpectDistanceOfBruteForce(gyroid, { -HUGE_VAL, -0.1 }, 1.0); // no lower surface
 }

@@ -19,8 +19,6 @@ namespace
 
 /** Gaining less than this part of what a tetrahedron lacks is no improvement. */
 constexpr double LeastGain = 0.01;
-/** Where fewer are wanted, a change has to gain this many times what an earlier one does. */
-constexpr double ClearlyBetter = 1.05;
 /** How far a point on a surface may move, as a part of its edge. */
 constexpr double MostOfEdge = 0.25;
 
@@ -73,18 +71,21 @@ public:
   {
     const Corners corners = this->Mesh.CornersOf(tetrahedron);
     this->Best.Gain = LeastGain * ShortfallOf(this->Mesh.SineOf(tetrahedron), this->Wanted);
-    if (this->Options.LeavesFewer)
+    for (const std::uint32_t point : corners)
     {
-      this->TryEdges(corners, Edges::Inside);
-      this->TryFaces(tetrahedron, corners);
-      this->TryMoves(corners);
-      this->TryEdges(corners, Edges::OnSurfaces);
+      this->TryToMove(point);
     }
-    else
+    this->ForEachEdge(corners,
+      [&](std::uint32_t a, std::uint32_t b)
+      {
+        this->TryToCollapse(a, b);
+        this->TryToCollapse(b, a);
+      });
+    this->ForEachEdge(
+      corners, [&](std::uint32_t a, std::uint32_t b) { this->TryToRemoveEdge(a, b); });
+    for (const std::uint32_t point : corners)
     {
-      this->TryMoves(corners);
-      this->TryEdges(corners, Edges::All);
-      this->TryFaces(tetrahedron, corners);
+      this->TryToRemoveFace(tetrahedron, point);
     }
     if (this->Best.Kind == Change::None)
     {
@@ -113,57 +114,6 @@ private:
     }
   }
 
-  void TryMoves(const Corners& corners)
-  {
-    for (const std::uint32_t point : corners)
-    {
-      this->TryToMove(point);
-    }
-  }
-
-  void TryFaces(std::uint32_t tetrahedron, const Corners& corners)
-  {
-    for (const std::uint32_t point : corners)
-    {
-      this->TryToRemoveFace(tetrahedron, point);
-    }
-  }
-
-  /** Edges that may change a surface, the others, or both. */
-  enum class Edges
-  {
-    All,
-    Inside,
-    OnSurfaces
-  };
-
-  void TryEdges(const Corners& corners, Edges which)
-  {
-    const auto isOne = [which](bool isOnSurface)
-    { return which == Edges::All || isOnSurface == (which == Edges::OnSurfaces); };
-    const auto isOnSurface = [this](std::uint32_t point)
-    { return this->Mesh.Mesh().Surfaces[point] != 0; };
-    this->ForEachEdge(corners,
-      [&](std::uint32_t a, std::uint32_t b)
-      {
-        for (const auto& [from, to] : { std::pair(a, b), std::pair(b, a) })
-        {
-          if (isOne(isOnSurface(from)))
-          {
-            this->TryToCollapse(from, to);
-          }
-        }
-      });
-    this->ForEachEdge(corners,
-      [&](std::uint32_t a, std::uint32_t b)
-      {
-        if (isOne(isOnSurface(a) && isOnSurface(b)))
-        {
-          this->TryToRemoveEdge(a, b);
-        }
-      });
-  }
-
   template <typename Tetrahedra>
   Shortfall LackOf(const Tetrahedra& tetrahedra) const
   {
@@ -188,14 +138,8 @@ private:
   bool IsBetter(const Shortfall& before, const Shortfall& after) const
   {
     return this->Chance == nullptr
-      ? after.Worst >= before.Worst && before.Sum - after.Sum > this->GainToBeat()
+      ? after.Worst >= before.Worst && before.Sum - after.Sum > this->Best.Gain
       : after.Worst >= LeastPartByChance * this->Wanted;
-  }
-  /** What a change has to gain to be the best one so far. */
-  double GainToBeat() const
-  {
-    const bool isAfterAnother = this->Options.LeavesFewer && this->Best.Kind != Change::None;
-    return (isAfterAnother ? ClearlyBetter : 1.0) * this->Best.Gain;
   }
   /** Begins a new best change. */
   Change& Take(Change::Kinds kind, const Shortfall& before, const Shortfall& after)
@@ -215,7 +159,7 @@ private:
       return;
     }
     const Shortfall before = this->LackOf(this->Mesh.StarOf(point));
-    if (this->Chance == nullptr && !(before.Sum > this->GainToBeat()))
+    if (this->Chance == nullptr && !(before.Sum > this->Best.Gain))
     {
       return;
     }

@@ -21,10 +21,6 @@ struct ImprovementOptions
   std::vector<CutSide> CutEdges = {};
   /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
   std::array<Vector, 3> Axes{};
-  /** Whether to prefer, among changes nearly as good, those that leave fewer tetrahedra, and
-   * surfaces as they are: for meshes that are not made coarser afterwards, since coarsening goes
-   * better with points that have moved. */
-  bool LeavesFewer = false;
 };
 
 /** The sine of the wanted angle. */

@@ -9,10 +9,6 @@ namespace isodiamond
 namespace
 {
 
-/** An isovertex is near to a vertex within this part of their edge. The larger it is, the fewer
- *  tetrahedra; from 0.3 on more of them are bad. */
-constexpr double NearPart = 0.25;
-
 /** Moves between two looks at whether to go on. */
 constexpr std::size_t MovesOfStep = 1024;
 
@@ -44,14 +40,14 @@ MovedVertices::MovedVertices(const Background& background)
   }
 }
 
-void MovedVertices::MoveAll(const ParallelFor& parallelFor)
+void MovedVertices::MoveAll(double nearPart, const ParallelFor& parallelFor)
 {
   std::vector<Goal> goals(this->Mesh.VertexCount());
   ForEachIndex(parallelFor, goals.size(), LeastRange,
     [&](std::int64_t vertex)
     { goals[vertex] = this->NearestTo(static_cast<std::uint32_t>(vertex)); });
   goals.erase(std::remove_if(goals.begin(), goals.end(),
-                [](const Goal& goal) { return !(goal.Distance < NearPart); }),
+                [&](const Goal& goal) { return !(goal.Distance < nearPart); }),
     goals.end());
   std::sort(goals.begin(), goals.end(),
     [](const Goal& a, const Goal& b)
@@ -60,7 +56,7 @@ void MovedVertices::MoveAll(const ParallelFor& parallelFor)
     [&](std::size_t i)
     {
       // Other moves have taken isovertices away.
-      if (const Goal goal = this->NearestTo(goals[i].Vertex); goal.Distance < NearPart)
+      if (const Goal goal = this->NearestTo(goals[i].Vertex); goal.Distance < nearPart)
       {
         this->TryToMove(goal);
       }
