@@ -312,7 +312,7 @@ TEST(MovedVertices, LeavePositiveTetrahedraAndTheTopology)
       cut.Mesh = moved.Cut(SerialFor);
       EXPECT_EQ(test::FindFault(cut.AsVolume(), field.Dims), "") << seed << " " << isMoved;
       EXPECT_EQ(test::TopologyOf(cut.AsVolume(), plain), test::Topology(plain));
-      moved.MoveAll(0.3, SerialFor);
+      moved.MoveAll(SerialFor);
     }
     bad += cut.CountBad();
     onSurfaces += stuffed.Plain.Tetrahedra.size() - cut.Mesh.Tetrahedra.size();

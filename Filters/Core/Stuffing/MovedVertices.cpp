@@ -9,6 +9,11 @@ namespace isodiamond
 namespace
 {
 
+/** An isovertex is near to a vertex within this part of their edge. The larger it is, the fewer
+ *  tetrahedra there are, and in noise the fewer are bad; but the farther surfaces move, and the
+ *  coarser the inside gets. */
+constexpr double NearPart = 1.0 / 3.0;
+
 /** Moves between two looks at whether to go on. */
 constexpr std::size_t MovesOfStep = 1024;
 
@@ -40,14 +45,14 @@ MovedVertices::MovedVertices(const Background& background)
   }
 }
 
-void MovedVertices::MoveAll(double nearPart, const ParallelFor& parallelFor)
+void MovedVertices::MoveAll(const ParallelFor& parallelFor)
 {
   std::vector<Goal> goals(this->Mesh.VertexCount());
   ForEachIndex(parallelFor, goals.size(), LeastRange,
     [&](std::int64_t vertex)
     { goals[vertex] = this->NearestTo(static_cast<std::uint32_t>(vertex)); });
   goals.erase(std::remove_if(goals.begin(), goals.end(),
-                [&](const Goal& goal) { return !(goal.Distance < nearPart); }),
+                [](const Goal& goal) { return !(goal.Distance < NearPart); }),
     goals.end());
   std::sort(goals.begin(), goals.end(),
     [](const Goal& a, const Goal& b)
@@ -56,7 +61,7 @@ void MovedVertices::MoveAll(double nearPart, const ParallelFor& parallelFor)
     [&](std::size_t i)
     {
       // Other moves have taken isovertices away.
-      if (const Goal goal = this->NearestTo(goals[i].Vertex); goal.Distance < nearPart)
+      if (const Goal goal = this->NearestTo(goals[i].Vertex); goal.Distance < NearPart)
       {
         this->TryToMove(goal);
       }

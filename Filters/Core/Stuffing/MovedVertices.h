@@ -25,9 +25,8 @@ public:
   /** None has been moved yet. @param background must outlive it */
   explicit MovedVertices(const Background& background);
 
-  /** Moves all vertices that can be moved. @param nearPart an isovertex is near within this part of
-   *  its edge */
-  void MoveAll(double nearPart, const ParallelFor& parallelFor);
+  /** Moves all vertices that can be moved. */
+  void MoveAll(const ParallelFor& parallelFor);
 
   /** What is in range, as tetrahedra of points. */
   TetrahedronMesh Cut(const ParallelFor& parallelFor) const;

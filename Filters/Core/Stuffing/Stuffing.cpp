@@ -18,14 +18,6 @@ namespace
 /** In degrees; a little more than is promised to be tried for, as coordinates get rounded. */
 constexpr double WantedAngle = 15.5;
 
-///@{
-/** Within which part of an edge an isovertex is near to its end. The larger it is, the fewer
- * tetrahedra there are, and in noise the fewer are bad; but the farther surfaces move. Where they
- * are not measured, they had better stay near. */
-constexpr double NearPart = 0.3;
-constexpr double NearPartIfMeasured = 0.45;
-///@}
-
 /** Where more than this part of the tetrahedra is bad, improving them takes longer than measuring
  *  the surfaces once more. */
 constexpr double ManyBad = 0.1;
@@ -107,7 +99,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   CoarseningInput coarsening{ plain, input.Allowances, input.CanBeFiner, input.KeepsInside };
   coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
   coarsening.Axes = options.Axes;
-  vertices.MoveAll(getsCoarser ? NearPartIfMeasured : NearPart, parallelFor);
+  vertices.MoveAll(parallelFor);
   StuffedMesh result;
   result.Mesh = vertices.Cut(parallelFor);
   if (getsCoarser && AreManyBad(result.Mesh, options))
