@@ -209,7 +209,7 @@ TEST(Stuffing, FailsInFewGridsOfOneCell)
     failed += stuffed.CountBad() > 0 ? 1 : 0;
   }
   EXPECT_GT(failed, 0);
-  EXPECT_LT(failed, cases / 50); // 8; 66 without detours
+  EXPECT_LT(failed, cases / 50); // 6
 }
 
 TEST(Stuffing, BlendsAttributesAsPositions)
