@@ -67,8 +67,8 @@ struct MeshOptions
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
   bool MayRefine = true;    ///< whether FarDiamonds are looked at
   bool KeepsInside = false; ///< whether points on no surface stay
-  /** What is cut out of the grid by a mesh that is not for simulations, at the whole tolerance;
-   *  none if the mesh does not get coarser. */
+  /** The volume that a mesh not for simulations has at the whole tolerance; none if the mesh does
+   *  not get coarser. */
   std::optional<double> VolumeAtTolerance = {};
   bool WithThresholds = false; ///< whether triangles get ThresholdsArray; all must be wanted
   /** Whether thresholds give errors: else all that is known of a mesh's is that they are

@@ -29,7 +29,7 @@ struct VolumeRange
 /**
  * Collapses edges of a tetrahedral mesh into one of their ends, wherever that leaves tetrahedra of
  * good shape, the topology as it is, no edge much longer than those around it were (by a quarter
- * inside, twice as long on surfaces), and the whole volume nearly the same. Inside it finds the
+ * inside, twice as long on surfaces), and the whole volume nearly in its range. Inside it finds the
  * edges itself; on surfaces others find them, keep the surfaces near, and ask whether an edge may
  * collapse (CollapseGuard). Collapses can be undone until points move.
  */
