@@ -3,12 +3,12 @@
 
 #include "Private/HierarchyQuery.h"
 #include "Private/PlacedTolerance.h"
+#include "Private/UsedPoints.h"
 #include "Stuffing/TetrahedronMesh.h"
 
 #include "vtkCellArray.h"
-#include "vtkPoints.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
 namespace vtkIsodiamond
@@ -29,20 +29,17 @@ double PlainVolume(const isodiamond::IsodiamondHierarchy& hierarchy, const isodi
   plain.MorePointData = nullptr;
   plain.Wanted = {};
   const Mesh mesh = ExtractMesh(isodiamond::RefinedSet(hierarchy, query, task.For()), plain, task);
-  double volume = 0.0;
-  std::array<isodiamond::Vector, 4> corners{};
+  isodiamond::TetrahedronMesh tetrahedra;
+  tetrahedra.Positions = PositionsOf(mesh.Points);
   for (vtkIdType cell = 0; cell < mesh.Cells->GetNumberOfCells(); ++cell)
   {
     vtkIdType size = 0;
     const vtkIdType* ids = nullptr;
     mesh.Cells->GetCellAtId(cell, size, ids);
-    for (int i = 0; i < 4; ++i)
-    {
-      mesh.Points->GetPoint(ids[i], corners[i].data());
-    }
-    volume += isodiamond::SixVolumes(corners[0], corners[1], corners[2], corners[3]) / 6.0;
+    isodiamond::Corners& corners = tetrahedra.Tetrahedra.emplace_back();
+    std::copy_n(ids, corners.size(), corners.begin());
   }
-  return volume;
+  return VolumeOf(tetrahedra);
 }
 
 }

@@ -266,6 +266,20 @@ TEST(Improvement, DoesNotDependOnThreads)
   EXPECT_FALSE(one.Mesh.Blended.empty());
 }
 
+TEST(Improvement, LeavesAThirdOfTheBadInAPlainMeshOfNoise)
+{
+  const test::Built built =
+    test::BuildVolume(test::NoiseField({ 11, 11, 11 }, 5), { 3.7, HUGE_VAL });
+  const TetrahedronMesh plain = test::Stuffed(*built.Hierarchy, Query{}).PlainMesh();
+  const auto countBad = [](const TetrahedronMesh& mesh)
+  {
+    const double wanted = WantedSine(ImprovementOptions());
+    return std::count_if(mesh.Tetrahedra.begin(), mesh.Tetrahedra.end(),
+      [&](const Corners& corners) { return SmallestSine(mesh, corners) < wanted; });
+  };
+  EXPECT_LT(countBad(Improve(plain, ImprovementOptions(), SerialFor)), countBad(plain) / 3);
+}
+
 // Where the surface hugs a wall, the nearest isovertex may be off the wall, and another one on it.
 TEST(MovedVertices, TakeTheNearestIsovertexOnTheirWall)
 {
@@ -318,7 +332,7 @@ TEST(MovedVertices, LeavePositiveTetrahedraAndTheTopology)
     onSurfaces += stuffed.Plain.Tetrahedra.size() - cut.Mesh.Tetrahedra.size();
   }
   EXPECT_GT(onSurfaces, 1000U);
-  EXPECT_LT(bad, 10500U); // 10349; 10690 if leaves are cut in the first way, not in the best
+  EXPECT_LT(bad, 8750U); // 8602; 8896 if leaves are cut in the first way, not in the best
 }
 
 TEST(Stuffing, IsAMirrorImageInAMirroredWorld)
@@ -408,7 +422,7 @@ void ExpectDistanceOfBruteForce(const test::Field& field, const Isoregion& regio
     least *= 1.1;
   }
   EXPECT_GT(least, 0.1);
-  EXPECT_FALSE(isFar(1.15 * least));
+  EXPECT_FALSE(isFar(1.1 * least));
   EXPECT_FALSE(isFar(HUGE_VAL));
 }
 
