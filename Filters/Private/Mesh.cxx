@@ -138,12 +138,19 @@ void AddMorePointData(const Extraction& extraction, const MeshOptions& options, 
   }
 }
 
+/** Where the field's array has no name, its values get one: VTK cannot read a file of an array
+ * whose name is empty. */
+const char* NameOfValues(const MeshOptions& options)
+{
+  return options.ArrayName.empty() ? "Scalars" : options.ArrayName.c_str();
+}
+
 /** Field values: floats unless the samples need more. */
 template <typename Array>
 void AddValues(
-  const isodiamond::IntervalExtraction& extraction, const std::string& name, Mesh& mesh)
+  const isodiamond::IntervalExtraction& extraction, const MeshOptions& options, Mesh& mesh)
 {
-  const auto values = NewArray<Array>(name.c_str(), extraction.PointCount());
+  const auto values = NewArray<Array>(NameOfValues(options), extraction.PointCount());
   const auto surfaces = NewArray<vtkSignedCharArray>("Surface", extraction.PointCount());
   extraction.WriteValues(values->GetPointer(0), surfaces->GetPointer(0));
   mesh.PointData->SetScalars(values);
@@ -240,11 +247,11 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
   AddPoints(extraction, options, true, mesh);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
   {
-    AddValues<vtkDoubleArray>(extraction, options.ArrayName, mesh);
+    AddValues<vtkDoubleArray>(extraction, options, mesh);
   }
   else
   {
-    AddValues<vtkFloatArray>(extraction, options.ArrayName, mesh);
+    AddValues<vtkFloatArray>(extraction, options, mesh);
   }
   if (options.ForSimulation)
   {
@@ -271,7 +278,7 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& op
   }
   if (options.WithValues)
   {
-    const auto values = NewArray<vtkFloatArray>(options.ArrayName.c_str(), extraction.PointCount());
+    const auto values = NewArray<vtkFloatArray>(NameOfValues(options), extraction.PointCount());
     std::fill_n(values->GetPointer(0), extraction.PointCount(),
       static_cast<float>(refined.Hierarchy().Region().Isovalue()));
     mesh.PointData->AddArray(values);

@@ -51,7 +51,7 @@ struct Mesh
 struct MeshOptions
 {
   const isodiamond::GridGeometry& World;
-  std::string ArrayName;        ///< the name that the field's values get
+  std::string ArrayName;        ///< the name that the field's values get; Scalars if empty
   bool WithValues = true;       ///< whether a surface's points get them
   bool ValuesAreScalars = true; ///< whether these are then the active scalars
   /** A vtkAlgorithm::DesiredOutputPrecision; by default floats for triangles, doubles for

@@ -127,6 +127,32 @@ TEST(Attributes, ArraysOfAnyLayoutGiveTheSameMesh)
   EXPECT_EQ(test::Difference(expected, meshOf(other)), "");
 }
 
+TEST(Attributes, OfAnArrayWithoutNameCanBeReadFromAFile)
+{
+  const auto image = test::BallImage({ 12, 12, 12 });
+  image->GetPointData()->GetScalars()->SetName(nullptr);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.0);
+  contour->SetValue(1, 0.2);
+  contour->Update();
+  const std::string file = std::string(TEMPORARY_FOLDER) + "/unnamed.vtp";
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputConnection(contour->GetOutputPort());
+  writer->SetFileName(file.c_str());
+  writer->Write();
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(file.c_str());
+  const auto messages = test::Watch(reader);
+  reader->Update();
+  EXPECT_EQ(messages->Errors, "");
+  vtkDataArray* values = reader->GetOutput()->GetPointData()->GetScalars();
+  ASSERT_NE(values, nullptr);
+  ASSERT_EQ(values->GetNumberOfTuples(), contour->GetOutput()->GetNumberOfPoints());
+  EXPECT_FLOAT_EQ(values->GetRange()[0], 0.0F);
+  EXPECT_FLOAT_EQ(values->GetRange()[1], 0.2F);
+}
+
 TEST(Attributes, OtherArraysAreWhatTheProbeFinds)
 {
   const auto image = ImageWithArrays();
