@@ -3,6 +3,7 @@
 
 #include "Private/HierarchyQuery.h"
 #include "Private/PlacedTolerance.h"
+#include "Private/Stuff.h"
 #include "Private/UsedPoints.h"
 #include "Stuffing/TetrahedronMesh.h"
 
@@ -10,14 +11,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace vtkIsodiamond
 {
 namespace
 {
 
-/** In each round, leaves that are too far away become a level finer; smooth volumes need three to
- *  eight. */
+/** How often the mesh is made; mostly two or three times, in noise more often. */
 constexpr int MostRounds = 10;
 
 /** The volume of what a query gives if it is not for simulations. */
@@ -64,14 +66,31 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
     CoreQuery(HierarchyQuery(query, measure, options.World), hierarchy, options.World);
   asked.VolumeAtTolerance =
     PlainVolume(hierarchy, CoreQuery(query, hierarchy, options.World), options, task);
-  Mesh mesh = ExtractMesh(refined, asked, task);
-  for (int round = 1; round <= MostRounds && !mesh.FarDiamonds.empty(); ++round)
+  const isodiamond::RefinedSet* leaves = &refined;
+  std::optional<isodiamond::RefinedSet> finer;
+  const auto refine = [&](const std::vector<isodiamond::Place>& diamonds)
   {
-    core.Also.insert(core.Also.end(), mesh.FarDiamonds.begin(), mesh.FarDiamonds.end());
+    core.Also.insert(core.Also.end(), diamonds.begin(), diamonds.end());
+    leaves = &finer.emplace(hierarchy, core, task.For());
+  };
+  FarDiamondSearch search;
+  for (int round = 1;; ++round)
+  {
+    asked.MayRefine = true;
+    task.Begin("Extracting the mesh", 0.0, 1.0);
+    for (std::vector<isodiamond::Place> far;
+         far = search.Find(*leaves, asked, task.For()), !far.empty();)
+    {
+      refine(far);
+    }
     asked.MayRefine = round < MostRounds;
-    mesh = ExtractMesh(isodiamond::RefinedSet(hierarchy, core, task.For()), asked, task);
+    Mesh mesh = ExtractMesh(*leaves, asked, task);
+    if (mesh.FarDiamonds.empty())
+    {
+      return mesh;
+    }
+    refine(mesh.FarDiamonds);
   }
-  return mesh;
 }
 
 }

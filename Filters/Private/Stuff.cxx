@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace vtkIsodiamond
 {
@@ -24,11 +23,19 @@ namespace
 constexpr double MovePartOfStep = 0.25;
 constexpr double MovePartOfTolerance = 0.5;
 
-/** Finds what is left of the tolerance in each leaf: its diamond's error may already use some of
- * it. Leaves at full resolution cannot be made finer. */
-void FindAllowances(const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,
-  isodiamond::StuffingInput& input)
+/** @param vertices,points positions in the world; these and the leaves must outlive the result */
+isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
+  const std::vector<isodiamond::Vector>& vertices, const std::vector<isodiamond::Vector>& points,
+  const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options)
 {
+  const double move = std::max(
+    MovePartOfStep * options.World.SmallestStep(), MovePartOfTolerance * options.DistanceTolerance);
+  isodiamond::StuffingInput input{ leaves, vertices, points, options.World, hierarchy.SampleGrid(),
+    move };
+  input.KeepsInside = options.KeepsInside;
+  input.VolumeAtTolerance = options.VolumeAtTolerance;
+  // Each leaf may use what is left of the tolerance: its diamond's error may already use some of
+  // it. Leaves at full resolution cannot be made finer.
   for (std::size_t i = 0; options.ToleranceIn && i < input.Leaves.Tetrahedra.size(); ++i)
   {
     const auto place = isodiamond::DiamondOf(input.Leaves, i, hierarchy.SampleGrid());
@@ -41,6 +48,19 @@ void FindAllowances(const isodiamond::IsodiamondHierarchy& hierarchy, const Mesh
     input.Allowances.push_back(std::max(0.0, options.ToleranceIn(corners.data(), 4) - error));
     input.CanBeFiner.push_back(rank >= 0 && options.MayRefine);
   }
+  return input;
+}
+
+std::vector<isodiamond::Place> DiamondsOf(const isodiamond::CutMesh& leaves,
+  const std::vector<std::uint32_t>& numbers, const isodiamond::Grid& grid)
+{
+  std::vector<isodiamond::Place> diamonds;
+  diamonds.reserve(numbers.size());
+  for (const std::uint32_t leaf : numbers)
+  {
+    diamonds.push_back(*isodiamond::DiamondOf(leaves, leaf, grid));
+  }
+  return diamonds;
 }
 
 /** What to copy the attributes of a mesh's points from: the points before; for added ones, any
@@ -109,6 +129,21 @@ void WritePlaces(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used
 
 }
 
+std::vector<isodiamond::Place> FarDiamondSearch::Find(const isodiamond::RefinedSet& refined,
+  const MeshOptions& options, const isodiamond::ParallelFor& parallelFor)
+{
+  const isodiamond::IsodiamondHierarchy& hierarchy = refined.Hierarchy();
+  const isodiamond::IntervalExtraction extraction(refined, parallelFor);
+  std::vector<isodiamond::Vector> points(extraction.PointCount());
+  extraction.ForEachPoint(
+    [&](const isodiamond::MeshPoint& point) { points[point.Id] = options.World(point.Index); });
+  const isodiamond::CutMesh leaves = this->News.Find(extraction.Leaves(options.Hidden));
+  const std::vector<isodiamond::Vector> vertices = VerticesInWorld(leaves, options.World);
+  return DiamondsOf(leaves,
+    isodiamond::FarLeaves(InputOf(leaves, vertices, points, hierarchy, options), parallelFor),
+    hierarchy.SampleGrid());
+}
+
 void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
@@ -116,20 +151,12 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   const isodiamond::CutMesh leaves = extraction.Leaves(options.Hidden);
   const std::vector<isodiamond::Vector> vertices = VerticesInWorld(leaves, options.World);
   const std::vector<isodiamond::Vector> positions = PositionsOf(mesh.Points);
-  const double move = std::max(
-    MovePartOfStep * options.World.SmallestStep(), MovePartOfTolerance * options.DistanceTolerance);
-  const isodiamond::Grid& grid = hierarchy.SampleGrid();
-  isodiamond::StuffingInput input{ leaves, vertices, positions, options.World, grid, move };
-  input.KeepsInside = options.KeepsInside;
-  input.VolumeAtTolerance = options.VolumeAtTolerance;
-  FindAllowances(hierarchy, options, input);
-  const isodiamond::StuffedMesh result = isodiamond::Stuff(input, parallelFor);
+  const isodiamond::StuffedMesh result =
+    isodiamond::Stuff(InputOf(leaves, vertices, positions, hierarchy, options), parallelFor);
   const isodiamond::TetrahedronMesh& stuffed = result.Mesh;
   if (!result.FarLeaves.empty())
   {
-    std::transform(result.FarLeaves.begin(), result.FarLeaves.end(),
-      std::back_inserter(mesh.FarDiamonds),
-      [&](std::uint32_t leaf) { return *isodiamond::DiamondOf(leaves, leaf, grid); });
+    mesh.FarDiamonds = DiamondsOf(leaves, result.FarLeaves, hierarchy.SampleGrid());
     return;
   }
 

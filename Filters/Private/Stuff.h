@@ -4,6 +4,7 @@
 
 #include "Mesh/IntervalExtraction.h"
 #include "Private/Mesh.h"
+#include "Stuffing/NewLeaves.h"
 
 /**
  * @file Stuff.h
@@ -22,6 +23,21 @@ namespace vtkIsodiamond
 void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh);
+
+/**
+ * Looks for the diamonds that have to be refined because stuffed leaves would be too far away, in
+ * one refined set after the other; only where these differ. That takes much less time than
+ * StuffMesh(), which then finds the few others.
+ */
+class FarDiamondSearch
+{
+public:
+  std::vector<isodiamond::Place> Find(const isodiamond::RefinedSet& refined,
+    const MeshOptions& options, const isodiamond::ParallelFor& parallelFor);
+
+private:
+  isodiamond::NewLeaves News;
+};
 
 }
 

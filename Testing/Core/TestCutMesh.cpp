@@ -152,7 +152,7 @@ TEST(CutMesh, HasTheVolumesPoints)
       for (const CutMesh::Vertex& vertex : leaves.Mesh.Vertices)
       {
         EXPECT_TRUE(positions.insert(vertex.Position).second) << "twice";
-        EXPECT_FALSE(vertex.IsHidden);
+        EXPECT_FALSE(vertex.IsFixed);
         ASSERT_EQ(vertex.PointId != CutMesh::None, vertex.Sign == 1);
         if (vertex.Sign == 1)
         {
@@ -258,7 +258,7 @@ TEST(CutMesh, LeavesOutHiddenCellsAndTellsTheirCorners)
           is({ vertex.Position[0] - i % 2, vertex.Position[1] - i / 2 % 2,
             vertex.Position[2] - i / 4 });
       }
-      EXPECT_EQ(vertex.IsHidden, isCorner);
+      EXPECT_EQ(vertex.IsFixed, isCorner);
     }
     // The cell of a leaf is that of its middle.
     const auto isInHidden = [&](const CutMesh& mesh, const CutMesh::Tetrahedron& leaf)

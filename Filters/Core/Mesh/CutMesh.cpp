@@ -273,7 +273,7 @@ CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden)
         if (isNew)
         {
           mesh.Vertices.push_back(leaf.Corners[i]);
-          mesh.Vertices.back().IsHidden =
+          mesh.Vertices.back().IsFixed =
             anyHidden && IsCornerOf(*hidden, leaf.Corners[i].Position);
         }
       }

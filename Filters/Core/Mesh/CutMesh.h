@@ -28,7 +28,7 @@ struct CutMesh
   {
     Point Position{};             ///< in index space
     std::uint8_t Sign = 0;        ///< 0, 1, 2: below, inside, above
-    bool IsHidden = false;        ///< whether it is a corner of a hidden cell
+    bool IsFixed = false;         ///< whether it has to stay: the corners of hidden cells do
     std::uint32_t PointId = None; ///< in the mesh; only for vertices inside
   };
 

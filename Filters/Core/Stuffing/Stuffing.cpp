@@ -18,23 +18,22 @@ namespace
 /** In degrees; a little more than is promised to be tried for, as coordinates get rounded. */
 constexpr double WantedAngle = 15.5;
 
-/** Where more than this part of the tetrahedra is bad, improving them takes longer than measuring
- *  the surfaces once more. */
-constexpr double ManyBad = 0.1;
-
-bool AreManyBad(const TetrahedronMesh& mesh, const ImprovementOptions& options)
-{
-  const double wanted = WantedSine(options);
-  const auto bad = std::count_if(mesh.Tetrahedra.begin(), mesh.Tetrahedra.end(),
-    [&](const Corners& corners) { return SmallestSine(mesh, corners) < wanted; });
-  return static_cast<double>(bad) > ManyBad * static_cast<double>(mesh.Tetrahedra.size());
-}
-
 Walls::Type WallsOf(const CutMesh::Vertex& vertex, const Grid& grid)
 {
   const auto [x, y, z] = vertex.Position;
   const int walls = Walls::At({ 1.0 * x, 1.0 * y, 1.0 * z }, grid);
-  return static_cast<Walls::Type>(walls | (vertex.IsHidden ? Walls::Fixed : 0));
+  return static_cast<Walls::Type>(walls | (vertex.IsFixed ? Walls::Fixed : 0));
+}
+
+Background BackgroundOf(const StuffingInput& input)
+{
+  std::vector<Walls::Type> walls;
+  walls.reserve(input.Leaves.Vertices.size());
+  for (const CutMesh::Vertex& vertex : input.Leaves.Vertices)
+  {
+    walls.push_back(WallsOf(vertex, input.SampleGrid));
+  }
+  return { input.Leaves, input.Vertices, std::move(walls), input.Points, input.World.Mirrors() };
 }
 
 /** The directions of the grid's axes, where they are the same everywhere. */
@@ -76,44 +75,71 @@ std::vector<CutSide> CutEdgesOf(const Background& background)
   return edges;
 }
 
+/** The mesh of leaves before and after vertices have moved. */
+struct BothMeshes
+{
+  TetrahedronMesh Plain; ///< if it is wanted
+  TetrahedronMesh Stuffed;
+};
+BothMeshes CutLeaves(const Background& background, bool withPlain, const ParallelFor& parallelFor)
+{
+  MovedVertices vertices(background);
+  BothMeshes meshes;
+  if (withPlain)
+  {
+    meshes.Plain = vertices.Cut(parallelFor);
+  }
+  vertices.MoveAll(parallelFor);
+  meshes.Stuffed = vertices.Cut(parallelFor);
+  return meshes;
+}
+
+/** Whether leaves have no fixed vertices. */
+std::vector<bool> AreFree(const CutMesh& leaves)
+{
+  std::vector<bool> areFree;
+  areFree.reserve(leaves.Tetrahedra.size());
+  for (const CutMesh::Tetrahedron& leaf : leaves.Tetrahedra)
+  {
+    areFree.push_back(std::none_of(leaf.Vertices.begin(), leaf.Vertices.end(),
+      [&](std::uint32_t vertex) { return leaves.Vertices[vertex].IsFixed; }));
+  }
+  return areFree;
+}
+
+}
+
+std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelFor& parallelFor)
+{
+  const BothMeshes meshes = CutLeaves(BackgroundOf(input), true, parallelFor);
+  std::vector<std::uint32_t> leaves =
+    FarLeaves(meshes.Stuffed, { meshes.Plain, input.Allowances, input.CanBeFiner }, parallelFor);
+  const std::vector<bool> areFree = AreFree(input.Leaves);
+  leaves.erase(std::remove_if(
+                 leaves.begin(), leaves.end(), [&](std::uint32_t leaf) { return !areFree[leaf]; }),
+    leaves.end());
+  return leaves;
 }
 
 StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
 {
-  std::vector<Walls::Type> walls;
-  walls.reserve(input.Leaves.Vertices.size());
-  for (const CutMesh::Vertex& vertex : input.Leaves.Vertices)
-  {
-    walls.push_back(WallsOf(vertex, input.SampleGrid));
-  }
-  const Background background(
-    input.Leaves, input.Vertices, std::move(walls), input.Points, input.World.Mirrors());
+  const Background background = BackgroundOf(input);
+  const bool getsCoarser = !input.Allowances.empty();
+  BothMeshes meshes = CutLeaves(background, getsCoarser, parallelFor);
   ImprovementOptions options;
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;
   options.Axes = AxesOf(input.World);
   options.CutEdges = CutEdgesOf(background);
-  MovedVertices vertices(background);
-  const bool getsCoarser = !input.Allowances.empty();
-  const TetrahedronMesh plain = getsCoarser ? vertices.Cut(parallelFor) : TetrahedronMesh();
-  CoarseningInput coarsening{ plain, input.Allowances, input.CanBeFiner, input.KeepsInside };
-  coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
-  coarsening.Axes = options.Axes;
-  vertices.MoveAll(parallelFor);
   StuffedMesh result;
-  result.Mesh = vertices.Cut(parallelFor);
-  if (getsCoarser && AreManyBad(result.Mesh, options))
+  result.Mesh = Improve(std::move(meshes.Stuffed), options, parallelFor);
+  if (getsCoarser)
   {
-    // Nearly all that will be too far away already is: improving it would be for nothing.
-    result.FarLeaves = FarLeaves(result.Mesh, coarsening, parallelFor);
-  }
-  if (result.FarLeaves.empty())
-  {
-    result.Mesh = Improve(std::move(result.Mesh), options, parallelFor);
-    if (getsCoarser)
-    {
-      result.FarLeaves = Coarsen(result.Mesh, coarsening, parallelFor);
-    }
+    CoarseningInput coarsening{ meshes.Plain, input.Allowances, input.CanBeFiner,
+      input.KeepsInside };
+    coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
+    coarsening.Axes = options.Axes;
+    result.FarLeaves = Coarsen(result.Mesh, coarsening, parallelFor);
   }
   return result;
 }

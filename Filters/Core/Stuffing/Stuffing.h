@@ -55,6 +55,14 @@ struct StuffedMesh
 /** @param parallelFor is given the work in successive steps: it can report progress, and abort */
 StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor);
 
+/**
+ * The leaves that have to be finer already before tetrahedra are improved: most of those that
+ * Stuff() would find, in much less time. Leaves with fixed vertices are not among them.
+ *
+ * @param input whose leaves may be some of a mesh's, see NewLeaves.h
+ */
+std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelFor& parallelFor);
+
 }
 
 #endif

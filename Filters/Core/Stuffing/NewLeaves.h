@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_NewLeaves_h
+#define isodiamond_NewLeaves_h
+
+#include "Mesh/CutMesh.h"
+
+#include <vector>
+
+namespace isodiamond
+{
+
+/**
+ * What is new in a mesh that is refined again and again: where leaves are the same as in the last
+ * mesh, what was found out about them still holds.
+ *
+ * A leaf is known by its middle: that of a larger one that it is a part of lies on the plane that
+ * bisects the larger one, so no two have the same.
+ */
+class NewLeaves
+{
+public:
+  /** The leaves that the last mesh did not have, with what is around them; of the first mesh, all.
+   *  With all vertices of the mesh, of which those are fixed that leaves outside have, too. */
+  CutMesh Find(const CutMesh& mesh);
+
+private:
+  std::vector<Point> Seen; ///< four times the middles of the last mesh's leaves, sorted
+};
+
+}
+
+#endif
