@@ -5,6 +5,7 @@
 #include "Private/PlacedTolerance.h"
 #include "Private/Stuff.h"
 #include "Private/UsedPoints.h"
+#include "Stuffing/KnownChanges.h"
 #include "Stuffing/TetrahedronMesh.h"
 
 #include "vtkCellArray.h"
@@ -74,6 +75,8 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
     leaves = &finer.emplace(hierarchy, core, task.For());
   };
   FarDiamondSearch search;
+  isodiamond::KnownChanges known;
+  asked.Known = &known;
   for (int round = 1;; ++round)
   {
     asked.MayRefine = true;

@@ -151,8 +151,8 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   const isodiamond::CutMesh leaves = extraction.Leaves(options.Hidden);
   const std::vector<isodiamond::Vector> vertices = VerticesInWorld(leaves, options.World);
   const std::vector<isodiamond::Vector> positions = PositionsOf(mesh.Points);
-  const isodiamond::StuffedMesh result =
-    isodiamond::Stuff(InputOf(leaves, vertices, positions, hierarchy, options), parallelFor);
+  const isodiamond::StuffedMesh result = isodiamond::Stuff(
+    InputOf(leaves, vertices, positions, hierarchy, options), parallelFor, options.Known);
   const isodiamond::TetrahedronMesh& stuffed = result.Mesh;
   if (!result.FarLeaves.empty())
   {

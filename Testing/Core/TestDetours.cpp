@@ -124,7 +124,7 @@ TEST(Surroundings, ChangeAsTheWholeDoes)
       const Surroundings around(whole, options, DrawAlive(whole, random));
       LocalMesh mesh = around.Mesh();
       ASSERT_LT(mesh.Mesh().Tetrahedra.size(), whole.Mesh().Tetrahedra.size() / 2);
-      std::vector<Surroundings::Step> steps;
+      std::vector<StoredChange> steps;
       LocalMesh follower = whole;
       for (int i = 0; i < 12; ++i)
       {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -70,7 +71,7 @@ public:
   Change FindBest(std::uint32_t tetrahedron)
   {
     const Corners corners = this->Mesh.CornersOf(tetrahedron);
-    this->Best.Gain = LeastGain * ShortfallOf(this->Mesh.SineOf(tetrahedron), this->Wanted);
+    this->Best.Gain = this->GainWanted(tetrahedron);
     for (const std::uint32_t point : corners)
     {
       this->TryToMove(point);
@@ -101,7 +102,37 @@ public:
     return std::move(this->Best);
   }
 
+  bool Helps(const Change& change, std::uint32_t tetrahedron)
+  {
+    this->Best.Gain = this->GainWanted(tetrahedron);
+    switch (change.Kind)
+    {
+      case Change::None:
+        return false;
+      case Change::Move:
+        return this->IsBetterAt(change.Point, change.Place);
+      case Change::Collapse:
+        this->TryToCollapse(change.Point, change.Other);
+        return this->Best.Kind == Change::Collapse;
+      case Change::Replace:
+        return this->IsBetter(this->LackOf(change.Old), this->LackOf(change.Fresh)) &&
+          this->CanReplace(change);
+      case Change::Split:
+        return this->CanSplit(change);
+      case Change::Shift:
+        return this->MayShift(change.Point, change.Place) &&
+          this->IsBetterAt(change.Point, change.Place) &&
+          CanShift(this->Mesh, change.Point, change.Place);
+    }
+    return false;
+  }
+
 private:
+  double GainWanted(std::uint32_t tetrahedron) const
+  {
+    return LeastGain * ShortfallOf(this->Mesh.SineOf(tetrahedron), this->Wanted);
+  }
+
   template <typename Body>
   static void ForEachEdge(const Corners& corners, Body&& body)
   {
@@ -131,6 +162,12 @@ private:
     Shortfall sum(this->Wanted);
     star.ForEachSine(place, [&](double sine) { sum.Add(sine); });
     return sum;
+  }
+
+  bool IsBetterAt(std::uint32_t point, const Vector& place) const
+  {
+    return this->IsBetter(
+      this->LackOf(this->Mesh.StarOf(point)), this->LackAt(FacesAround(this->Mesh, point), place));
   }
 
   /** Whether a change would be the best one so far: the worst gets no worse, and all together
@@ -208,8 +245,7 @@ private:
   void TryToRemoveEdge(std::uint32_t a, std::uint32_t b)
   {
     LocalMesh::Ring ring;
-    if (!this->Mesh.FindRing(a, b, MostAround, ring) || ring.Points.size() < 3 ||
-      (!ring.IsClosed && !CanTurn(this->Mesh, a, b, ring, this->Options.SurfaceMove)))
+    if (!this->Mesh.FindRing(a, b, MostAround, ring) || !this->CanEmpty(a, b, ring))
     {
       return;
     }
@@ -220,9 +256,37 @@ private:
     if (this->IsBetter(before, after) && this->AreNew(ring, fresh))
     {
       Change& replace = this->Take(Change::Replace, before, after);
+      replace.Point = a;
+      replace.Other = b;
       replace.Old = ring.Tetrahedra;
       replace.Fresh = std::move(fresh);
     }
+  }
+
+  /** Whether an edge can go. */
+  bool CanEmpty(std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring) const
+  {
+    return ring.Points.size() >= 3 &&
+      (ring.IsClosed || CanTurn(this->Mesh, a, b, ring, this->Options.SurfaceMove));
+  }
+
+  /** Whether what an edge has around it is all that a change replaces. */
+  bool IsAllAround(const Change& change, LocalMesh::Ring& ring) const
+  {
+    return this->Mesh.FindRing(change.Point, change.Other, MostAround, ring) &&
+      std::is_permutation(
+        ring.Tetrahedra.begin(), ring.Tetrahedra.end(), change.Old.begin(), change.Old.end());
+  }
+
+  bool CanReplace(const Change& change) const
+  {
+    if (!this->Mesh.HasEdge(change.Point, change.Other))
+    {
+      return true; // it comes with the tetrahedra
+    }
+    LocalMesh::Ring ring;
+    return this->IsAllAround(change, ring) && this->CanEmpty(change.Point, change.Other, ring) &&
+      this->AreNew(ring, change.Fresh);
   }
 
   /** Whether edges, and a lone triangle, between points around an edge are not in the mesh yet, and
@@ -285,6 +349,8 @@ private:
     if (this->IsBetter(before, after) && !this->Mesh.HasEdge(apex, far))
     {
       Change& replace = this->Take(Change::Replace, before, after);
+      replace.Point = apex;
+      replace.Other = far;
       replace.Old = std::move(old);
       replace.Fresh = std::move(fresh);
     }
@@ -300,31 +366,15 @@ private:
     {
       return;
     }
-    int place = 0;
-    if (!ring.IsClosed)
+    const std::optional<Walls::Type> walls = this->WallsOfMiddle(a, b, ring);
+    if (!walls)
     {
-      place = this->Mesh.PlaceOfFace(a, b, ring.Points.front());
-      if (place == 0 || place >= Walls::Fixed ||
-        place != this->Mesh.PlaceOfFace(a, b, ring.Points.back()))
-      {
-        return;
-      }
+      return;
     }
-    PointStar star;
     std::vector<Corners> fresh;
-    for (const std::uint32_t tetrahedron : ring.Tetrahedra)
-    {
-      for (const std::uint32_t end : { a, b })
-      {
-        Corners corners = this->Mesh.CornersOf(tetrahedron);
-        star.Add(this->Mesh.Mesh(), corners, end);
-        std::replace(corners.begin(), corners.end(), end, Change::NewPoint);
-        fresh.push_back(corners);
-      }
-    }
-    const auto walls = static_cast<Walls::Type>(place);
+    PointStar star = this->HalvesAround(a, b, ring, &fresh);
     const PlacedPoint best = BestPlace(
-      star, 0.5 * (this->Mesh.At(a) + this->Mesh.At(b)), walls, this->Options.Axes, this->Wanted);
+      star, 0.5 * (this->Mesh.At(a) + this->Mesh.At(b)), *walls, this->Options.Axes, this->Wanted);
     const Shortfall before = this->LackOf(ring.Tetrahedra);
     const Shortfall after = this->LackAt(star, best.Place);
     if (this->IsBetter(before, after))
@@ -333,29 +383,87 @@ private:
       split.Point = a;
       split.Other = b;
       split.Place = best.Place;
-      split.OnWalls = walls;
+      split.OnWalls = *walls;
       split.Old = ring.Tetrahedra;
       split.Fresh = std::move(fresh);
     }
   }
 
+  /** The walls that a new point in the middle of an edge is on; none if there may be no point, as
+   *  the edge lies on a surface, or between two walls. */
+  std::optional<Walls::Type> WallsOfMiddle(
+    std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring) const
+  {
+    const int place = ring.IsClosed ? 0 : this->Mesh.PlaceOfFace(a, b, ring.Points.front());
+    const bool isOneWall = place != 0 && place < Walls::Fixed &&
+      place == this->Mesh.PlaceOfFace(a, b, ring.Points.back());
+    return ring.IsClosed || isOneWall ? std::optional(static_cast<Walls::Type>(place))
+                                      : std::nullopt;
+  }
+
+  /** The halves of the tetrahedra around an edge, which have a new point in common.
+   *  @param fresh receives them, if not null */
+  PointStar HalvesAround(std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring,
+    std::vector<Corners>* fresh = nullptr) const
+  {
+    PointStar star;
+    for (const std::uint32_t tetrahedron : ring.Tetrahedra)
+    {
+      for (const std::uint32_t end : { a, b })
+      {
+        Corners corners = this->Mesh.CornersOf(tetrahedron);
+        star.Add(this->Mesh.Mesh(), corners, end);
+        if (fresh != nullptr)
+        {
+          std::replace(corners.begin(), corners.end(), end, Change::NewPoint);
+          fresh->push_back(corners);
+        }
+      }
+    }
+    return star;
+  }
+
+  bool CanSplit(const Change& change) const
+  {
+    LocalMesh::Ring ring;
+    return this->IsAllAround(change, ring) &&
+      this->WallsOfMiddle(change.Point, change.Other, ring) == change.OnWalls &&
+      this->IsBetter(this->LackOf(change.Old),
+        this->LackAt(this->HalvesAround(change.Point, change.Other, ring), change.Place));
+  }
+
   //--- Points on surfaces -----------------------------------------------------
 
-  void TryToShift(std::uint32_t point)
+  /** How far a point on a surface may move; 0 for not at all. */
+  double MostShift(std::uint32_t point) const
   {
     const std::uint32_t source = this->Mesh.SourceOf(point); // where the surface is
     if (this->Mesh.Mesh().Surfaces[point] == 0 || source >= this->Options.CutEdges.size())
     {
-      return;
+      return 0.0;
     }
     const CutSide& edge = this->Options.CutEdges[source];
-    const Vector& from = this->Mesh.At(source);
     const Vector along = edge.Beyond - edge.Inside;
-    const double most =
-      std::min(this->Options.SurfaceMove, MostOfEdge * std::sqrt(Dot(along, along)));
+    return std::min(this->Options.SurfaceMove, MostOfEdge * std::sqrt(Dot(along, along)));
+  }
+  bool MayShift(std::uint32_t point, const Vector& place) const
+  {
+    const double most = this->MostShift(point);
+    const std::uint32_t source = this->Mesh.SourceOf(point);
+    const Vector way = place - this->Mesh.At(source);
+    return most > 0.0 && Dot(way, way) <= most * most &&
+      IsBeside(this->Options.CutEdges[source], this->Mesh.At(source), place);
+  }
+
+  void TryToShift(std::uint32_t point)
+  {
+    const double most = this->MostShift(point);
+    if (!(most > 0.0))
+    {
+      return;
+    }
     const Reach reach{ 0.5 * most,
-      [&](const Vector& place)
-      { return Dot(place - from, place - from) <= most * most && IsBeside(edge, from, place); } };
+      [&](const Vector& place) { return this->MayShift(point, place); } };
     PointStar star = FacesAround(this->Mesh, point);
     const Shortfall before = this->LackOf(this->Mesh.StarOf(point));
     const PlacedPoint best = BestPlace(star, this->Mesh.At(point), this->Mesh.Mesh().OnWalls[point],
@@ -382,6 +490,12 @@ Change BestChange(
   const LocalMesh& mesh, const ImprovementOptions& options, std::uint32_t tetrahedron)
 {
   return ChangeSearch(mesh, options).FindBest(tetrahedron);
+}
+
+bool Helps(const Change& change, const LocalMesh& mesh, const ImprovementOptions& options,
+  std::uint32_t tetrahedron)
+{
+  return ChangeSearch(mesh, options).Helps(change, tetrahedron);
 }
 
 Change AnyChange(const LocalMesh& mesh, const ImprovementOptions& options,

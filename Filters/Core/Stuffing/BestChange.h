@@ -23,6 +23,11 @@ namespace isodiamond
 Change BestChange(
   const LocalMesh& mesh, const ImprovementOptions& options, std::uint32_t tetrahedron);
 
+/** Whether a change makes things better by enough to be made for a tetrahedron, and can be made. It
+ *  was the best one there in another mesh, where what it replaces was the same. */
+bool Helps(const Change& change, const LocalMesh& mesh, const ImprovementOptions& options,
+  std::uint32_t tetrahedron);
+
 /** A random one of the changes that BestChange() looks at: it may make things worse, but leaves no
  *  tetrahedron nearly flat. @return a change of kind None if there is none */
 Change AnyChange(const LocalMesh& mesh, const ImprovementOptions& options,

@@ -2,6 +2,8 @@
 #include "Stuffing/Change.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace isodiamond
 {
@@ -37,6 +39,25 @@ void Shift(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& ch
   }
 }
 
+}
+
+std::uint32_t TetrahedronOf(const LocalMesh& mesh, const Corners& corners)
+{
+  const LocalMesh::Star star = mesh.StarOf(corners[0]);
+  const auto found = std::find_if(star.begin(), star.end(),
+    [&](std::uint32_t tetrahedron)
+    {
+      return std::all_of(corners.begin(), corners.end(),
+        [&](std::uint32_t corner) { return Has(mesh.CornersOf(tetrahedron), corner); });
+    });
+  return found != star.end() ? *found : LocalMesh::None;
+}
+
+StoredChange::StoredChange(Change change, const LocalMesh& mesh)
+  : Way(std::move(change))
+{
+  std::transform(this->Way.Old.begin(), this->Way.Old.end(), std::back_inserter(this->Old),
+    [&](std::uint32_t tetrahedron) { return mesh.CornersOf(tetrahedron); });
 }
 
 void Do(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& changed)

@@ -4,6 +4,7 @@
 
 #include "Stuffing/LocalMesh.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace isodiamond
@@ -17,7 +18,7 @@ struct Change
     None,
     Move,     ///< of Point to Place
     Collapse, ///< of the edge from Point to Other into Other
-    Replace,  ///< of Old by Fresh
+    Replace,  ///< of Old by Fresh: without the edge from Point to Other, or with it
     Split,    ///< as Replace, with Fresh around a new point, written as NewPoint, at Place
     Shift     ///< of Point, on a surface, which a new point at Place replaces
   };
@@ -31,6 +32,39 @@ struct Change
   Walls::Type OnWalls = 0;
   std::vector<std::uint32_t> Old;
   std::vector<Corners> Fresh;
+};
+
+/** The tetrahedron of a mesh with these corners, in any order; LocalMesh::None if it is not there.
+ */
+std::uint32_t TetrahedronOf(const LocalMesh& mesh, const Corners& corners);
+
+/** A change that can also be done in another mesh, in which the same has other numbers. */
+struct StoredChange
+{
+  /** @param mesh that the change is of, before it is done */
+  StoredChange(Change change, const LocalMesh& mesh);
+
+  /** @param idOf (point) -> its id in the other mesh, where all that the change concerns is */
+  template <typename IdOf>
+  Change In(const LocalMesh& other, IdOf&& idOf) const
+  {
+    const auto idsOf = [&](Corners corners)
+    {
+      std::transform(corners.begin(), corners.end(), corners.begin(),
+        [&](std::uint32_t corner) { return corner == Change::NewPoint ? corner : idOf(corner); });
+      return corners;
+    };
+    Change change = this->Way;
+    change.Point = idOf(change.Point);
+    change.Other = idOf(change.Other);
+    std::transform(change.Fresh.begin(), change.Fresh.end(), change.Fresh.begin(), idsOf);
+    std::transform(this->Old.begin(), this->Old.end(), change.Old.begin(),
+      [&](const Corners& corners) { return TetrahedronOf(other, idsOf(corners)); });
+    return change;
+  }
+
+  Change Way;
+  std::vector<Corners> Old; ///< of what it replaces
 };
 
 /** Changes a mesh. @param changed receives the tetrahedra that are not as they were */

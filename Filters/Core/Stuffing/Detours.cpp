@@ -43,7 +43,7 @@ constexpr std::size_t LooksAtOnce = 16;
 /** Changes to what is around a tetrahedron. */
 struct Detour
 {
-  std::vector<Surroundings::Step> Steps;
+  std::vector<StoredChange> Steps;
   std::int64_t Tries = 0;
 };
 
@@ -89,7 +89,7 @@ private:
   {
     LocalMesh Mesh;
     ChangeNotes Notes;
-    std::vector<Surroundings::Step> Steps;
+    std::vector<StoredChange> Steps;
 
     void Do(const Change& change)
     {

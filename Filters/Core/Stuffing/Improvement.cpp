@@ -31,15 +31,24 @@ constexpr std::size_t TriesAtOnce = 64;
 class Improver
 {
 public:
-  Improver(TetrahedronMesh mesh, const ImprovementOptions& options)
+  Improver(TetrahedronMesh mesh, const ImprovementOptions& options, KnownChanges& known)
     : Mesh(std::move(mesh))
     , Options(options)
+    , Known(known)
     , Wanted(WantedSine(options))
   {
   }
 
   void Run(const ParallelFor& parallelFor)
   {
+    this->Known.DoAgain(
+      this->Mesh,
+      [this](const Change& change, std::uint32_t tetrahedron)
+      {
+        return IsBad(this->Mesh, this->Wanted, tetrahedron) &&
+          Helps(change, this->Mesh, this->Options, tetrahedron);
+      },
+      parallelFor);
     std::vector<std::uint32_t> bad = WorstFirst(this->Mesh, this->Wanted);
     std::size_t triesLeft = MostTries(bad.size());
     for (int pass = 0; pass < MostPasses; ++pass)
@@ -105,6 +114,7 @@ private:
         this->Notes.NoteTry(tetrahedra[i]);
         if (changes[i].Kind != Change::None)
         {
+          this->Known.Note(changes[i], tetrahedra[i], this->Mesh);
           this->Notes.Do(changes[i], this->Mesh, changed);
         }
       }
@@ -113,6 +123,7 @@ private:
 
   LocalMesh Mesh;
   const ImprovementOptions& Options;
+  KnownChanges& Known;
   double Wanted; ///< sine
   ChangeNotes Notes;
 };
@@ -124,13 +135,20 @@ double WantedSine(const ImprovementOptions& options)
   return std::sin(options.WantedAngle / DegreesOfRadian);
 }
 
-TetrahedronMesh Improve(
-  TetrahedronMesh mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
+TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options,
+  const ParallelFor& parallelFor, KnownChanges& known)
 {
-  Improver improver(std::move(mesh), options);
+  Improver improver(std::move(mesh), options, known);
   improver.Run(parallelFor);
   improver.TakeDetours(parallelFor);
   return improver.Take();
+}
+
+TetrahedronMesh Improve(
+  TetrahedronMesh mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
+{
+  KnownChanges known;
+  return Improve(std::move(mesh), options, parallelFor, known);
 }
 
 }

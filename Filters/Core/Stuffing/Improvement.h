@@ -3,6 +3,7 @@
 #define isodiamond_Improvement_h
 
 #include "Field/Parallel.h"
+#include "Stuffing/KnownChanges.h"
 #include "Stuffing/SurfaceChanges.h"
 #include "Stuffing/TetrahedronMesh.h"
 
@@ -42,7 +43,12 @@ double WantedSine(const ImprovementOptions& options);
  * The worst come first; order and result depend on nothing but the mesh. The topology is kept
  * (LocalMesh.h). Klingner & Shewchuk, "Aggressive tetrahedral mesh improvement" (2007), do the same
  * more extensively.
+ *
+ * @param known of a mesh that was much the same: what it knows is done without a search, so the
+ *        result depends on it, too; afterwards of this mesh
  */
+TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options,
+  const ParallelFor& parallelFor, KnownChanges& known);
 TetrahedronMesh Improve(
   TetrahedronMesh mesh, const ImprovementOptions& options, const ParallelFor& parallelFor);
 

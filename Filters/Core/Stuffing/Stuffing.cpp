@@ -121,8 +121,9 @@ std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelF
   return leaves;
 }
 
-StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
+StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, KnownChanges* known)
 {
+  KnownChanges none;
   const Background background = BackgroundOf(input);
   const bool getsCoarser = !input.Allowances.empty();
   BothMeshes meshes = CutLeaves(background, getsCoarser, parallelFor);
@@ -132,7 +133,8 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor)
   options.Axes = AxesOf(input.World);
   options.CutEdges = CutEdgesOf(background);
   StuffedMesh result;
-  result.Mesh = Improve(std::move(meshes.Stuffed), options, parallelFor);
+  result.Mesh =
+    Improve(std::move(meshes.Stuffed), options, parallelFor, known != nullptr ? *known : none);
   if (getsCoarser)
   {
     CoarseningInput coarsening{ meshes.Plain, input.Allowances, input.CanBeFiner,

@@ -6,6 +6,7 @@
 #include "Field/Parallel.h"
 #include "Lattice/Lattice.h"
 #include "Mesh/CutMesh.h"
+#include "Stuffing/KnownChanges.h"
 #include "Stuffing/TetrahedronMesh.h"
 
 #include <optional>
@@ -52,8 +53,10 @@ struct StuffedMesh
   /** Those that have to be finer, see Coarsening.h. If there are any, the mesh is not finished. */
   std::vector<std::uint32_t> FarLeaves;
 };
-/** @param parallelFor is given the work in successive steps: it can report progress, and abort */
-StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor);
+/** @param parallelFor is given the work in successive steps: it can report progress, and abort
+ *  @param known see Improve(); null if no mesh was much the same */
+StuffedMesh Stuff(
+  const StuffingInput& input, const ParallelFor& parallelFor, KnownChanges* known = nullptr);
 
 /**
  * The leaves that have to be finer already before tetrahedra are improved: most of those that

@@ -8,23 +8,6 @@
 
 namespace isodiamond
 {
-namespace
-{
-
-/** The tetrahedron of a mesh with these corners, in any order; it must exist. */
-std::uint32_t TetrahedronOf(const LocalMesh& mesh, const Corners& corners)
-{
-  const LocalMesh::Star star = mesh.StarOf(corners[0]);
-  return *std::find_if(star.begin(), star.end(),
-    [&](std::uint32_t tetrahedron)
-    {
-      return std::all_of(corners.begin(), corners.end(),
-        [&](std::uint32_t corner) { return Has(mesh.CornersOf(tetrahedron), corner); });
-    });
-}
-
-}
-
 Surroundings::Surroundings(
   const LocalMesh& whole, const ImprovementOptions& options, std::uint32_t tetrahedron)
   : TheOptions{ options.WantedAngle, options.SurfaceMove, {}, options.Axes }
@@ -108,37 +91,19 @@ bool Surroundings::IsFree(const LocalMesh& mesh, std::uint32_t tetrahedron) cons
     { return corner >= this->Away.size() || this->Away[corner] < Reach; }); // new ones are near
 }
 
-Surroundings::Step::Step(Change change, const LocalMesh& mesh)
-  : Way(std::move(change))
-{
-  std::transform(this->Way.Old.begin(), this->Way.Old.end(), std::back_inserter(this->Old),
-    [&](std::uint32_t tetrahedron) { return mesh.CornersOf(tetrahedron); });
-}
-
-void Surroundings::DoInWhole(
-  const std::vector<Step>& steps, LocalMesh& whole, std::vector<std::uint32_t>& changed) const
+void Surroundings::DoInWhole(const std::vector<StoredChange>& steps, LocalMesh& whole,
+  std::vector<std::uint32_t>& changed) const
 {
   const std::size_t first = whole.Mesh().Positions.size(); // of the points that will be new
-  const auto idOf = [&](std::uint32_t point)
+  for (const StoredChange& step : steps)
   {
-    return point == Change::NewPoint ? point
-      : point < this->TheIds.size()
-      ? this->TheIds[point]
-      : static_cast<std::uint32_t>(first + point - this->TheIds.size());
-  };
-  const auto idsOf = [&](Corners corners)
-  {
-    std::transform(corners.begin(), corners.end(), corners.begin(), idOf);
-    return corners;
-  };
-  for (const Step& step : steps)
-  {
-    Change change = step.Way;
-    change.Point = idOf(change.Point);
-    change.Other = idOf(change.Other);
-    std::transform(change.Fresh.begin(), change.Fresh.end(), change.Fresh.begin(), idsOf);
-    std::transform(step.Old.begin(), step.Old.end(), change.Old.begin(),
-      [&](const Corners& corners) { return TetrahedronOf(whole, idsOf(corners)); });
+    const Change change = step.In(whole,
+      [&](std::uint32_t point)
+      {
+        return point < this->TheIds.size()
+          ? this->TheIds[point]
+          : static_cast<std::uint32_t>(first + point - this->TheIds.size());
+      });
     Do(change, whole, changed);
   }
 }

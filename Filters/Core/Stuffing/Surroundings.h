@@ -34,18 +34,11 @@ public:
   /** Whether a tetrahedron may be changed, in what the copy has become. */
   bool IsFree(const LocalMesh& mesh, std::uint32_t tetrahedron) const;
 
-  /** A change of the copy, or of what it has become. */
-  struct Step
-  {
-    Step(Change change, const LocalMesh& mesh);
-
-    Change Way;
-    std::vector<Corners> Old; ///< of what it replaces, which has other numbers in the whole
-  };
   /** Makes changes in the whole, where it is still as it was when copied.
+   *  @param steps changes of the copy, and of what it has become
    *  @param changed receives the tetrahedra that are not as they were */
-  void DoInWhole(
-    const std::vector<Step>& steps, LocalMesh& whole, std::vector<std::uint32_t>& changed) const;
+  void DoInWhole(const std::vector<StoredChange>& steps, LocalMesh& whole,
+    std::vector<std::uint32_t>& changed) const;
 
 private:
   static constexpr int Reach = 3;
