@@ -447,7 +447,7 @@ TEST(DistanceError, MeasuresLengthsWhateverTheOrientation)
 
 TEST(DistanceError, DoesNotDependOnThreadsOrOnTheSource)
 {
-  const test::Field field = test::NoiseField({ 33, 20, 27 }, 8);
+  const test::Field field = test::NoiseField({ 33, 14, 19 }, 8);
   for (const GridGeometry& world : { GridGeometry(test::Spacing(1.0, 0.7, 1.5)),
          GridGeometry(test::UnevenCoordinates(field.Dims, 1e6)) })
   {
