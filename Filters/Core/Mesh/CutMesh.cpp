@@ -273,8 +273,7 @@ CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden)
         if (isNew)
         {
           mesh.Vertices.push_back(leaf.Corners[i]);
-          mesh.Vertices.back().IsFixed =
-            anyHidden && IsCornerOf(*hidden, leaf.Corners[i].Position);
+          mesh.Vertices.back().IsFixed = anyHidden && IsCornerOf(*hidden, leaf.Corners[i].Position);
         }
       }
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stuffing/KnownChanges.h"
 
+#include "Simplification/TriangleMesh.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -11,8 +13,6 @@ namespace
 
 /** Changes between two looks at whether to go on. */
 constexpr std::size_t ChangesOfStep = 1024;
-
-constexpr std::uint32_t None = LocalMesh::None;
 
 }
 
