@@ -50,7 +50,7 @@ struct ImprovedMesh
   {
     this->Stuffed.Mesh.Blended.clear(); // it is a mesh of its own here
     this->Options = OptionsFor(this->Stuffed.Mesh, 20.0);
-    this->Result = Improve(this->Stuffed.Mesh, this->Options, SerialFor, this->Known);
+    this->Result = Improve(this->Stuffed.Mesh, this->Options, SerialFor, &this->Known);
   }
 
   test::Field Field;
@@ -294,7 +294,8 @@ TEST(KnownChanges, GiveTheSameMeshAgain)
   ASSERT_GT(count, 300U);
   const DoneAgain again(noisy.Known, noisy.Options, noisy.Stuffed.Mesh);
   EXPECT_EQ(again.CountDone(), count);
-  const TetrahedronMesh result = Improve(noisy.Stuffed.Mesh, noisy.Options, SerialFor, noisy.Known);
+  const TetrahedronMesh result =
+    Improve(noisy.Stuffed.Mesh, noisy.Options, SerialFor, &noisy.Known);
   EXPECT_EQ(noisy.Known.Count(), count);
   EXPECT_EQ(result.Tetrahedra, noisy.Result.Tetrahedra);
   EXPECT_EQ(result.Positions, noisy.Result.Positions);
@@ -431,7 +432,7 @@ TEST(KnownChanges, AreMostOfThoseOfARefinedMesh)
   const test::Built built = test::BuildVolume(field, { 3.7, HUGE_VAL });
   const LeavesOfNoise before(*built.Hierarchy, 1.0);
   KnownChanges known;
-  Improve(before.Moved, before.Options, SerialFor, known);
+  Improve(before.Moved, before.Options, SerialFor, &known);
   const LeavesOfNoise after(*built.Hierarchy, 1.0, before.SomeDiamonds());
   ASSERT_NE(after.Moved.Tetrahedra, before.Moved.Tetrahedra);
   const std::size_t count = known.Count();
@@ -441,7 +442,7 @@ TEST(KnownChanges, AreMostOfThoseOfARefinedMesh)
   const double wanted = WantedSine(after.Options);
   const auto countBad = [&](TetrahedronMesh mesh)
   { return WorstFirst(LocalMesh(std::move(mesh)), wanted).size(); };
-  const std::size_t bad = countBad(Improve(after.Moved, after.Options, SerialFor, known));
+  const std::size_t bad = countBad(Improve(after.Moved, after.Options, SerialFor, &known));
   const std::size_t fresh = countBad(Improve(after.Moved, after.Options, SerialFor));
   EXPECT_LE(bad, fresh + fresh / 10);
   EXPECT_LT(bad, countBad(after.Moved) / 10);

@@ -31,7 +31,7 @@ constexpr std::size_t TriesAtOnce = 64;
 class Improver
 {
 public:
-  Improver(TetrahedronMesh mesh, const ImprovementOptions& options, KnownChanges& known)
+  Improver(TetrahedronMesh mesh, const ImprovementOptions& options, KnownChanges* known)
     : Mesh(std::move(mesh))
     , Options(options)
     , Known(known)
@@ -39,16 +39,22 @@ public:
   {
   }
 
+  /** Does what helped before, as long as it still helps a tetrahedron that is bad. */
+  void DoKnown(const ParallelFor& parallelFor)
+  {
+    const auto mayDo = [this](const Change& change, std::uint32_t tetrahedron)
+    {
+      return IsBad(this->Mesh, this->Wanted, tetrahedron) &&
+        Helps(change, this->Mesh, this->Options, tetrahedron);
+    };
+    if (this->Known != nullptr)
+    {
+      this->Known->DoAgain(this->Mesh, mayDo, parallelFor);
+    }
+  }
+
   void Run(const ParallelFor& parallelFor)
   {
-    this->Known.DoAgain(
-      this->Mesh,
-      [this](const Change& change, std::uint32_t tetrahedron)
-      {
-        return IsBad(this->Mesh, this->Wanted, tetrahedron) &&
-          Helps(change, this->Mesh, this->Options, tetrahedron);
-      },
-      parallelFor);
     std::vector<std::uint32_t> bad = WorstFirst(this->Mesh, this->Wanted);
     std::size_t triesLeft = MostTries(bad.size());
     for (int pass = 0; pass < MostPasses; ++pass)
@@ -114,7 +120,10 @@ private:
         this->Notes.NoteTry(tetrahedra[i]);
         if (changes[i].Kind != Change::None)
         {
-          this->Known.Note(changes[i], tetrahedra[i], this->Mesh);
+          if (this->Known != nullptr)
+          {
+            this->Known->Note(changes[i], tetrahedra[i], this->Mesh);
+          }
           this->Notes.Do(changes[i], this->Mesh, changed);
         }
       }
@@ -123,8 +132,8 @@ private:
 
   LocalMesh Mesh;
   const ImprovementOptions& Options;
-  KnownChanges& Known;
-  double Wanted; ///< sine
+  KnownChanges* Known; ///< may be null
+  double Wanted;       ///< sine
   ChangeNotes Notes;
 };
 
@@ -136,19 +145,13 @@ double WantedSine(const ImprovementOptions& options)
 }
 
 TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options,
-  const ParallelFor& parallelFor, KnownChanges& known)
+  const ParallelFor& parallelFor, KnownChanges* known)
 {
   Improver improver(std::move(mesh), options, known);
+  improver.DoKnown(parallelFor);
   improver.Run(parallelFor);
   improver.TakeDetours(parallelFor);
   return improver.Take();
-}
-
-TetrahedronMesh Improve(
-  TetrahedronMesh mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
-{
-  KnownChanges known;
-  return Improve(std::move(mesh), options, parallelFor, known);
 }
 
 }

@@ -44,13 +44,11 @@ double WantedSine(const ImprovementOptions& options);
  * (LocalMesh.h). Klingner & Shewchuk, "Aggressive tetrahedral mesh improvement" (2007), do the same
  * more extensively.
  *
- * @param known of a mesh that was much the same: what it knows is done without a search, so the
- *        result depends on it, too; afterwards of this mesh
+ * @param known of a mesh that was much the same: what it knows is tried before anything is searched
+ *        for, so the result depends on it, too; afterwards of this mesh. Null if there is none.
  */
 TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options,
-  const ParallelFor& parallelFor, KnownChanges& known);
-TetrahedronMesh Improve(
-  TetrahedronMesh mesh, const ImprovementOptions& options, const ParallelFor& parallelFor);
+  const ParallelFor& parallelFor, KnownChanges* known = nullptr);
 
 }
 

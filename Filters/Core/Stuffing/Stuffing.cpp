@@ -123,7 +123,6 @@ std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelF
 
 StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, KnownChanges* known)
 {
-  KnownChanges none;
   const Background background = BackgroundOf(input);
   const bool getsCoarser = !input.Allowances.empty();
   BothMeshes meshes = CutLeaves(background, getsCoarser, parallelFor);
@@ -133,8 +132,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   options.Axes = AxesOf(input.World);
   options.CutEdges = CutEdgesOf(background);
   StuffedMesh result;
-  result.Mesh =
-    Improve(std::move(meshes.Stuffed), options, parallelFor, known != nullptr ? *known : none);
+  result.Mesh = Improve(std::move(meshes.Stuffed), options, parallelFor, known);
   if (getsCoarser)
   {
     CoarseningInput coarsening{ meshes.Plain, input.Allowances, input.CanBeFiner,
