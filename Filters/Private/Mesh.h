@@ -70,8 +70,8 @@ struct MeshOptions
   /** The same in a triangle or tetrahedron, given its corners in the world; empty to not
    *  measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
-  isodiamond::KnownChanges* Known = nullptr; ///< of the same mesh before it was refined
-  bool MayRefine = true;                     ///< whether FarDiamonds are looked at
+  isodiamond::KnownChanges* Known = nullptr; ///< see StuffMesh()
+  bool MayRefine = true;                     ///< whether FarDiamonds are looked for
   bool KeepsInside = false;                  ///< whether points on no surface stay
   /** The volume that a mesh not for simulations has at the whole tolerance; none if the mesh does
    *  not get coarser. */

@@ -20,7 +20,8 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** How often the mesh is made; mostly two or three times, in noise more often. */
+/** How many meshes are made at most: two or three are usual, more in noise. Refinement before
+ *  tetrahedra are improved does not count. */
 constexpr int MostRounds = 10;
 
 /** The volume of what a query gives if it is not for simulations. */
@@ -79,8 +80,6 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   asked.Known = &known;
   for (int round = 1;; ++round)
   {
-    asked.MayRefine = true;
-    task.Begin("Extracting the mesh", 0.0, 1.0);
     for (std::vector<isodiamond::Place> far;
          far = search.Find(*leaves, asked, task.For()), !far.empty();)
     {

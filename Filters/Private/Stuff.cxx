@@ -41,9 +41,9 @@ isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
     const auto place = isodiamond::DiamondOf(input.Leaves, i, hierarchy.SampleGrid());
     const std::int64_t rank = place ? hierarchy.Diamonds().Rank(*place) : -1;
     std::array<isodiamond::Vector, 4> corners{};
-    const auto& vertices = input.Leaves.Tetrahedra[i].Vertices;
-    std::transform(vertices.begin(), vertices.end(), corners.begin(),
-      [&](std::uint32_t vertex) { return input.Vertices[vertex]; });
+    const auto& ids = input.Leaves.Tetrahedra[i].Vertices;
+    std::transform(
+      ids.begin(), ids.end(), corners.begin(), [&](std::uint32_t id) { return vertices[id]; });
     const double error = rank < 0 ? 0.0 : hierarchy.Codes().Decode(hierarchy.Threshold(rank));
     input.Allowances.push_back(std::max(0.0, options.ToleranceIn(corners.data(), 4) - error));
     input.CanBeFiner.push_back(rank >= 0 && options.MayRefine);

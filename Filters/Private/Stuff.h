@@ -16,7 +16,8 @@ namespace vtkIsodiamond
 /**
  * Stuffs the volume that an extraction's mesh represents (see Stuffing/Stuffing.h), and hands over
  * points and cells, with their data: those of moved and added points are interpolated linearly in
- * the mesh.
+ * the mesh. Known changes are those of this mesh before it was last refined; they are updated, and
+ * may be null.
  *
  * @param mesh with all data, nothing left out; afterwards without what is hidden
  */

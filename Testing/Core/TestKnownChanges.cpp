@@ -123,7 +123,8 @@ struct LeavesOfNoise
   std::vector<Place> SomeDiamonds() const
   {
     std::vector<Place> places;
-    for (std::size_t leaf = 0; places.size() < 5; leaf += this->Leaves.Tetrahedra.size() / 50)
+    const std::size_t count = this->Leaves.Tetrahedra.size();
+    for (std::size_t leaf = 0; leaf < count && places.size() < 5; leaf += count / 50 + 1)
     {
       if (const auto place = DiamondOf(this->Leaves, leaf, this->SampleGrid))
       {

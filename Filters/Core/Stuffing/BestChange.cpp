@@ -245,7 +245,7 @@ private:
   void TryToRemoveEdge(std::uint32_t a, std::uint32_t b)
   {
     LocalMesh::Ring ring;
-    if (!this->Mesh.FindRing(a, b, MostAround, ring) || !this->CanEmpty(a, b, ring))
+    if (!this->Mesh.FindRing(a, b, MostAround, ring) || !this->CanRemoveEdge(a, b, ring))
     {
       return;
     }
@@ -264,13 +264,13 @@ private:
   }
 
   /** Whether an edge can go. */
-  bool CanEmpty(std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring) const
+  bool CanRemoveEdge(std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring) const
   {
     return ring.Points.size() >= 3 &&
       (ring.IsClosed || CanTurn(this->Mesh, a, b, ring, this->Options.SurfaceMove));
   }
 
-  /** Whether what an edge has around it is all that a change replaces. */
+  /** Whether a change replaces exactly the tetrahedra around its edge. */
   bool IsAllAround(const Change& change, LocalMesh::Ring& ring) const
   {
     return this->Mesh.FindRing(change.Point, change.Other, MostAround, ring) &&
@@ -282,11 +282,11 @@ private:
   {
     if (!this->Mesh.HasEdge(change.Point, change.Other))
     {
-      return true; // it comes with the tetrahedra
+      return true; // the new tetrahedra bring it: there is nothing else to check
     }
     LocalMesh::Ring ring;
-    return this->IsAllAround(change, ring) && this->CanEmpty(change.Point, change.Other, ring) &&
-      this->AreNew(ring, change.Fresh);
+    return this->IsAllAround(change, ring) &&
+      this->CanRemoveEdge(change.Point, change.Other, ring) && this->AreNew(ring, change.Fresh);
   }
 
   /** Whether edges, and a lone triangle, between points around an edge are not in the mesh yet, and
@@ -389,8 +389,8 @@ private:
     }
   }
 
-  /** The walls that a new point in the middle of an edge is on; none if there may be no point, as
-   *  the edge lies on a surface, or between two walls. */
+  /** The walls that a new point in the middle of an edge is on; none if no point may be put there:
+   *  the edge lies on a surface, or where two walls meet. */
   std::optional<Walls::Type> WallsOfMiddle(
     std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring) const
   {

@@ -23,8 +23,9 @@ namespace isodiamond
 Change BestChange(
   const LocalMesh& mesh, const ImprovementOptions& options, std::uint32_t tetrahedron);
 
-/** Whether a change makes things better by enough to be made for a tetrahedron, and can be made. It
- *  was the best one there in another mesh, where what it replaces was the same. */
+/** Whether a change makes things better by enough to be made for a tetrahedron, and can be made.
+ *  @param change found by BestChange(), perhaps in a similar mesh; all its points and tetrahedra
+ *         must be in this one, and its points on the same surfaces and walls */
 bool Helps(const Change& change, const LocalMesh& mesh, const ImprovementOptions& options,
   std::uint32_t tetrahedron);
 

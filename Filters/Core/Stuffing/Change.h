@@ -18,7 +18,7 @@ struct Change
     None,
     Move,     ///< of Point to Place
     Collapse, ///< of the edge from Point to Other into Other
-    Replace,  ///< of Old by Fresh: without the edge from Point to Other, or with it
+    Replace,  ///< of Old by Fresh, which removes the edge from Point to Other, or adds it
     Split,    ///< as Replace, with Fresh around a new point, written as NewPoint, at Place
     Shift     ///< of Point, on a surface, which a new point at Place replaces
   };

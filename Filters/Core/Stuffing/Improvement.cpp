@@ -18,8 +18,8 @@ namespace
 
 /** Passes over what is bad; most is done in two. */
 constexpr int MostPasses = 10;
-/** Tries in all passes, for this many that are bad at first: where it is hopeless, as a coarse mesh
- *  can be no better, there would be ever more. */
+/** Tries in all passes, for this many that are bad before the first pass: where it is hopeless, as
+ * a coarse mesh can be no better, there would be ever more. */
 constexpr std::size_t MostTries(std::size_t bad)
 {
   return 1000 + 4 * bad;

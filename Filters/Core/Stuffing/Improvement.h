@@ -40,12 +40,13 @@ double WantedSine(const ImprovementOptions& options);
  * (SurfaceChanges.h), as a new point. What is left in the end needs several changes at once
  * (Detours.h).
  *
- * The worst come first; order and result depend on nothing but the mesh. The topology is kept
+ * Known changes come first, in their order, then the worst tetrahedra; the result depends on
+ * nothing but the mesh and what is known. The topology is kept
  * (LocalMesh.h). Klingner & Shewchuk, "Aggressive tetrahedral mesh improvement" (2007), do the same
  * more extensively.
  *
- * @param known of a mesh that was much the same: what it knows is tried before anything is searched
- *        for, so the result depends on it, too; afterwards of this mesh. Null if there is none.
+ * @param known changes of a similar mesh, tried before any search; afterwards those of this mesh.
+ *        If null, none are tried or noted.
  */
 TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options,
   const ParallelFor& parallelFor, KnownChanges* known = nullptr);

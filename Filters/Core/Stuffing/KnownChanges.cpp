@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stuffing/KnownChanges.h"
 
-#include "Simplification/TriangleMesh.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -47,7 +45,7 @@ std::vector<KnownChanges::PointPlace> KnownChanges::PlacesOf(const TetrahedronMe
   return places;
 }
 
-/** By known point: its id in another mesh, or None. No two are the same there. */
+/** By known point: its id in another mesh, or None. Different points get different ids. */
 std::vector<std::uint32_t> KnownChanges::IdsIn(const std::vector<PointPlace>& places) const
 {
   std::vector<std::uint32_t> ids;
@@ -60,7 +58,8 @@ std::vector<std::uint32_t> KnownChanges::IdsIn(const std::vector<PointPlace>& pl
     }
     if (next != places.end() && next->IsThatOf(place))
     {
-      ids.resize(std::max<std::size_t>(ids.size(), place.Point + std::size_t{ 1 }), None);
+      ids.resize(
+        std::max<std::size_t>(ids.size(), place.Point + std::size_t{ 1 }), LocalMesh::None);
       ids[place.Point] = next->Point;
       ++next;
     }
@@ -73,12 +72,14 @@ void KnownChanges::DoAgain(LocalMesh& mesh, const Check& mayDo, const ParallelFo
   std::vector<PointPlace> places = PlacesOf(mesh.Mesh());
   std::vector<std::uint32_t> ids = this->IdsIn(places);
   this->Places = std::move(places);
-  const auto idOf = [&](std::uint32_t point) { return point < ids.size() ? ids[point] : None; };
-  const auto isThere = [&](Corners corners)
+  const auto idOf = [&](std::uint32_t point)
+  { return point < ids.size() ? ids[point] : LocalMesh::None; };
+  const auto numberOf = [&](Corners corners)
   {
     std::transform(corners.begin(), corners.end(), corners.begin(), idOf);
-    return std::find(corners.begin(), corners.end(), None) == corners.end() &&
-      TetrahedronOf(mesh, corners) != None;
+    const bool areThere =
+      std::find(corners.begin(), corners.end(), LocalMesh::None) == corners.end();
+    return areThere ? TetrahedronOf(mesh, corners) : LocalMesh::None;
   };
   const std::vector<Known> known = std::exchange(this->Changes, {});
   std::vector<std::uint32_t> changed;
@@ -86,19 +87,20 @@ void KnownChanges::DoAgain(LocalMesh& mesh, const Check& mayDo, const ParallelFo
     [&](std::size_t i)
     {
       const auto& [what, bestFor, newPoint] = known[i];
-      if (!isThere(bestFor) || !std::all_of(what.Old.begin(), what.Old.end(), isThere))
+      const std::uint32_t tetrahedron = numberOf(bestFor);
+      if (tetrahedron == LocalMesh::None ||
+        std::any_of(what.Old.begin(), what.Old.end(),
+          [&](const Corners& old) { return numberOf(old) == LocalMesh::None; }))
       {
         return;
       }
-      Corners corners = bestFor;
-      std::transform(corners.begin(), corners.end(), corners.begin(), idOf);
-      const std::uint32_t tetrahedron = TetrahedronOf(mesh, corners);
       const Change change = what.In(mesh, idOf);
       if (mayDo(change, tetrahedron))
       {
-        if (newPoint != None)
+        if (newPoint != LocalMesh::None)
         {
-          ids.resize(std::max<std::size_t>(ids.size(), newPoint + std::size_t{ 1 }), None);
+          ids.resize(
+            std::max<std::size_t>(ids.size(), newPoint + std::size_t{ 1 }), LocalMesh::None);
           ids[newPoint] = static_cast<std::uint32_t>(mesh.Mesh().Positions.size());
         }
         this->Note(change, tetrahedron, mesh);
@@ -111,7 +113,7 @@ void KnownChanges::Note(const Change& change, std::uint32_t tetrahedron, const L
 {
   const bool addsPoint = change.Kind == Change::Split || change.Kind == Change::Shift;
   this->Changes.push_back({ { change, mesh }, mesh.CornersOf(tetrahedron),
-    addsPoint ? static_cast<std::uint32_t>(mesh.Mesh().Positions.size()) : None });
+    addsPoint ? static_cast<std::uint32_t>(mesh.Mesh().Positions.size()) : LocalMesh::None });
 }
 
 }

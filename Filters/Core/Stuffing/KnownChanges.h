@@ -17,7 +17,8 @@ namespace isodiamond
  * While leaves get finer here and there, their mesh is improved again and again, mostly by the same
  * changes. Searching for the best change takes much longer than finding out whether a given one
  * makes things better. So what was the best change of a tetrahedron before is done again if that
- * tetrahedron is still there, and all that would be replaced.
+ * tetrahedron, and all that would be replaced, are still there, and if it still helps. Detours are
+ * not noted.
  */
 class KnownChanges
 {
@@ -30,7 +31,8 @@ public:
    *  @param parallelFor is given the work in successive steps */
   void DoAgain(LocalMesh& mesh, const Check& mayDo, const ParallelFor& parallelFor);
 
-  /** Notes a change that is about to be made. @param tetrahedron for which it is the best */
+  /** Notes a change that is about to be made in the mesh last given to DoAgain().
+   *  @param tetrahedron for which it is the best */
   void Note(const Change& change, std::uint32_t tetrahedron, const LocalMesh& mesh);
 
   std::size_t Count() const { return this->Changes.size(); }

@@ -9,8 +9,8 @@ namespace isodiamond
 namespace
 {
 
-/** New leaves, leaves beside these, and so on: where the outermost ones are held, that has hardly
- *  any effect on the new ones. */
+/** New leaves, the leaves beside them, and so on: holding the outermost vertices has hardly any
+ *  effect on the new leaves. */
 constexpr int RingsAround = 3;
 
 Point FourTimesMiddle(const CutMesh& mesh, const CutMesh::Tetrahedron& leaf)
@@ -54,28 +54,28 @@ void AddRing(const CutMesh& mesh, std::vector<bool>& leaves)
 CutMesh NewLeaves::Find(const CutMesh& mesh)
 {
   std::vector<Point> middles;
-  std::vector<bool> isThere;
+  std::vector<bool> isTaken;
   for (const CutMesh::Tetrahedron& leaf : mesh.Tetrahedra)
   {
     middles.push_back(FourTimesMiddle(mesh, leaf));
-    isThere.push_back(!std::binary_search(this->Seen.begin(), this->Seen.end(), middles.back()));
+    isTaken.push_back(!std::binary_search(this->Seen.begin(), this->Seen.end(), middles.back()));
   }
   std::sort(middles.begin(), middles.end());
   this->Seen = std::move(middles);
   for (int ring = 0; ring < RingsAround; ++ring)
   {
-    AddRing(mesh, isThere);
+    AddRing(mesh, isTaken);
   }
   CutMesh part;
   part.Vertices = mesh.Vertices;
-  const std::vector<bool> isOutside = VerticesOf(mesh, isThere, false);
+  const std::vector<bool> isOutside = VerticesOf(mesh, isTaken, false);
   for (std::size_t vertex = 0; vertex < isOutside.size(); ++vertex)
   {
     part.Vertices[vertex].IsFixed = mesh.Vertices[vertex].IsFixed || isOutside[vertex];
   }
-  for (std::size_t i = 0; i < isThere.size(); ++i)
+  for (std::size_t i = 0; i < isTaken.size(); ++i)
   {
-    if (isThere[i])
+    if (isTaken[i])
     {
       part.Tetrahedra.push_back(mesh.Tetrahedra[i]);
     }

@@ -19,8 +19,9 @@ namespace isodiamond
 class NewLeaves
 {
 public:
-  /** The leaves that the last mesh did not have, with what is around them; of the first mesh, all.
-   *  With all vertices of the mesh, of which those are fixed that leaves outside have, too. */
+  /** The leaves that the last mesh did not have, and three rings of leaves around them; all leaves
+   *  of the first mesh. The result has all of the mesh's vertices; those that leaves outside it
+   *  share are fixed, too. */
   CutMesh Find(const CutMesh& mesh);
 
 private:

@@ -54,13 +54,14 @@ struct StuffedMesh
   std::vector<std::uint32_t> FarLeaves;
 };
 /** @param parallelFor is given the work in successive steps: it can report progress, and abort
- *  @param known see Improve(); null if no mesh was much the same */
+ *  @param known see Improve() */
 StuffedMesh Stuff(
   const StuffingInput& input, const ParallelFor& parallelFor, KnownChanges* known = nullptr);
 
 /**
- * The leaves that have to be finer already before tetrahedra are improved: most of those that
- * Stuff() would find, in much less time. Leaves with fixed vertices are not among them.
+ * The leaves whose surfaces are too far away once vertices have moved, before tetrahedra are
+ * improved: most of those that Stuff() would find, and much faster. Leaves with a fixed vertex are
+ * left to Stuff().
  *
  * @param input whose leaves may be some of a mesh's, see NewLeaves.h
  */

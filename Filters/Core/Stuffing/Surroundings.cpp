@@ -2,9 +2,7 @@
 #include "Stuffing/Surroundings.h"
 
 #include <algorithm>
-#include <iterator>
 #include <unordered_map>
-#include <utility>
 
 namespace isodiamond
 {
