@@ -5,6 +5,8 @@
 
 #include "Mesh/IntervalExtraction.h"
 #include "Simplification/PartDistance.h"
+#include "Stuffing/Background.h"
+#include "Stuffing/MovedVertices.h"
 
 #include <gtest/gtest.h>
 
@@ -139,6 +141,79 @@ std::size_t Stuffed::CountBad() const
   return std::count_if(this->Mesh.Tetrahedra.begin(), this->Mesh.Tetrahedra.end(),
     [&](const Corners& corners)
     { return SmallestSine(this->Mesh, corners) < std::sin(15.0 * std::acos(-1.0) / 180.0); });
+}
+
+Leaves::Leaves(const IsodiamondHierarchy& hierarchy, double tolerance,
+  const std::vector<isodiamond::Place>& also)
+  : SampleGrid(hierarchy.SampleGrid())
+{
+  Query query;
+  query.Tolerance = tolerance;
+  query.Also = also;
+  const RefinedSet refined(hierarchy, query, SerialFor);
+  const IntervalExtraction extraction(refined, SerialFor);
+  this->Points.resize(extraction.PointCount());
+  extraction.ForEachPoint([&](const MeshPoint& point) { this->Points[point.Id] = point.Index; });
+  this->Mesh = extraction.Leaves(nullptr);
+}
+
+std::vector<isodiamond::Place> Leaves::Diamonds(std::size_t step) const
+{
+  std::vector<isodiamond::Place> places;
+  for (std::size_t leaf = 0; leaf < this->Mesh.Tetrahedra.size(); leaf += step)
+  {
+    if (const auto place = DiamondOf(this->Mesh, leaf, this->SampleGrid))
+    {
+      places.push_back(*place);
+    }
+  }
+  return places;
+}
+
+TetrahedronMesh Leaves::Moved() const
+{
+  const std::vector<Vector> vertices = VerticesInWorld(this->Mesh, AffineMap());
+  std::vector<Walls::Type> walls;
+  for (const Vector& vertex : vertices)
+  {
+    walls.push_back(Walls::At(vertex, this->SampleGrid));
+  }
+  const Background background(this->Mesh, vertices, walls, this->Points, false);
+  MovedVertices moved(background);
+  moved.MoveAll(SerialFor);
+  return moved.Cut(SerialFor);
+}
+
+ImprovementOptions OptionsFor(const TetrahedronMesh& mesh, double wantedAngle)
+{
+  ImprovementOptions options;
+  options.WantedAngle = wantedAngle;
+  options.Axes = UnitAxes;
+  options.SurfaceMove = 0.25;
+  for (const Vector& position : mesh.Positions)
+  {
+    options.CutEdges.push_back(
+      { position - Vector{ 0.5, 0.0, 0.0 }, position + Vector{ 0.5, 0.0, 0.0 } });
+  }
+  return options;
+}
+
+std::multiset<std::set<Vector>> PlacesOf(const LocalMesh& mesh)
+{
+  std::multiset<std::set<Vector>> all;
+  for (std::uint32_t i = 0; i < mesh.Mesh().Tetrahedra.size(); ++i)
+  {
+    if (mesh.IsAlive(i))
+    {
+      std::set<Vector> places;
+      for (const std::uint32_t corner : mesh.CornersOf(i))
+      {
+        places.insert(mesh.At(corner));
+      }
+      all.insert(std::move(places));
+    }
+  }
+  return all;
 }
 
 Topology TopologyOf(const Volume& volume, AnyMesh mesh)

@@ -6,11 +6,15 @@
 #include "RandomTestTools.h"
 #include "TopologyTestTools.h"
 
+#include "Mesh/CutMesh.h"
+#include "Stuffing/Improvement.h"
 #include "Stuffing/MeasuredSurfaces.h"
 #include "Stuffing/Stuffing.h"
 
 #include <array>
 #include <functional>
+#include <set>
+#include <vector>
 
 /**
  * @file StuffingTestTools.h
@@ -49,6 +53,32 @@ struct Stuffed
   /** Counts tetrahedra with a dihedral angle below 15 or above 165 degrees. */
   std::size_t CountBad() const;
 };
+
+/** The leaves of an interval volume at a tolerance, in index space, and the points of its mesh. */
+struct Leaves
+{
+  /** @param also diamonds that are refined whatever is tolerated */
+  Leaves(const isodiamond::IsodiamondHierarchy& hierarchy, double tolerance,
+    const std::vector<isodiamond::Place>& also = {});
+
+  /** The diamonds that some leaves lie in: one in so many. */
+  std::vector<isodiamond::Place> Diamonds(std::size_t step) const;
+
+  /** As tetrahedra, with vertices moved onto the surfaces, and not improved. */
+  isodiamond::TetrahedronMesh Moved() const;
+
+  const isodiamond::Grid& SampleGrid;
+  std::vector<isodiamond::Vector> Points;
+  isodiamond::CutMesh Mesh;
+};
+
+/** What may be done to any mesh. As edges that surfaces cut any will do, as long as a point on a
+ *  surface lies on its edge. */
+isodiamond::ImprovementOptions OptionsFor(
+  const isodiamond::TetrahedronMesh& mesh, double wantedAngle = 15.0);
+
+/** The positions of the corners of each tetrahedron that is alive. */
+std::multiset<std::set<isodiamond::Vector>> PlacesOf(const isodiamond::LocalMesh& mesh);
 
 /** The topology of a volume, and of its surfaces. */
 Topology TopologyOf(const Volume& volume, AnyMesh mesh);

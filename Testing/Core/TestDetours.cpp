@@ -24,15 +24,8 @@ struct NoisyMesh
     : Field(test::NoiseField({ size, size, size }, seed))
     , Built(test::BuildVolume(this->Field, { 3.7, HUGE_VAL }))
     , Stuffed(*this->Built.Hierarchy, Query{})
+    , Options(test::OptionsFor(this->Stuffed.Mesh))
   {
-    // Any edges will do, as long as a point on a surface lies on the edge that is cut there.
-    this->Options.Axes = test::UnitAxes;
-    this->Options.SurfaceMove = 0.25;
-    for (const Vector& position : this->Stuffed.Mesh.Positions)
-    {
-      this->Options.CutEdges.push_back(
-        { position - Vector{ 0.5, 0.0, 0.0 }, position + Vector{ 0.5, 0.0, 0.0 } });
-    }
   }
 
   test::Field Field;
@@ -50,25 +43,6 @@ std::uint32_t DrawAlive(const LocalMesh& mesh, std::minstd_rand& random)
     drawn = static_cast<std::uint32_t>(random() % mesh.Mesh().Tetrahedra.size());
   } while (!mesh.IsAlive(drawn));
   return drawn;
-}
-
-/** The positions of the corners of each tetrahedron that is alive. */
-std::multiset<std::set<Vector>> PlacesOf(const LocalMesh& mesh)
-{
-  std::multiset<std::set<Vector>> all;
-  for (std::uint32_t i = 0; i < mesh.Mesh().Tetrahedra.size(); ++i)
-  {
-    if (mesh.IsAlive(i))
-    {
-      std::set<Vector> places;
-      for (const std::uint32_t corner : mesh.CornersOf(i))
-      {
-        places.insert(mesh.At(corner));
-      }
-      all.insert(std::move(places));
-    }
-  }
-  return all;
 }
 
 }
@@ -161,13 +135,13 @@ TEST(Surroundings, ChangeAsTheWholeDoes)
         follower = whole;
         around.DoInWhole(steps, follower, changed);
       }
-      std::multiset<std::set<Vector>> expected = PlacesOf(whole);
-      for (const std::set<Vector>& places : PlacesOf(around.Mesh()))
+      std::multiset<std::set<Vector>> expected = test::PlacesOf(whole);
+      for (const std::set<Vector>& places : test::PlacesOf(around.Mesh()))
       {
         expected.erase(expected.find(places));
       }
-      expected.merge(PlacesOf(mesh));
-      EXPECT_TRUE(PlacesOf(follower) == expected);
+      expected.merge(test::PlacesOf(mesh));
+      EXPECT_TRUE(test::PlacesOf(follower) == expected);
       whole = follower;
     }
   }

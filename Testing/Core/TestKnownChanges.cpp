@@ -3,12 +3,9 @@
 // other changes.
 #include "StuffingTestTools.h"
 
-#include "Mesh/IntervalExtraction.h"
-#include "Stuffing/Background.h"
 #include "Stuffing/BestChange.h"
 #include "Stuffing/BestPlace.h"
 #include "Stuffing/KnownChanges.h"
-#include "Stuffing/MovedVertices.h"
 #include "Stuffing/RingFilling.h"
 #include "Stuffing/Shortfall.h"
 
@@ -18,27 +15,11 @@
 #include <array>
 #include <numeric>
 #include <random>
-#include <set>
 
 using namespace isodiamond;
 
 namespace
 {
-
-/** Any cut edges will do, as long as a point on a surface lies on the edge that is cut there. */
-ImprovementOptions OptionsFor(const TetrahedronMesh& mesh, double wantedAngle)
-{
-  ImprovementOptions options;
-  options.WantedAngle = wantedAngle;
-  options.Axes = test::UnitAxes;
-  options.SurfaceMove = 0.25;
-  for (const Vector& position : mesh.Positions)
-  {
-    options.CutEdges.push_back(
-      { position - Vector{ 0.5, 0.0, 0.0 }, position + Vector{ 0.5, 0.0, 0.0 } });
-  }
-  return options;
-}
 
 /** A tetrahedral mesh of noise with much to improve, what may be done to it, and what was done. */
 struct ImprovedMesh
@@ -49,7 +30,7 @@ struct ImprovedMesh
     , Stuffed(*this->Built.Hierarchy, Query{})
   {
     this->Stuffed.Mesh.Blended.clear(); // it is a mesh of its own here
-    this->Options = OptionsFor(this->Stuffed.Mesh, 20.0);
+    this->Options = test::OptionsFor(this->Stuffed.Mesh, 20.0);
     this->Result = Improve(this->Stuffed.Mesh, this->Options, SerialFor, &this->Known);
   }
 
@@ -91,73 +72,6 @@ struct DoneAgain
   std::array<int, Change::Shift + 1> Done{};
   std::array<int, Change::Shift + 1> Refused{};
 };
-
-/** Leaves at a tolerance whose vertices have moved, and some more of which may be refined. */
-struct LeavesOfNoise
-{
-  LeavesOfNoise(
-    const IsodiamondHierarchy& hierarchy, double tolerance, const std::vector<Place>& also = {})
-    : SampleGrid(hierarchy.SampleGrid())
-  {
-    Query query;
-    query.Tolerance = tolerance;
-    query.Also = also;
-    const RefinedSet refined(hierarchy, query, SerialFor);
-    const IntervalExtraction extraction(refined, SerialFor);
-    std::vector<Vector> points(extraction.PointCount());
-    extraction.ForEachPoint([&](const MeshPoint& point) { points[point.Id] = point.Index; });
-    this->Leaves = extraction.Leaves(nullptr);
-    const std::vector<Vector> vertices = VerticesInWorld(this->Leaves, AffineMap());
-    std::vector<Walls::Type> walls;
-    for (const Vector& vertex : vertices)
-    {
-      walls.push_back(Walls::At(vertex, this->SampleGrid));
-    }
-    const Background background(this->Leaves, vertices, walls, points, false);
-    MovedVertices moved(background);
-    moved.MoveAll(SerialFor);
-    this->Moved = moved.Cut(SerialFor);
-    this->Options = OptionsFor(this->Moved, 15.0);
-  }
-
-  std::vector<Place> SomeDiamonds() const
-  {
-    std::vector<Place> places;
-    const std::size_t count = this->Leaves.Tetrahedra.size();
-    for (std::size_t leaf = 0; leaf < count && places.size() < 5; leaf += count / 50 + 1)
-    {
-      if (const auto place = DiamondOf(this->Leaves, leaf, this->SampleGrid))
-      {
-        places.push_back(*place);
-      }
-    }
-    return places;
-  }
-
-  const Grid& SampleGrid;
-  CutMesh Leaves;
-  TetrahedronMesh Moved;
-  ImprovementOptions Options;
-};
-
-/** The positions of the corners of each tetrahedron that is alive. */
-std::multiset<std::set<Vector>> PlacesOf(const LocalMesh& mesh)
-{
-  std::multiset<std::set<Vector>> all;
-  for (std::uint32_t i = 0; i < mesh.Mesh().Tetrahedra.size(); ++i)
-  {
-    if (mesh.IsAlive(i))
-    {
-      std::set<Vector> places;
-      for (const std::uint32_t corner : mesh.CornersOf(i))
-      {
-        places.insert(mesh.At(corner));
-      }
-      all.insert(std::move(places));
-    }
-  }
-  return all;
-}
 
 /** A mesh after random changes. */
 TetrahedronMesh ChangedAnyhow(
@@ -325,7 +239,7 @@ TEST(KnownChanges, AreFoundUnderOtherNumbers)
   const DoneAgain again(noisy.Known, noisy.Options, mesh);
   const DoneAgain inTurned(noisy.Known, options, turned);
   EXPECT_EQ(inTurned.CountDone(), noisy.Known.Count());
-  EXPECT_TRUE(PlacesOf(inTurned.Mesh) == PlacesOf(again.Mesh));
+  EXPECT_TRUE(test::PlacesOf(inTurned.Mesh) == test::PlacesOf(again.Mesh));
 
   // A point in the same place, but on another surface or wall, is another one.
   TetrahedronMesh other = mesh;
@@ -388,8 +302,8 @@ TEST(Helps, OnlyIfTheMeshStaysSound)
     const test::AnyMesh plain(*built.Hierarchy, Query{});
     const test::Topology expected(plain);
     test::Stuffed result(*built.Hierarchy, Query{}); // for its means to tell
-    const TetrahedronMesh before = LeavesOfNoise(*built.Hierarchy, 0.0).Moved;
-    const ImprovementOptions options = OptionsFor(before, 45.0);
+    const TetrahedronMesh before = test::Leaves(*built.Hierarchy, 0.0).Moved();
+    const ImprovementOptions options = test::OptionsFor(before, 45.0);
     const LocalMesh mesh(before);
     test::Random random(seed);
     for (std::uint32_t tetrahedron = 0; tetrahedron < before.Tetrahedra.size(); ++tetrahedron)
@@ -431,20 +345,25 @@ TEST(KnownChanges, AreMostOfThoseOfARefinedMesh)
 {
   const test::Field field = test::NoiseField({ 13, 13, 13 }, 4);
   const test::Built built = test::BuildVolume(field, { 3.7, HUGE_VAL });
-  const LeavesOfNoise before(*built.Hierarchy, 1.0);
+  const test::Leaves leaves(*built.Hierarchy, 1.0);
+  const TetrahedronMesh before = leaves.Moved();
   KnownChanges known;
-  Improve(before.Moved, before.Options, SerialFor, &known);
-  const LeavesOfNoise after(*built.Hierarchy, 1.0, before.SomeDiamonds());
-  ASSERT_NE(after.Moved.Tetrahedra, before.Moved.Tetrahedra);
+  Improve(before, test::OptionsFor(before), SerialFor, &known);
+  std::vector<Place> some = leaves.Diamonds(leaves.Mesh.Tetrahedra.size() / 50 + 1);
+  ASSERT_GE(some.size(), 5U);
+  some.resize(5);
+  const TetrahedronMesh after = test::Leaves(*built.Hierarchy, 1.0, some).Moved();
+  ASSERT_NE(after.Tetrahedra, before.Tetrahedra);
   const std::size_t count = known.Count();
   ASSERT_GT(count, 1000U);
-  const DoneAgain again(known, after.Options, after.Moved);
+  const ImprovementOptions options = test::OptionsFor(after);
+  const DoneAgain again(known, options, after);
   EXPECT_GT(again.CountDone(), count / 2);
-  const double wanted = WantedSine(after.Options);
+  const double wanted = WantedSine(options);
   const auto countBad = [&](TetrahedronMesh mesh)
   { return WorstFirst(LocalMesh(std::move(mesh)), wanted).size(); };
-  const std::size_t bad = countBad(Improve(after.Moved, after.Options, SerialFor, &known));
-  const std::size_t fresh = countBad(Improve(after.Moved, after.Options, SerialFor));
+  const std::size_t bad = countBad(Improve(after, options, SerialFor, &known));
+  const std::size_t fresh = countBad(Improve(after, options, SerialFor));
   EXPECT_LE(bad, fresh + fresh / 10);
-  EXPECT_LT(bad, countBad(after.Moved) / 10);
+  EXPECT_LT(bad, countBad(after) / 10);
 }

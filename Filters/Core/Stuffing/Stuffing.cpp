@@ -94,17 +94,11 @@ BothMeshes CutLeaves(const Background& background, bool withPlain, const Paralle
   return meshes;
 }
 
-/** Whether leaves have no fixed vertices. */
-std::vector<bool> AreFree(const CutMesh& leaves)
+bool HasFixedVertex(const CutMesh& leaves, std::uint32_t leaf)
 {
-  std::vector<bool> areFree;
-  areFree.reserve(leaves.Tetrahedra.size());
-  for (const CutMesh::Tetrahedron& leaf : leaves.Tetrahedra)
-  {
-    areFree.push_back(std::none_of(leaf.Vertices.begin(), leaf.Vertices.end(),
-      [&](std::uint32_t vertex) { return leaves.Vertices[vertex].IsFixed; }));
-  }
-  return areFree;
+  const auto& vertices = leaves.Tetrahedra[leaf].Vertices;
+  return std::any_of(vertices.begin(), vertices.end(),
+    [&](std::uint32_t vertex) { return leaves.Vertices[vertex].IsFixed; });
 }
 
 }
@@ -114,9 +108,8 @@ std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelF
   const BothMeshes meshes = CutLeaves(BackgroundOf(input), true, parallelFor);
   std::vector<std::uint32_t> leaves =
     FarLeaves(meshes.Stuffed, { meshes.Plain, input.Allowances, input.CanBeFiner }, parallelFor);
-  const std::vector<bool> areFree = AreFree(input.Leaves);
-  leaves.erase(std::remove_if(
-                 leaves.begin(), leaves.end(), [&](std::uint32_t leaf) { return !areFree[leaf]; }),
+  leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
+                 [&](std::uint32_t leaf) { return HasFixedVertex(input.Leaves, leaf); }),
     leaves.end());
   return leaves;
 }
