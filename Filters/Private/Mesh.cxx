@@ -134,7 +134,7 @@ void AddMorePointData(const Extraction& extraction, const MeshOptions& options, 
     options.MorePointData(extraction.PointCount(), mesh.PointData);
   for (const PointWriter& write : writers)
   {
-    extraction.ForEachPoint(write);
+    extraction.ForEachPointGroup(write);
   }
 }
 

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 
@@ -23,6 +24,14 @@ namespace
 {
 
 constexpr const char* NormalsName = "Normals";
+
+/** @param write (point) */
+template <typename Write>
+PointWriter OneByOne(Write write)
+{
+  return [write](const isodiamond::PointGroup& points)
+  { std::for_each(points.begin(), points.end(), write); };
+}
 
 /** @param normals,gradients may be null */
 PointWriter WriteGradients(const Volume& volume, vtkFloatArray* normals, vtkFloatArray* gradients)
@@ -35,18 +44,28 @@ PointWriter WriteGradients(const Volume& volume, vtkFloatArray* normals, vtkFloa
     }
   };
   const auto valuesOf = [](vtkFloatArray* array) { return array ? array->GetPointer(0) : nullptr; };
-  return [write, gradientAt = isodiamond::Gradients(volume.Samples, volume.Placement.World),
+  return [write, gradientsOf = isodiamond::Gradients(volume.Samples, volume.Placement.World),
            ofNormals = valuesOf(normals),
-           ofGradients = valuesOf(gradients)](const isodiamond::MeshPoint& point)
+           ofGradients = valuesOf(gradients)](const isodiamond::PointGroup& points)
   {
-    const isodiamond::Vector gradient = gradientAt(point.Index);
-    if (ofNormals)
+    std::vector<isodiamond::Vector> positions;
+    positions.reserve(points.size());
+    for (const isodiamond::MeshPoint& point : points)
     {
-      write(ofNormals + 3 * point.Id, gradientAt.NormalAt(point.Index, gradient));
+      positions.push_back(point.Index);
     }
-    if (ofGradients)
+    std::vector<isodiamond::Vector> found(points.size());
+    gradientsOf.Find(positions, found.data());
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-      write(ofGradients + 3 * point.Id, gradient);
+      if (ofNormals)
+      {
+        write(ofNormals + 3 * points[i].Id, gradientsOf.NormalAt(positions[i], found[i]));
+      }
+      if (ofGradients)
+      {
+        write(ofGradients + 3 * points[i].Id, found[i]);
+      }
     }
   };
 }
@@ -125,27 +144,28 @@ PointWriter WriteOthers(const Volume& volume, const std::vector<std::string>& na
       output->SetActiveAttribute(made->GetName(), attribute);
     }
   }
-  return [&volume, arrays](const isodiamond::MeshPoint& point)
-  {
-    const std::array<int, 3>& dimensions = volume.Dimensions;
-    isodiamond::Vector index = point.Index;
-    for (double& coordinate : index)
+  return OneByOne(
+    [&volume, arrays](const isodiamond::MeshPoint& point)
     {
-      coordinate -= volume.Padding;
-    }
-    std::array<vtkIdType, 8> ids{};
-    std::array<double, 8> weights{};
-    int corners = 0;
-    isodiamond::CellPosition(index, dimensions)
-      .Clamped()
-      .ForEachCorner(
-        [&](const isodiamond::Point& sample, double weight)
-        {
-          ids[corners] = isodiamond::SampleIndex(dimensions, sample);
-          weights[corners++] = weight;
-        });
-    arrays->Values.Interpolate(corners, ids.data(), weights.data(), vtkIdType{ point.Id });
-  };
+      const std::array<int, 3>& dimensions = volume.Dimensions;
+      isodiamond::Vector index = point.Index;
+      for (double& coordinate : index)
+      {
+        coordinate -= volume.Padding;
+      }
+      std::array<vtkIdType, 8> ids{};
+      std::array<double, 8> weights{};
+      int corners = 0;
+      isodiamond::CellPosition(index, dimensions)
+        .Clamped()
+        .ForEachCorner(
+          [&](const isodiamond::Point& sample, double weight)
+          {
+            ids[corners] = isodiamond::SampleIndex(dimensions, sample);
+            weights[corners++] = weight;
+          });
+      arrays->Values.Interpolate(corners, ids.data(), weights.data(), vtkIdType{ point.Id });
+    });
 }
 
 }
@@ -192,11 +212,12 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
     {
       output->SetActiveNormals(NormalsName);
     }
-    return { [&hierarchy, arrays](const isodiamond::MeshPoint& point)
+    return { OneByOne(
+      [&hierarchy, arrays](const isodiamond::MeshPoint& point)
       {
         arrays->Values.Copy(
           vtkIdType{ isodiamond::StoredNumber(hierarchy, point) }, vtkIdType{ point.Id });
-      } };
+      }) };
   };
 }
 
@@ -230,7 +251,7 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Volume& vol
   CheckNames(wanted, volume.ArrayName, arrays);
   for (const PointWriter& write : writers)
   {
-    isodiamond::ForEachStoredPoint(hierarchy, parallelFor, write);
+    isodiamond::ForEachStoredPointGroup(hierarchy, parallelFor, write);
   }
   return arrays;
 }

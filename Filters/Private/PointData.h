@@ -20,8 +20,8 @@ class vtkPointData;
 namespace vtkIsodiamond
 {
 
-/** Writes its data for one point; several threads may write for several points at once. */
-using PointWriter = std::function<void(const isodiamond::MeshPoint& point)>;
+/** Writes its data for some points; several threads may write for several groups at once. */
+using PointWriter = std::function<void(const isodiamond::PointGroup& points)>;
 
 /** Makes arrays for a number of points, and returns the writers that fill them. */
 using PointDataMaker = std::function<std::vector<PointWriter>(vtkIdType count, vtkPointData*)>;

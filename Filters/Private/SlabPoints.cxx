@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace vtkIsodiamond
 {
@@ -20,23 +22,31 @@ namespace
  *  given. */
 struct PointsOfSlab
 {
-  std::vector<isodiamond::MeshPoint> Points;
+  std::vector<isodiamond::PointGroup> Groups;
   std::vector<vtkIdType> Stored; ///< their numbers in the hierarchy
 
   PointsOfSlab(const isodiamond::IsodiamondHierarchy& hierarchy, const Slab& slab)
   {
     const bool isLast = slab.Slices.End == slab.Slices.Last + 1;
-    isodiamond::ForEachStoredPointNear(hierarchy, slab.Slices.Begin, slab.Slices.End,
+    isodiamond::ForEachStoredPointGroupNear(hierarchy, slab.Slices.Begin, slab.Slices.End,
       isodiamond::SerialFor,
-      [&](isodiamond::MeshPoint point)
+      [&](const isodiamond::PointGroup& points)
       {
-        const double slice = point.Index[2];
-        if (slice >= slab.Slices.Begin && (slice < slab.Slices.End || isLast))
+        isodiamond::PointGroup own;
+        for (isodiamond::MeshPoint point : points)
         {
-          this->Stored.push_back(point.Id);
-          point.Id = static_cast<std::int64_t>(this->Points.size());
-          point.Index[2] -= slab.First;
-          this->Points.push_back(point);
+          const double slice = point.Index[2];
+          if (slice >= slab.Slices.Begin && (slice < slab.Slices.End || isLast))
+          {
+            this->Stored.push_back(point.Id);
+            point.Id = static_cast<std::int64_t>(this->Stored.size()) - 1;
+            point.Index[2] -= slab.First;
+            own.push_back(point);
+          }
+        }
+        if (!own.empty())
+        {
+          this->Groups.push_back(std::move(own));
         }
       });
   }
@@ -69,12 +79,12 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slab
   const auto add = [&](const Slab& slab)
   {
     const PointsOfSlab own(hierarchy, slab);
-    const auto count = static_cast<vtkIdType>(own.Points.size());
+    const auto count = static_cast<vtkIdType>(own.Stored.size());
     vtkNew<vtkPointData> data;
     for (const PointWriter& write : FromVolume(slab.Given, wanted)(count, data))
     {
       isodiamond::ForEachIndex(
-        task.For(), count, 1024, [&](std::int64_t i) { write(own.Points[i]); });
+        task.For(), own.Groups.size(), 4, [&](std::int64_t i) { write(own.Groups[i]); });
     }
     for (int i = 0; i < data->GetNumberOfArrays(); ++i)
     {

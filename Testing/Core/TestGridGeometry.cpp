@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where samples are in the world, which cells are hidden, and from where they are seen.
-#include "Field/Gradients.h"
 #include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
 #include "Patches/WorldLengths.h"
@@ -122,94 +121,6 @@ TEST(GridGeometry, OfAxesIsThatOfTheSamePositions)
   }
 }
 
-TEST(GridGeometry, GradientsAreThoseOfAnAffineMap)
-{
-  // The same samples at the same positions, given by a sheared map and one by one.
-  AffineMap map;
-  map.Rows = { { { 0.5, 0.2, 0.0, 3.0 }, { 0.0, 2.0, -0.3, 1.0 }, { 0.1, 0.0, 1.5, -2.0 } } };
-  std::vector<double> positions;
-  std::vector<float> field;
-  for (int z = 0; z < Size[2]; ++z)
-  {
-    for (int y = 0; y < Size[1]; ++y)
-    {
-      for (int x = 0; x < Size[0]; ++x)
-      {
-        const Vector p = map(x, y, z);
-        positions.insert(positions.end(), p.begin(), p.end());
-        field.push_back(static_cast<float>(std::sin(x) + y * y - x * z));
-      }
-    }
-  }
-  const AnySamples samples = SampleView<float>(field.data(), Size);
-  const GridGeometry affine(map);
-  const GridGeometry listed(SamplePositions{ positions.data(), Size });
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> index(-0.5, 5.5);
-  for (int i = 0; i < 1000; ++i)
-  {
-    const Vector at = { index(random), index(random), index(random) };
-    ExpectNear(Gradients(samples, affine)(at), Gradients(samples, listed)(at), 1e-9);
-  }
-  // A linear field has the same gradient everywhere, also beyond the grid.
-  for (std::size_t i = 0; i < field.size(); ++i)
-  {
-    field[i] = static_cast<float>(
-      2.0 * positions[3 * i] - positions[3 * i + 1] + 0.5 * positions[3 * i + 2]);
-  }
-  for (int i = 0; i < 1000; ++i)
-  {
-    const Vector at = { index(random), index(random), index(random) };
-    ExpectNear(Gradients(samples, listed)(at), { 2.0, -1.0, 0.5 }, 1e-5);
-    ExpectNear(Gradients(samples, affine)(at), { 2.0, -1.0, 0.5 }, 1e-5);
-  }
-}
-
-// A linear field that is NaN in one half, and infinite in a corner.
-TEST(GridGeometry, NormalsBesideGapsAreThoseOfTheFieldOrOfTheGap)
-{
-  constexpr int size = 7;
-  std::vector<float> field;
-  for (int i = 0; i < size * size * size; ++i)
-  {
-    const int x = i % size;
-    const int y = i / size % size;
-    const int z = i / (size * size);
-    field.push_back(x > 3 ? std::nanf("")
-        : x + y + z == 0  ? HUGE_VALF
-                          : static_cast<float>(2 * x - y + 2 * z));
-  }
-  const AnySamples samples = SampleView<float>(field.data(), { size, size, size });
-  const GridGeometry world{ AffineMap() };
-  const Gradients gradients(samples, world);
-  const auto normalAt = [&](const Vector& at) { return gradients.NormalAt(at, gradients(at)); };
-  for (const Vector& inside : { Vector{ 2.5, 3.25, 4.0 }, Vector{ 3.0, 2.5, 2.0 } })
-  {
-    ExpectNear(gradients(inside), { 2.0, -1.0, 2.0 }, 1e-6);
-    ExpectNear(normalAt(inside), { -2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0 }, 1e-6);
-  }
-  ExpectNear(normalAt({ 3.5, 3.0, 3.0 }), { 1.0, 0.0, 0.0 }); // into the gap
-  EXPECT_GT(normalAt({ 0.75, 0.0, 0.0 })[0], 0.7);            // away from the infinite corner
-  EXPECT_GT(normalAt({ 0.0, 0.0, 0.75 })[2], 0.7);
-  ExpectNear(normalAt({ 5.0, 3.0, 3.0 }), { 0.0, 0.0, 1.0 }); // nothing finite around it
-  // A finite gradient, but its components' sum is not.
-  ExpectNear(gradients.NormalAt({ 3.5, 3.0, 3.0 }, { 0.0, -1.2e308, -0.9e308 }), { 0.0, 0.8, 0.6 });
-}
-
-TEST(GridGeometry, NormalsHaveLengthOneHoweverLongTheGradientIs)
-{
-  const Vector normal = NormalOf({ 0.0, 3.0, -4.0 });
-  ExpectNear(normal, { 0.0, -0.6, 0.8 });
-  for (const double scale : { 1e-310, 1e-160, 1e-90, 1e90, 1e160, 1e307 })
-  {
-    ExpectNear(NormalOf({ 3.0 * scale, 0.0, -4.0 * scale }), { -0.6, 0.0, 0.8 });
-  }
-  ExpectNear(NormalOf({ 0.0, 0.0, 0.0 }), { 0.0, 0.0, 1.0 });
-  ExpectNear(NormalOf({ 0.0, std::nan(""), 0.0 }), { 0.0, 0.0, 1.0 });
-  ExpectNear(NormalOf({ 0.0, HUGE_VAL, 0.0 }), { 0.0, 0.0, 1.0 });
-  ExpectNear(NormalOf({ 1.7e308, 0.0, 1.7e308 }), { 0.0, 0.0, 1.0 }); // its length is not finite
-}
-
 TEST(GridGeometry, SmallestStepIsTheLeastOfAnyAxis)
 {
   AffineMap map;
@@ -266,32 +177,6 @@ TEST(Samples, AreFiniteOrNot)
     EXPECT_FALSE(isFinite.All());
     EXPECT_FALSE(isFinite({ 1, 0, 1 }));
     EXPECT_TRUE(isFinite({ 1, 1, 1 }));
-  }
-}
-
-TEST(GridGeometry, GradientsAreCentralDifferencesAndOneSidedAtTheBorder)
-{
-  const auto squares = [](const Point& p) { return p[0] * p[0] + 3 * p[1] * p[1] - p[2] * p[2]; };
-  std::vector<int> field;
-  for (int i = 0; i < Size[0] * Size[1] * Size[2]; ++i)
-  {
-    field.push_back(squares({ i % Size[0], i / Size[0] % Size[1], i / (Size[0] * Size[1]) }));
-  }
-  const GridGeometry world((AffineMap()));
-  const AnySamples samples = SampleView<int>(field.data(), Size);
-  const Gradients gradients(samples, world);
-  const std::array<double, 3> factors = { 1.0, 3.0, -1.0 };
-  for (int i = 0; i < Size[0] * Size[1] * Size[2]; ++i)
-  {
-    const Point p = { i % Size[0], i / Size[0] % Size[1], i / (Size[0] * Size[1]) };
-    Vector expected{};
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const bool isFirst = p[axis] == 0;
-      const bool isLast = p[axis] == Size[axis] - 1;
-      expected[axis] = factors[axis] * (2 * p[axis] + (isFirst ? 1 : 0) - (isLast ? 1 : 0));
-    }
-    ExpectNear(gradients({ 1.0 * p[0], 1.0 * p[1], 1.0 * p[2] }), expected);
   }
 }
 

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Field/Gradients.h"
 
+#include "Field/Differences.h"
 #include "Field/Trilinear.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 namespace isodiamond
 {
 namespace
 {
 
-/** Central differences in index space at a sample, one-sided on the boundary and, if there are
- * gaps, beside what is not finite. @param valueOf (sample) -> the field there */
-template <bool HasGaps, typename T, typename ValueOf>
+/** Central differences in index space at a sample, one-sided on the boundary and beside what is not
+ *  finite. @param valueOf (sample) -> the field there */
+template <typename T, typename ValueOf>
 Vector DifferencesAt(const SampleView<T>& samples, const Point& point, const ValueOf& valueOf)
 {
   const std::array<int, 3>& size = samples.Dimensions();
   const std::array<std::int64_t, 3> strides = { 1, size[0], std::int64_t{ 1 } * size[0] * size[1] };
   const T* const at = samples.Pointer() + samples.Index(point);
+  const double here = valueOf(*at);
   Vector gradient{};
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -29,7 +31,7 @@ Vector DifferencesAt(const SampleView<T>& samples, const Point& point, const Val
     double before = valueOf(at[isFirst ? 0 : -strides[axis]]);
     double after = valueOf(at[isLast ? 0 : strides[axis]]);
     bool isOneSided = isFirst || isLast;
-    if (const double here = HasGaps ? valueOf(*at) : HUGE_VAL; std::isfinite(here))
+    if (std::isfinite(here))
     {
       isOneSided = isOneSided || !std::isfinite(before) || !std::isfinite(after);
       before = std::isfinite(before) ? before : here;
@@ -40,47 +42,63 @@ Vector DifferencesAt(const SampleView<T>& samples, const Point& point, const Val
   return gradient;
 }
 
-/** The same, minding gaps only where there are any: few samples are beside one. */
-template <typename T, typename ValueOf>
-Vector IndexGradientAt(const SampleView<T>& samples, const Point& point, const ValueOf& valueOf)
+/** The samples around some cells. */
+struct SampleBox
 {
-  const Vector gradient = DifferencesAt<false>(samples, point, valueOf);
-  const bool isKnown =
-    !std::is_floating_point_v<T> || std::isfinite(gradient[0] + gradient[1] + gradient[2]);
-  return isKnown ? gradient : DifferencesAt<true>(samples, point, valueOf);
-}
+  Point First{};
+  Point Last{};
 
-/** Whether all samples next to a cell's corners exist. */
-bool IsInside(const CellPosition& position, const std::array<int, 3>& dimensions)
-{
-  bool isInside = true;
-  for (int axis = 0; axis < 3; ++axis)
+  explicit SampleBox(const std::vector<CellPosition>& positions)
+    : First(positions.front().Cell)
+    , Last(First)
   {
-    isInside = isInside && position.Cell[axis] > 0 && position.Cell[axis] + 2 < dimensions[axis];
-  }
-  return isInside;
-}
-
-/** The interpolated differences in index space at a position inside, where there are no gaps: most
- *  positions are such, and most of the time for normals is spent here. */
-template <typename T, typename ValueOf>
-Vector IndexGradientInside(
-  const SampleView<T>& samples, const CellPosition& position, const ValueOf& valueOf)
-{
-  const std::array<int, 3>& size = samples.Dimensions();
-  const std::int64_t row = size[0];
-  const std::int64_t slice = row * size[1];
-  const T* const cell = samples.Pointer() + samples.Index(position.Cell);
-  Vector sum{};
-  position.ForEachCornerNumber(
-    [&](int corner, double weight)
+    for (const CellPosition& position : positions)
     {
-      const T* const at = cell + (corner & 1) + ((corner >> 1) & 1) * row + (corner >> 2) * slice;
-      const auto difference = [&](std::int64_t stride)
-      { return valueOf(at[stride]) - valueOf(at[-stride]); };
-      sum = sum + weight * Vector{ difference(1), difference(row), difference(slice) };
-    });
-  return 0.5 * sum;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        this->First[axis] = std::min(this->First[axis], position.Cell[axis]);
+        this->Last[axis] = std::max(this->Last[axis], position.Cell[axis]);
+      }
+    }
+    this->Last = this->Last + Point{ 1, 1, 1 };
+  }
+
+  std::size_t Count() const
+  {
+    std::size_t count = 1;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      count *= this->Last[axis] - this->First[axis] + 1;
+    }
+    return count;
+  }
+};
+
+/** Calls body(number, gradient in index space) for some positions: not finite beside samples that
+ *  are not. */
+template <typename T, typename Body>
+void ForEachDifference(
+  const SampleView<T>& samples, const std::vector<CellPosition>& positions, const Body& body)
+{
+  if (positions.empty())
+  {
+    return;
+  }
+  Differences<T> differences(samples);
+  const SampleBox around(positions);
+  const bool isShared = around.Count() <= 8 * positions.size(); // each cell alone needs eight
+  if (isShared)
+  {
+    differences.Fill(around.First, around.Last);
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    if (!isShared)
+    {
+      differences.Fill(positions[i].Cell, positions[i].Cell + Point{ 1, 1, 1 });
+    }
+    body(i, differences.At(positions[i]));
+  }
 }
 
 /** Gradients in the world for steps in index space, from the derivatives of the position: the
@@ -116,45 +134,69 @@ Gradients::Gradients(const AnySamples& samples, const GridGeometry& geometry)
 }
 
 template <typename ValueOf>
-Vector Gradients::At(const Vector& index, const ValueOf& valueOf) const
+Vector Gradients::BesideGaps(const Vector& index, const ValueOf& valueOf) const
 {
   return std::visit(
     [&](const auto& view)
     {
-      const CellPosition position(index, view.Dimensions());
-      if (this->OfSteps && IsInside(position, view.Dimensions()))
-      {
-        const Vector gradient = IndexGradientInside(view, position, valueOf);
-        if (std::isfinite(gradient[0] + gradient[1] + gradient[2]))
-        {
-          return ToWorld(*this->OfSteps, gradient);
-        }
-      }
       Vector sum{};
-      position.Clamped().ForEachCorner(
-        [&](const Point& sample, double weight)
-        {
-          const Vector gradient = IndexGradientAt(view, sample, valueOf);
-          sum = sum +
-            weight *
-              (this->OfSteps
-                  ? gradient
-                  : ToWorld(GradientsOfSteps(this->Geometry.DerivativesAt(sample)), gradient));
-        });
+      CellPosition(index, view.Dimensions())
+        .Clamped()
+        .ForEachCorner(
+          [&](const Point& sample, double weight)
+          {
+            const Vector gradient = DifferencesAt(view, sample, valueOf);
+            sum = sum +
+              weight *
+                (this->OfSteps
+                    ? gradient
+                    : ToWorld(GradientsOfSteps(this->Geometry.DerivativesAt(sample)), gradient));
+          });
       return this->OfSteps ? ToWorld(*this->OfSteps, sum) : sum;
+    },
+    this->Samples);
+}
+
+void Gradients::Find(const std::vector<Vector>& positions, Vector* gradients) const
+{
+  const auto value = [](auto sample) { return static_cast<double>(sample); };
+  if (!this->OfSteps)
+  {
+    std::transform(positions.begin(), positions.end(), gradients,
+      [&](const Vector& index) { return this->BesideGaps(index, value); });
+    return;
+  }
+  std::visit(
+    [&](const auto& view)
+    {
+      std::vector<CellPosition> cells;
+      cells.reserve(positions.size());
+      for (const Vector& index : positions)
+      {
+        cells.push_back(CellPosition(index, view.Dimensions()).Clamped());
+      }
+      ForEachDifference(view, cells,
+        [&](std::size_t i, const Vector& gradient)
+        {
+          gradients[i] = std::isfinite(gradient[0] + gradient[1] + gradient[2])
+            ? ToWorld(*this->OfSteps, gradient)
+            : this->BesideGaps(positions[i], value);
+        });
     },
     this->Samples);
 }
 
 Vector Gradients::operator()(const Vector& index) const
 {
-  return this->At(index, [](auto sample) { return static_cast<double>(sample); });
+  Vector gradient;
+  this->Find({ index }, &gradient);
+  return gradient;
 }
 
 /** The gradient of a field that is 0 where samples are finite, else -1 or 1. */
 Vector Gradients::OfGaps(const Vector& index) const
 {
-  return this->At(index,
+  return this->BesideGaps(index,
     [](auto sample)
     {
       const auto value = static_cast<double>(sample);
@@ -169,14 +211,8 @@ Vector Gradients::NormalAt(const Vector& index, const Vector& gradient) const
   return NormalOf(isFinite ? gradient : this->OfGaps(index));
 }
 
-Vector NormalOf(const Vector& gradient)
+Vector NormalOfExtreme(const Vector& gradient)
 {
-  const double squared = Dot(gradient, gradient);
-  if (squared > 1e-200 && squared < 1e200)
-  {
-    return (-1.0 / std::sqrt(squared)) * gradient;
-  }
-  // Too short or too long to be squared, or not a number.
   const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
   if (!(length > 0.0) || !std::isfinite(length))
   {

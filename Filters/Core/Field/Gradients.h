@@ -6,7 +6,9 @@
 #include "Field/Samples.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 namespace isodiamond
 {
@@ -25,14 +27,19 @@ public:
   /** The gradient at a position in index space; for one beyond the grid, at the nearest in it. */
   Vector operator()(const Vector& index) const;
 
+  /** The same for many positions; faster where these are near each other. @param gradients one for
+   *  each is written */
+  void Find(const std::vector<Vector>& positions, Vector* gradients) const;
+
   /** The unit normal toward lower values, as of triangles. Where the field is not finite: toward
    *  what counts as below any value (NaN, too), and away from what counts as above.
    *  @param gradient the gradient there */
   Vector NormalAt(const Vector& index, const Vector& gradient) const;
 
 private:
+  /** Minds samples that are not finite, and how the grid's cells differ. */
   template <typename ValueOf>
-  Vector At(const Vector& index, const ValueOf& valueOf) const;
+  Vector BesideGaps(const Vector& index, const ValueOf& valueOf) const;
   Vector OfGaps(const Vector& index) const;
 
   const AnySamples& Samples;
@@ -41,9 +48,17 @@ private:
   std::optional<std::array<Vector, 3>> OfSteps;
 };
 
+/** The same for a gradient that is too short or too long to be squared, or not a number. */
+Vector NormalOfExtreme(const Vector& gradient);
+
 /** The unit normal of a gradient, toward lower values; (0, 0, 1) where it vanishes or is not
  * finite. */
-Vector NormalOf(const Vector& gradient);
+inline Vector NormalOf(const Vector& gradient)
+{
+  const double squared = Dot(gradient, gradient);
+  const bool isOrdinary = squared > 1e-200 && squared < 1e200;
+  return isOrdinary ? (-1.0 / std::sqrt(squared)) * gradient : NormalOfExtreme(gradient);
+}
 
 }
 

@@ -37,6 +37,13 @@ public:
     isodiamond::ForEachPoint(this->Passes, body);
   }
 
+  /** Calls body(group) for every PointGroup, in parallel. */
+  template <typename Body>
+  void ForEachPointGroup(Body&& body) const
+  {
+    isodiamond::ForEachPointGroup(this->Passes, body);
+  }
+
   /**
    * From here on the mesh has only the points that some cells use.
    *

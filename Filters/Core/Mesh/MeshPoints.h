@@ -6,8 +6,10 @@
 #include "Field/Vector.h"
 #include "Mesh/ExtractionPasses.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 /**
  * @file MeshPoints.h
@@ -79,42 +81,37 @@ void ForEachPointOf(const IsodiamondHierarchy& hierarchy, const Place& place, st
   }
 }
 
-/** Calls body(point) for all points of the whole mesh, in those bricks where some are left; bricks
- *  in parallel, the points of each in the order of their ids. */
+/** Calls body(point) for the points of one brick of the whole mesh, in the order of their ids. */
 template <typename Body>
-void ForEachPointOfBricks(const ExtractionPasses& passes, Body&& body)
+void ForEachPointOfBrick(const ExtractionPasses& passes, std::int64_t brick, Body&& body)
 {
   const IsodiamondHierarchy& hierarchy = passes.Hierarchy();
   const bool isVolume = hierarchy.Region().IsVolume();
-  passes.ForEachBrickWithPoints(
-    [&](std::int64_t brick)
+  const RefinedBrick refined = passes.BrickAt(brick);
+  std::uint32_t next = refined.StoredBrick().First;
+  std::int64_t inside = isVolume ? hierarchy.FirstInsideValue(refined.StoredNumber()) : 0;
+  passes.ForEachDiamondWithPoints(brick,
+    [&](const Place& place, std::uint32_t rank, const DiamondPoints& own)
     {
-      const RefinedBrick refined = passes.BrickAt(brick);
-      std::uint32_t next = refined.StoredBrick().First;
-      std::int64_t inside = isVolume ? hierarchy.FirstInsideValue(refined.StoredNumber()) : 0;
-      passes.ForEachDiamondWithPoints(brick,
-        [&](const Place& place, std::uint32_t rank, const DiamondPoints& own)
-        {
-          for (; isVolume && next < rank; ++next)
-          {
-            inside += hierarchy.Sign(next) == InsideSign ? 1 : 0;
-          }
-          ForEachPointOf(hierarchy, place, rank, own, inside, body);
-        });
+      for (; isVolume && next < rank; ++next)
+      {
+        inside += hierarchy.Sign(next) == InsideSign ? 1 : 0;
+      }
+      ForEachPointOf(hierarchy, place, rank, own, inside, body);
     });
 }
 
-/** Calls body(point) for those points of a mesh that are left, in the same way. */
+/** Calls body(point) for those points of one brick that are left, in the same way. */
 template <typename Body>
-void ForEachPoint(const ExtractionPasses& passes, Body&& body)
+void ForEachKeptPointOfBrick(const ExtractionPasses& passes, std::int64_t brick, Body&& body)
 {
   const KeptPoints* const kept = passes.PointsKept();
   if (kept == nullptr)
   {
-    ForEachPointOfBricks(passes, body);
+    ForEachPointOfBrick(passes, brick, body);
     return;
   }
-  ForEachPointOfBricks(passes,
+  ForEachPointOfBrick(passes, brick,
     [&](MeshPoint point)
     {
       if (kept->Contains(point.Id))
@@ -123,6 +120,49 @@ void ForEachPoint(const ExtractionPasses& passes, Body&& body)
         body(point);
       }
     });
+}
+
+/** Calls body(point) for those points of a mesh that are left; bricks in parallel, the points of
+ *  each in the order of their ids. */
+template <typename Body>
+void ForEachPoint(const ExtractionPasses& passes, Body&& body)
+{
+  passes.ForEachBrickWithPoints(
+    [&](std::int64_t brick) { ForEachKeptPointOfBrick(passes, brick, body); });
+}
+
+/** Points that are near each other: some of one brick's. */
+using PointGroup = std::vector<MeshPoint>;
+
+/** Calls body(group) for the points that visit(each) calls each(point) with, in order. */
+template <typename Visit, typename Body>
+void InGroups(Visit&& visit, Body&& body)
+{
+  constexpr std::size_t size = 512; // what is found out about a group stays in the cache
+  PointGroup group;
+  group.reserve(size);
+  visit(
+    [&](const MeshPoint& point)
+    {
+      group.push_back(point);
+      if (group.size() == size)
+      {
+        body(group);
+        group.clear();
+      }
+    });
+  if (!group.empty())
+  {
+    body(group);
+  }
+}
+
+/** Calls body(group) for groups of the points that are left, in parallel. */
+template <typename Body>
+void ForEachPointGroup(const ExtractionPasses& passes, Body&& body)
+{
+  passes.ForEachBrickWithPoints([&](std::int64_t brick)
+    { InGroups([&](auto&& each) { ForEachKeptPointOfBrick(passes, brick, each); }, body); });
 }
 
 /** The number of points that a hierarchy stores: its isovertices, then its inside values. */
@@ -138,50 +178,61 @@ inline std::int64_t StoredNumber(const IsodiamondHierarchy& hierarchy, const Mes
   return point.Surface == 0 ? hierarchy.IsovertexCount() + point.Stored : point.Stored;
 }
 
-/** Calls body(point) for points that a hierarchy stores, in parallel; their ids are their numbers.
- *  Visits at least all those between two slices, both included. */
+/** Calls body(point) for the points that a hierarchy stores in one brick; their ids are their
+ *  numbers. @param number of the brick */
 template <typename Body>
-void ForEachStoredPointNear(const IsodiamondHierarchy& hierarchy, int firstSlice, int lastSlice,
-  const ParallelFor& parallelFor, Body&& body)
+void ForEachStoredPointOfBrick(
+  const IsodiamondHierarchy& hierarchy, const BrickPlace& place, std::int64_t number, Body&& body)
 {
   const bool isVolume = hierarchy.Region().IsVolume();
+  std::int64_t inside = isVolume ? hierarchy.FirstInsideValue(number) : 0;
+  const DiamondSet& diamonds = hierarchy.Diamonds();
+  diamonds.ForEachInBrick(place.Scale, diamonds.Level(place.Scale).Bricks[place.Index],
+    [&](const Place& diamond, std::uint32_t rank)
+    {
+      const bool hasCentre = isVolume && hierarchy.Sign(rank) == InsideSign;
+      DiamondPoints own;
+      own.Bits = (hasCentre ? 1U << DiamondPoints::Centre : 0U) |
+        hierarchy.Edges(rank) << DiamondPoints::Isovertex(0, 0) |
+        (isVolume ? hierarchy.UpperEdges(rank) : 0U) << DiamondPoints::Isovertex(1, 0);
+      ForEachPointOf(hierarchy, diamond, rank, own, inside,
+        [&](MeshPoint point)
+        {
+          point.Id = StoredNumber(hierarchy, point);
+          body(point);
+        });
+      inside += hasCentre ? 1 : 0;
+    });
+}
+
+/** Calls body(group) for groups of the points that a hierarchy stores, in parallel; their ids are
+ *  their numbers. Visits at least all those between two slices, both included. */
+template <typename Body>
+void ForEachStoredPointGroupNear(const IsodiamondHierarchy& hierarchy, int firstSlice,
+  int lastSlice, const ParallelFor& parallelFor, Body&& body)
+{
   const std::vector<BrickPlace> bricks = AllBricks(hierarchy.Diamonds());
   ForEachIndex(parallelFor, bricks.size(), 16,
     [&](std::int64_t i)
     {
-      const BrickLevel& level = hierarchy.Diamonds().Level(bricks[i].Scale);
+      const auto [scale, index] = bricks[i];
+      const BrickLevel& level = hierarchy.Diamonds().Level(scale);
       // A diamond reaches as far as the next position.
-      const int z = level.Box.Origin(level.Bricks[bricks[i].Index].BoxIndex)[2];
-      if ((z + 8) << bricks[i].Scale < firstSlice || (z - 1) * (1 << bricks[i].Scale) > lastSlice)
+      const int z = level.Box.Origin(level.Bricks[index].BoxIndex)[2];
+      if ((z + 8) << scale >= firstSlice && (z - 1) * (1 << scale) <= lastSlice)
       {
-        return;
+        InGroups(
+          [&](auto&& each) { ForEachStoredPointOfBrick(hierarchy, bricks[i], i, each); }, body);
       }
-      std::int64_t inside = isVolume ? hierarchy.FirstInsideValue(i) : 0;
-      hierarchy.Diamonds().ForEachInBrick(bricks[i].Scale, level.Bricks[bricks[i].Index],
-        [&](const Place& place, std::uint32_t rank)
-        {
-          const bool hasCentre = isVolume && hierarchy.Sign(rank) == InsideSign;
-          DiamondPoints own;
-          own.Bits = (hasCentre ? 1U << DiamondPoints::Centre : 0U) |
-            hierarchy.Edges(rank) << DiamondPoints::Isovertex(0, 0) |
-            (isVolume ? hierarchy.UpperEdges(rank) : 0U) << DiamondPoints::Isovertex(1, 0);
-          ForEachPointOf(hierarchy, place, rank, own, inside,
-            [&](MeshPoint point)
-            {
-              point.Id = StoredNumber(hierarchy, point);
-              body(point);
-            });
-          inside += hasCentre ? 1 : 0;
-        });
     });
 }
 
 /** The same for all points that a hierarchy stores. */
 template <typename Body>
-void ForEachStoredPoint(
+void ForEachStoredPointGroup(
   const IsodiamondHierarchy& hierarchy, const ParallelFor& parallelFor, Body&& body)
 {
-  ForEachStoredPointNear(
+  ForEachStoredPointGroupNear(
     hierarchy, 0, hierarchy.SampleGrid().Last(2), parallelFor, std::forward<Body>(body));
 }
 
