@@ -73,7 +73,7 @@ struct BeforeWayBack
   const PeerPortion* Portion = nullptr;
   /** How many of the diamonds that need triangles from farther away are measured at once: the more,
    *  the more of these triangles are kept. */
-  int MostAtOnce = 256;
+  int MostAtOnce = 64;
 };
 
 /**

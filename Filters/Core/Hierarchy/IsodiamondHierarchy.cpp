@@ -222,15 +222,13 @@ DiamondEdges IsodiamondHierarchy::DeriveEdges(const ParallelFor& parallelFor) co
 /** Where each diamond's isovertices begin, and the counts by kind. */
 void IsodiamondHierarchy::CountByKind()
 {
-  this->FirstIsovertex.resize(this->Set.Size());
-  std::int64_t isovertices = 0;
+  this->FirstIsovertex.Reserve(this->Set.Size());
   for (std::int64_t rank = 0; rank < this->Set.Size(); ++rank)
   {
-    this->FirstIsovertex[rank] = static_cast<std::uint32_t>(isovertices);
-    isovertices += this->DerivedEdges.IsovertexCount(rank);
+    this->FirstIsovertex.Append(this->DerivedEdges.IsovertexCount(rank));
     this->Counts[static_cast<int>(this->KindOf(rank))] += rank < 8 ? 0 : 1;
   }
-  Require(isovertices == this->View.Arrays.Isovertices.Size,
+  Require(this->FirstIsovertex.Total() == this->View.Arrays.Isovertices.Size,
     "the number of isovertices does not match the signs");
   Require(this->Header().RelevantCount >= this->Count(Kind::Relevant) + this->Count(Kind::Creation),
     "there are more relevant isodiamonds than the header says");
@@ -306,7 +304,8 @@ std::int64_t IsodiamondHierarchy::DerivedSize() const
 {
   std::int64_t size = static_cast<std::int64_t>(2 * this->DerivedEdges.LowerAndKinds.size() +
     2 * this->DerivedEdges.Upper.size() + 8 * this->FirstInside.size() +
-    4 * this->FirstIsovertex.size() + sizeof(Thresholds) * this->Highest.size());
+    sizeof(Thresholds) * this->Highest.size()) +
+    this->FirstIsovertex.Bytes();
   for (int scale = 0; scale < this->Set.ScaleCount(); ++scale)
   {
     const BrickLevel& level = this->Set.Level(scale);

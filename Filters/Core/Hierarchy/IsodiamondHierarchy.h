@@ -5,6 +5,7 @@
 #include "Field/Parallel.h"
 #include "Hierarchy/DiamondEdges.h"
 #include "Hierarchy/ErrorCode.h"
+#include "Hierarchy/IsovertexStarts.h"
 #include "Lattice/DiamondSet.h"
 
 #include <cassert>
@@ -304,7 +305,7 @@ private:
   isodiamond::ErrorCode InteriorCode;
   DiamondEdges DerivedEdges;
   std::vector<std::int64_t> FirstInside; ///< interval volumes only: by brick, and the total
-  std::vector<std::uint32_t> FirstIsovertex;
+  IsovertexStarts FirstIsovertex;
   std::vector<Thresholds> Highest; ///< by brick
   std::array<std::int64_t, 3> Counts{};
 };
