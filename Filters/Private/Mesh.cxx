@@ -132,9 +132,12 @@ void AddMorePointData(const Extraction& extraction, const MeshOptions& options, 
   }
   const std::vector<PointWriter> writers =
     options.MorePointData(extraction.PointCount(), mesh.PointData);
-  for (const PointWriter& write : writers)
+  if (!writers.empty())
   {
-    extraction.ForEachPointGroup(write);
+    extraction.ForEachPointGroup(
+      [&](const isodiamond::PointGroup& points) {
+        std::for_each(writers.begin(), writers.end(), [&](const auto& write) { write(points); });
+      });
   }
 }
 

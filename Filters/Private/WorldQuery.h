@@ -242,7 +242,8 @@ void RefineState(const State& state, const WorldQuery& query, int numberOfThread
       isodiamond::Encoded answer =
         isodiamond::EncodeQuery(*state.Scalars, query.Override(state.Chosen).Region(),
           CoreQuery(query, *state.Scalars, state.World), state.ExactIsovertices, parallelFor);
-      const isodiamond::IsodiamondHierarchy hierarchy(answer.Encoding, std::move(answer.Edges));
+      const isodiamond::IsodiamondHierarchy hierarchy(
+        answer.Encoding, std::move(answer.Diamonds), std::move(answer.Edges));
       use(isodiamond::RefinedSet(hierarchy, {}, parallelFor));
     });
 }

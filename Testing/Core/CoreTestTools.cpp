@@ -167,7 +167,8 @@ Built::Built(isodiamond::Encoding encoding, const isodiamond::ParallelFor& paral
 Built::Built(isodiamond::Encoded encoded, const isodiamond::ParallelFor& parallelFor)
   : Built(std::move(encoded.Encoding), parallelFor)
 {
-  const isodiamond::IsodiamondHierarchy handedOver(this->Encoding, std::move(encoded.Edges));
+  const isodiamond::IsodiamondHierarchy handedOver(
+    this->Encoding, std::move(encoded.Diamonds), std::move(encoded.Edges));
   const bool isVolume = handedOver.Region().IsVolume();
   for (std::int64_t rank = 0; rank < handedOver.Diamonds().Size(); ++rank)
   {

@@ -115,7 +115,9 @@ void QueryScalars(const fuzz::Arrays& arrays)
   {
     Encoded answer =
       EncodeQuery(hierarchy, header.Region, query, header.ExactIsovertices, SerialFor);
-    Extract(IsodiamondHierarchy(answer.Encoding, std::move(answer.Edges)), Query{});
+    Extract(
+      IsodiamondHierarchy(answer.Encoding, std::move(answer.Diamonds), std::move(answer.Edges)),
+      Query{});
   }
   BuildIsodiamonds(Model::Minimal, hierarchy, header.Region, SerialFor);
 }

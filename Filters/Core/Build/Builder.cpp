@@ -32,7 +32,8 @@ Encoding BuildByDistance(Model model, const Source& source, const Isoregion& reg
   // Distances are measured on this one.
   Encoded relevant = steps.PlaceIsovertices(0.2, 0.25);
   DiamondCodes codes = steps.MeasureDistances(
-    IsodiamondHierarchy(relevant.Encoding, std::move(relevant.Edges)), Finiteness(source.Samples));
+    IsodiamondHierarchy(relevant.Encoding, std::move(relevant.Diamonds), std::move(relevant.Edges)),
+    Finiteness(source.Samples));
   steps.FindThresholds(codes);
   return steps.Complete(model, std::move(relevant.Encoding), std::move(codes));
 }

@@ -70,6 +70,7 @@ Encoded Dealing::Deal(Encoded told) const
       arrays.BrickIndices.clear();
       arrays.BrickMasks.clear();
       WriteBricks(this->Members, arrays);
+      told.Diamonds = this->Members;
     });
   deal(arrays.Records);
   deal(told.Edges.LowerAndKinds);

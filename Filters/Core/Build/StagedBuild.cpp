@@ -40,7 +40,8 @@ struct StagedBuild::State
   void SetRelevant(Encoded relevant)
   {
     this->Relevant = std::move(relevant.Encoding);
-    this->Hierarchy.emplace(this->Relevant, std::move(relevant.Edges));
+    this->Hierarchy.emplace(
+      this->Relevant, std::move(relevant.Diamonds), std::move(relevant.Edges));
   }
 
   /** Resumes with the samples, wherever they are now. */

@@ -69,6 +69,24 @@ public:
     return { region, centreSign, sampled, above };
   }
 
+  /** The same where all vertices have samples, which is nearly everywhere: without a branch for
+   * each.
+   *  @param signOf called with all numbers below MaximumVertices; it may return any sign for those
+   *         beyond the last vertex */
+  template <typename SignOf>
+  static DiamondSigns ReadAll(
+    const Isoregion& region, int centreSign, std::uint32_t sampled, const SignOf& signOf)
+  {
+    std::array<std::uint32_t, 2> above{};
+    for (int vertex = 0; vertex < MaximumVertices; ++vertex)
+    {
+      const int sign = signOf(vertex);
+      above[0] |= (sign > 0 ? 1U : 0U) << vertex;
+      above[1] |= (sign > 1 ? 1U : 0U) << vertex;
+    }
+    return { region, centreSign, sampled, { above[0] & sampled, above[1] & sampled } };
+  }
+
   /** The subdivision edges that cross a surface. */
   std::uint32_t CrossedEdges(int surface) const
   {

@@ -42,25 +42,26 @@ Vector DifferencesAt(const SampleView<T>& samples, const Point& point, const Val
   return gradient;
 }
 
-/** The samples around some cells. */
+/** The samples of all cells that hold some positions. */
 struct SampleBox
 {
   Point First{};
   Point Last{};
 
-  explicit SampleBox(const std::vector<CellPosition>& positions)
-    : First(positions.front().Cell)
-    , Last(First)
+  SampleBox(const std::vector<Vector>& positions, const std::array<int, 3>& dimensions)
   {
-    for (const CellPosition& position : positions)
+    Vector low = positions.front();
+    Vector high = low;
+    for (const Vector& position : positions)
     {
       for (int axis = 0; axis < 3; ++axis)
       {
-        this->First[axis] = std::min(this->First[axis], position.Cell[axis]);
-        this->Last[axis] = std::max(this->Last[axis], position.Cell[axis]);
+        low[axis] = std::min(low[axis], position[axis]);
+        high[axis] = std::max(high[axis], position[axis]);
       }
     }
-    this->Last = this->Last + Point{ 1, 1, 1 };
+    this->First = CellPosition(low, dimensions).Cell;
+    this->Last = CellPosition(high, dimensions).Cell + Point{ 1, 1, 1 };
   }
 
   std::size_t Count() const
@@ -78,14 +79,14 @@ struct SampleBox
  *  are not. */
 template <typename T, typename Body>
 void ForEachDifference(
-  const SampleView<T>& samples, const std::vector<CellPosition>& positions, const Body& body)
+  const SampleView<T>& samples, const std::vector<Vector>& positions, const Body& body)
 {
   if (positions.empty())
   {
     return;
   }
   Differences<T> differences(samples);
-  const SampleBox around(positions);
+  const SampleBox around(positions, samples.Dimensions());
   const bool isShared = around.Count() <= 8 * positions.size(); // each cell alone needs eight
   if (isShared)
   {
@@ -93,11 +94,12 @@ void ForEachDifference(
   }
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
+    const CellPosition position = CellPosition(positions[i], samples.Dimensions()).Clamped();
     if (!isShared)
     {
-      differences.Fill(positions[i].Cell, positions[i].Cell + Point{ 1, 1, 1 });
+      differences.Fill(position.Cell, position.Cell + Point{ 1, 1, 1 });
     }
-    body(i, differences.At(positions[i]));
+    body(i, differences.At(position));
   }
 }
 
@@ -169,13 +171,7 @@ void Gradients::Find(const std::vector<Vector>& positions, Vector* gradients) co
   std::visit(
     [&](const auto& view)
     {
-      std::vector<CellPosition> cells;
-      cells.reserve(positions.size());
-      for (const Vector& index : positions)
-      {
-        cells.push_back(CellPosition(index, view.Dimensions()).Clamped());
-      }
-      ForEachDifference(view, cells,
+      ForEachDifference(view, positions,
         [&](std::size_t i, const Vector& gradient)
         {
           gradients[i] = std::isfinite(gradient[0] + gradient[1] + gradient[2])

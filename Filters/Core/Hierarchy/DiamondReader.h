@@ -116,13 +116,18 @@ public:
     const int parity = Parity(place.Position);
     const ParityTable& shape = tables::Parities[parity];
     const std::int64_t index = this->IndexOf(centre);
-    return DiamondSigns::Read(this->Region, this->TheGrid.IsSampled(centre) ? sign : -1,
-      SampledVertices(this->TheGrid, place),
-      [&](int vertex)
-      {
-        return this->SignOf(
-          centre + half * shape.Offsets[vertex], index + half * this->Strides[parity][vertex]);
-      });
+    const auto signOf = [&](int vertex) // beyond the last one, offsets are 0
+    {
+      return this->SignOf(
+        centre + half * shape.Offsets[vertex], index + half * this->Strides[parity][vertex]);
+    };
+    const std::uint32_t sampled = SampledVertices(this->TheGrid, place);
+    if (sampled == (1U << shape.VertexCount) - 1U) // then the centre has a sample, too
+    {
+      return DiamondSigns::ReadAll(this->Region, sign, sampled, signOf);
+    }
+    return DiamondSigns::Read(
+      this->Region, this->TheGrid.IsSampled(centre) ? sign : -1, sampled, signOf);
   }
 
   /** An edge in unit steps, or in a single step for linear isovertices. */

@@ -15,7 +15,8 @@ namespace isodiamond
  * @param set the isodiamonds and the corners of the base cube
  * @param signs those to use where small pieces were removed; null for the samples'. Inside values
  *        are samples in either case
- * @param withEdges whether to keep the edges it finds on the way; otherwise less memory is used
+ * @param withEdges whether to keep the diamonds, and the edges it finds on the way, for a hierarchy
+ *        that need not derive them; otherwise less memory is used
  */
 Encoded Encode(const EncodingHeader& header, const Grid& grid, const AnySamples& samples,
   const DiamondSet& set, ErrorCode::Type code, const ParallelFor& parallelFor,

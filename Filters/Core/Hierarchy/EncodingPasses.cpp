@@ -64,7 +64,11 @@ Encoded EncodingPasses::Take(ErrorCode::Type code, bool withEdges)
     record = Record::Pack(code, DiamondEdges::SignIn(record));
   }
   this->Result.Arrays.Records = std::move(records);
-  return { std::move(this->Result), withEdges ? std::move(this->Edges) : DiamondEdges() };
+  if (!withEdges)
+  {
+    return { std::move(this->Result), {}, {} };
+  }
+  return { std::move(this->Result), this->Set, std::move(this->Edges) };
 }
 
 void EncodingPasses::MakeRoom()

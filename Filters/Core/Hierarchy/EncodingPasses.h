@@ -113,8 +113,8 @@ public:
     }
   }
 
-  /** Finishes: writes the records, all with one code. @param withEdges whether to keep the edges;
-   *  if not, the records take over their memory */
+  /** Finishes: writes the records, all with one code. @param withEdges whether to keep diamonds and
+   *  edges; if not, the records take over their memory */
   Encoded Take(ErrorCode::Type code, bool withEdges);
 
 private:

@@ -74,33 +74,40 @@ std::int64_t EncodingView::StorageSize() const
 
 IsodiamondHierarchy::IsodiamondHierarchy(
   const EncodingView& encoding, const ParallelFor& parallelFor)
-  : IsodiamondHierarchy(encoding)
+  : IsodiamondHierarchy(encoding, DiamondSet(CheckedGrid(encoding)))
 {
+  this->CheckHeader();
+  this->ReadBricks();
+  this->CheckRecords();
+  this->CheckFollowers();
   this->Complete(this->DeriveEdges(parallelFor));
 }
 
-IsodiamondHierarchy::IsodiamondHierarchy(const EncodingView& encoding, DiamondEdges edges)
-  : IsodiamondHierarchy(encoding)
+IsodiamondHierarchy::IsodiamondHierarchy(
+  const EncodingView& encoding, DiamondSet diamonds, DiamondEdges edges)
+  : IsodiamondHierarchy(encoding, std::move(diamonds))
 {
   this->Complete(std::move(edges));
 }
 
-IsodiamondHierarchy::IsodiamondHierarchy(const EncodingView& encoding)
+IsodiamondHierarchy::IsodiamondHierarchy(const EncodingView& encoding, DiamondSet diamonds)
   : View(encoding)
-  , TheGrid(CheckedGrid(encoding))
-  , Set(this->TheGrid)
+  , TheGrid(encoding.Header.Dimensions)
+  , Set(std::move(diamonds))
   , Code(encoding.Header.ErrorScale)
   , InteriorCode(encoding.Header.FieldScale)
 {
-  Require(encoding.Header.TheModel == Model::Relevant || encoding.Header.TheModel == Model::Minimal,
+}
+
+void IsodiamondHierarchy::CheckHeader() const
+{
+  const EncodingHeader& header = this->Header();
+  Require(header.TheModel == Model::Relevant || header.TheModel == Model::Minimal,
     "the encoding is not that of a relevant or minimal isodiamond hierarchy");
-  Require(encoding.Header.ErrorScale > 0.0 && std::isfinite(encoding.Header.ErrorScale),
+  Require(header.ErrorScale > 0.0 && std::isfinite(header.ErrorScale),
     "the error scale is not a positive number");
-  Require(encoding.Header.FieldScale > 0.0 && std::isfinite(encoding.Header.FieldScale),
+  Require(header.FieldScale > 0.0 && std::isfinite(header.FieldScale),
     "the field scale is not a positive number");
-  this->ReadBricks();
-  this->CheckRecords();
-  this->CheckFollowers();
 }
 
 void IsodiamondHierarchy::Complete(DiamondEdges edges)
@@ -303,8 +310,8 @@ void IsodiamondHierarchy::FindHighestThresholds()
 std::int64_t IsodiamondHierarchy::DerivedSize() const
 {
   std::int64_t size = static_cast<std::int64_t>(2 * this->DerivedEdges.LowerAndKinds.size() +
-    2 * this->DerivedEdges.Upper.size() + 8 * this->FirstInside.size() +
-    sizeof(Thresholds) * this->Highest.size()) +
+                        2 * this->DerivedEdges.Upper.size() + 8 * this->FirstInside.size() +
+                        sizeof(Thresholds) * this->Highest.size()) +
     this->FirstIsovertex.Bytes();
   for (int scale = 0; scale < this->Set.ScaleCount(); ++scale)
   {

@@ -161,10 +161,11 @@ struct Encoding
   AnyValues InsideValues;
 };
 
-/** The result of encoding; without edges if they are not wanted. */
+/** The result of encoding, and what is known of its diamonds, if that is wanted. */
 struct Encoded
 {
   isodiamond::Encoding Encoding;
+  DiamondSet Diamonds;
   DiamondEdges Edges;
 };
 
@@ -196,8 +197,9 @@ public:
    *  @throws std::invalid_argument naming what is wrong with the encoding. */
   IsodiamondHierarchy(const EncodingView& encoding, const ParallelFor& parallelFor);
 
-  /** The same, for an encoding that was just made with these edges. */
-  IsodiamondHierarchy(const EncodingView& encoding, DiamondEdges edges);
+  /** The same, for an encoding that was just made, with these diamonds and edges: there is little
+   * to check. */
+  IsodiamondHierarchy(const EncodingView& encoding, DiamondSet diamonds, DiamondEdges edges);
 
   const EncodingHeader& Header() const { return this->View.Header; }
   const Grid& SampleGrid() const { return this->TheGrid; }
@@ -286,7 +288,8 @@ public:
 private:
   class BrickSigns;
 
-  explicit IsodiamondHierarchy(const EncodingView& encoding);
+  IsodiamondHierarchy(const EncodingView& encoding, DiamondSet diamonds);
+  void CheckHeader() const;
   void ReadBricks();
   void CheckRecords() const;
   void CheckFollowers() const;

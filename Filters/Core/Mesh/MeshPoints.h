@@ -138,7 +138,7 @@ using PointGroup = std::vector<MeshPoint>;
 template <typename Visit, typename Body>
 void InGroups(Visit&& visit, Body&& body)
 {
-  constexpr std::size_t size = 512; // what is found out about a group stays in the cache
+  constexpr std::size_t size = 256; // what is found out about a group stays in the cache
   PointGroup group;
   group.reserve(size);
   visit(
