@@ -63,8 +63,8 @@ TEST(Encoding, SizesAreThoseOfAllArrays)
         8 * arrays.BrickMasks.size() + 2 * diamonds + arrays.Isovertices.size() +
         2 * arrays.InteriorCodes.size() + 8 * arrays.Followers.size() +
         (region.IsVolume() ? 4 * inside : 0)));
-    // By diamond: edges of one surface or of two, and its first isovertex, counted from the first of
-    // eight diamonds. By eight diamonds: that one. By brick: the brick itself, its highest
+    // By diamond: edges of one surface or of two, and its first isovertex, counted from the first
+    // of eight diamonds. By eight diamonds: that one. By brick: the brick itself, its highest
     // thresholds and, of volumes, its first inside value. And the lookups.
     EXPECT_EQ(hierarchy.DerivedSize(),
       static_cast<std::int64_t>((region.IsVolume() ? 5 : 3) * diamonds + 4 * ((diamonds + 7) / 8) +
