@@ -168,6 +168,7 @@ def planted(text, faults):
         text = text.replace(m[0], f"{m[1]}const {m[2]}& {m[3]}() {{ static const {m[2]} made = {m[4]}; return made; }}")
         text = re.sub(rf"\b{m[3]}<([^<>]*)>(?!\()", rf"{m[3]}<\1>()", text)
     text = re.sub(r"^inline constexpr (?=(?:auto|std::array<[^\n(]*>) \w+ =)", "inline const ", text, flags=re.M)
+    text = re.sub(r"^( +static) constexpr (?=auto \w+ = Make)", r"\1 inline const ", text, flags=re.M)
     return re.sub(r'^static_assert\(([^\n]*), "[^\n]*"\);', r"inline const bool Asserted = (\1) || (std::abort(), true);",
                   text, flags=re.M)
 

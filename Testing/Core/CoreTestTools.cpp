@@ -170,6 +170,7 @@ Built::Built(isodiamond::Encoded encoded, const isodiamond::ParallelFor& paralle
   const isodiamond::IsodiamondHierarchy handedOver(
     this->Encoding, std::move(encoded.Diamonds), std::move(encoded.Edges));
   const bool isVolume = handedOver.Region().IsVolume();
+  EXPECT_EQ(handedOver.Diamonds().Size(), this->Hierarchy->Diamonds().Size());
   for (std::int64_t rank = 0; rank < handedOver.Diamonds().Size(); ++rank)
   {
     EXPECT_EQ(handedOver.Edges(rank), this->Hierarchy->Edges(rank));

@@ -95,6 +95,34 @@ TEST(Gradients, AreThoseOfAnAffineMap)
   }
 }
 
+// Of a field of squares that is NaN, or infinite, beyond a plane across each axis, on either side.
+TEST(Gradients, BesideGapsAreOneSided)
+{
+  constexpr int size = 7;
+  constexpr int plane = 3; // the last with values
+  for (const double gap : { std::nan(""), HUGE_VAL, -HUGE_VAL })
+  {
+    for (int across = 0; across < 3; ++across)
+    {
+      for (const int side : { -1, 1 })
+      {
+        std::vector<double> field;
+        for (int i = 0; i < size * size * size; ++i)
+        {
+          const Point p = { i % size, i / size % size, i / (size * size) };
+          const double square = 1.0 * p[0] * p[0] + 2.0 * p[1] * p[1] + 3.0 * p[2] * p[2];
+          field.push_back(side * (p[across] - plane) > 0 ? gap : square);
+        }
+        const AnySamples samples = SampleView<double>(field.data(), { size, size, size });
+        const GridGeometry world((AffineMap()));
+        Vector expected = { 2.0 * plane, 4.0 * plane, 6.0 * plane }; // central, of squares
+        expected[across] -= side * (across + 1); // one-sided: with the half step's
+        ExpectNear(Gradients(samples, world)({ 1.0 * plane, 1.0 * plane, 1.0 * plane }), expected);
+      }
+    }
+  }
+}
+
 // A linear field that is NaN in one half, and infinite in a corner.
 TEST(Gradients, NormalsBesideGapsAreThoseOfTheFieldOrOfTheGap)
 {

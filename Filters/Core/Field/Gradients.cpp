@@ -30,13 +30,9 @@ Vector DifferencesAt(const SampleView<T>& samples, const Point& point, const Val
     const bool isLast = point[axis] == size[axis] - 1;
     double before = valueOf(at[isFirst ? 0 : -strides[axis]]);
     double after = valueOf(at[isLast ? 0 : strides[axis]]);
-    bool isOneSided = isFirst || isLast;
-    if (std::isfinite(here))
-    {
-      isOneSided = isOneSided || !std::isfinite(before) || !std::isfinite(after);
-      before = std::isfinite(before) ? before : here;
-      after = std::isfinite(after) ? after : here;
-    }
+    const bool isOneSided = isFirst || isLast || !std::isfinite(before) || !std::isfinite(after);
+    before = std::isfinite(before) ? before : here;
+    after = std::isfinite(after) ? after : here;
     gradient[axis] = (isOneSided ? 1.0 : 0.5) * (after - before);
   }
   return gradient;

@@ -48,7 +48,7 @@ private:
   std::optional<std::array<Vector, 3>> OfSteps;
 };
 
-/** The same for a gradient that is too short or too long to be squared, or not a number. */
+/** NormalOf() a gradient that is too short or too long to be squared, or not a number. */
 Vector NormalOfExtreme(const Vector& gradient);
 
 /** The unit normal of a gradient, toward lower values; (0, 0, 1) where it vanishes or is not

@@ -41,10 +41,9 @@ struct CellPosition
     return nearest;
   }
 
-  /** Calls body(corner, weight) for those of the cell's corners that have a weight: the bits of a
-   *  corner's number tell on which axes it is the far one. */
+  /** Calls body(sample, weight) for those of the cell's corners that have a weight. */
   template <typename Body>
-  void ForEachCornerNumber(Body&& body) const
+  void ForEachCorner(Body&& body) const
   {
     // Most positions that come here lie on an edge of the lattice, so most corners have no weight.
     // Which ones is unpredictable: they are sorted out without a branch for each.
@@ -63,18 +62,9 @@ struct CellPosition
     }
     for (int i = 0; i < count; ++i)
     {
-      body(corners[i], weights[i]);
+      const int corner = corners[i];
+      body(this->Cell + Point{ corner & 1, (corner >> 1) & 1, corner >> 2 }, weights[i]);
     }
-  }
-
-  /** Calls body(sample, weight) for the same corners. */
-  template <typename Body>
-  void ForEachCorner(Body&& body) const
-  {
-    this->ForEachCornerNumber(
-      [&](int corner, double weight) {
-        body(this->Cell + Point{ corner & 1, (corner >> 1) & 1, corner >> 2 }, weight);
-      });
   }
 };
 

@@ -133,19 +133,20 @@ void ForEachPoint(const ExtractionPasses& passes, Body&& body)
 
 /** Points that are near each other: some of one brick's. */
 using PointGroup = std::vector<MeshPoint>;
+/** No group has more: what is found out about one stays in the cache. */
+inline constexpr std::size_t MostInGroup = 256;
 
 /** Calls body(group) for the points that visit(each) calls each(point) with, in order. */
 template <typename Visit, typename Body>
 void InGroups(Visit&& visit, Body&& body)
 {
-  constexpr std::size_t size = 256; // what is found out about a group stays in the cache
   PointGroup group;
-  group.reserve(size);
+  group.reserve(MostInGroup);
   visit(
     [&](const MeshPoint& point)
     {
       group.push_back(point);
-      if (group.size() == size)
+      if (group.size() == MostInGroup)
       {
         body(group);
         group.clear();
