@@ -96,7 +96,8 @@ def main():
         volumes.append(("MRI head", head(), HEAD_ISOVALUE))
     volumes.extend(arguments.raw)
     print("| volume | threads | vtkContourFilter, ms | full resolution | with normals "
-          "| again | again, with normals | first tolerance | next | half a voxel at once | OneTolerance | Contour + Decimate |")
+          "| again | again, with normals | first tolerance | next | half a voxel at once | OneTolerance "
+          "| Contour + Decimate |")
     print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|")
     for name, image, isovalue in volumes:
         reference = configured(vtkContourFilter(), image, isovalue)
@@ -108,7 +109,8 @@ def main():
             runs = [waits(image, isovalue, threads) for _ in range(arguments.runs)]
             times = [statistics.median(column) for column in zip(*runs)] + [decimated]
             times[2:2] = [
-                again(image, isovalue, threads, arguments.runs, shaded) for shaded in (False, True)
+                again(image, isovalue, threads, arguments.runs, with_normals)
+                for with_normals in (False, True)
             ]
             units = [unit, unit_shaded] * 2 + [unit] * (len(times) - 4)
             ratios = [f"{time / of:.2f}" for time, of in zip(times, units)]

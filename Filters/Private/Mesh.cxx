@@ -135,8 +135,12 @@ void AddMorePointData(const Extraction& extraction, const MeshOptions& options, 
   if (!writers.empty())
   {
     extraction.ForEachPointGroup(
-      [&](const isodiamond::PointGroup& points) {
-        std::for_each(writers.begin(), writers.end(), [&](const auto& write) { write(points); });
+      [&](const isodiamond::PointGroup& points)
+      {
+        for (const PointWriter& write : writers)
+        {
+          write(points);
+        }
       });
   }
 }

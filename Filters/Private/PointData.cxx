@@ -30,7 +30,12 @@ template <typename Write>
 PointWriter OneByOne(Write write)
 {
   return [write](const isodiamond::PointGroup& points)
-  { std::for_each(points.begin(), points.end(), write); };
+  {
+    for (const isodiamond::MeshPoint& point : points)
+    {
+      write(point);
+    }
+  };
 }
 
 /** @param normals,gradients may be null */

@@ -171,8 +171,11 @@ Built::Built(isodiamond::Encoded encoded, const isodiamond::ParallelFor& paralle
     this->Encoding, std::move(encoded.Diamonds), std::move(encoded.Edges));
   const bool isVolume = handedOver.Region().IsVolume();
   EXPECT_EQ(handedOver.Diamonds().Size(), this->Hierarchy->Diamonds().Size());
+  handedOver.Diamonds().ForEach([&](const isodiamond::Place& place, std::uint32_t rank)
+    { EXPECT_EQ(this->Hierarchy->Diamonds().Rank(place), rank); });
   for (std::int64_t rank = 0; rank < handedOver.Diamonds().Size(); ++rank)
   {
+    EXPECT_EQ(handedOver.FirstIsovertexOf(rank), this->Hierarchy->FirstIsovertexOf(rank));
     EXPECT_EQ(handedOver.Edges(rank), this->Hierarchy->Edges(rank));
     EXPECT_EQ(handedOver.KindOf(rank), this->Hierarchy->KindOf(rank));
     EXPECT_TRUE(!isVolume || handedOver.UpperEdges(rank) == this->Hierarchy->UpperEdges(rank));

@@ -28,27 +28,43 @@ void ExpectNear(const Vector& a, const Vector& b, double tolerance = 1e-12)
 
 TEST(Gradients, AreCentralDifferencesAndOneSidedAtTheBorder)
 {
-  const auto squares = [](const Point& p) { return p[0] * p[0] + 3 * p[1] * p[1] - p[2] * p[2]; };
-  std::vector<int> field;
-  for (int i = 0; i < Size[0] * Size[1] * Size[2]; ++i)
+  for (const std::array<int, 3>& size :
+    std::vector<std::array<int, 3>>{ Size, { 2, 2, 2 }, { 2, 5, 3 }, { 3, 2, 7 }, { 6, 3, 2 } })
   {
-    field.push_back(squares({ i % Size[0], i / Size[0] % Size[1], i / (Size[0] * Size[1]) }));
-  }
-  const GridGeometry world((AffineMap()));
-  const AnySamples samples = SampleView<int>(field.data(), Size);
-  const Gradients gradients(samples, world);
-  const std::array<double, 3> factors = { 1.0, 3.0, -1.0 };
-  for (int i = 0; i < Size[0] * Size[1] * Size[2]; ++i)
-  {
-    const Point p = { i % Size[0], i / Size[0] % Size[1], i / (Size[0] * Size[1]) };
-    Vector expected{};
-    for (int axis = 0; axis < 3; ++axis)
+    const auto pointAt = [&](int i) {
+      return Point{ i % size[0], i / size[0] % size[1], i / (size[0] * size[1]) };
+    };
+    std::vector<int> field;
+    for (int i = 0; i < size[0] * size[1] * size[2]; ++i)
     {
-      const bool isFirst = p[axis] == 0;
-      const bool isLast = p[axis] == Size[axis] - 1;
-      expected[axis] = factors[axis] * (2 * p[axis] + (isFirst ? 1 : 0) - (isLast ? 1 : 0));
+      const Point p = pointAt(i);
+      field.push_back(p[0] * p[0] + 3 * p[1] * p[1] - p[2] * p[2]);
     }
-    ExpectNear(gradients({ 1.0 * p[0], 1.0 * p[1], 1.0 * p[2] }), expected);
+    const GridGeometry world((AffineMap()));
+    const AnySamples samples = SampleView<int>(field.data(), size);
+    const Gradients gradients(samples, world);
+    const std::array<double, 3> factors = { 1.0, 3.0, -1.0 };
+    std::vector<Vector> positions;
+    std::vector<Vector> expected;
+    for (int i = 0; i < size[0] * size[1] * size[2]; ++i)
+    {
+      const Point p = pointAt(i);
+      positions.push_back({ 1.0 * p[0], 1.0 * p[1], 1.0 * p[2] });
+      Vector& gradient = expected.emplace_back();
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const bool isFirst = p[axis] == 0;
+        const bool isLast = p[axis] == size[axis] - 1;
+        gradient[axis] = factors[axis] * (2 * p[axis] + (isFirst ? 1 : 0) - (isLast ? 1 : 0));
+      }
+      ExpectNear(gradients(positions.back()), gradient);
+    }
+    std::vector<Vector> found(positions.size());
+    gradients.Find(positions, found.data());
+    for (std::size_t i = 0; i < positions.size(); ++i)
+    {
+      ExpectNear(found[i], expected[i]);
+    }
   }
 }
 
@@ -203,7 +219,7 @@ TEST(Gradients, OfManyPositionsAreThoseOfEach)
          { 0.0, 19.0 }, { -2.0, 3.0 }, { 8.0, 12.0 }, { 17.0, 21.0 }, { 5.25, 5.5 } })
   {
     std::uniform_real_distribution<double> anywhere(from, to);
-    for (const std::size_t count : { 0, 1, 2, 30, 2000 })
+    for (const std::size_t count : { 0, 2, 30, 2000 })
     {
       std::vector<Vector> positions;
       while (positions.size() < count)

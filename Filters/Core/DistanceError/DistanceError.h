@@ -72,7 +72,8 @@ struct BeforeWayBack
    * its own. Null if all are here. */
   const PeerPortion* Portion = nullptr;
   /** How many of the diamonds that need triangles from farther away are measured at once: the more,
-   *  the more of these triangles are kept. */
+   *  the more of these triangles are kept; the fewer, the more often some are brought, for portions
+   *  by all peers together. */
   int MostAtOnce = 64;
 };
 

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,8 +18,8 @@ namespace isodiamond
 
 /**
  * The gradients in index space at all samples of a box: central differences, one-sided on the
- * grid's boundary, and not finite beside samples that are not. They are found once, row by row, for
- * all positions between these samples.
+ * grid's boundary; those along an axis are not finite next to a sample on it that is not. They are
+ * found once, row by row, for all positions between these samples.
  */
 template <typename T>
 class Differences
@@ -29,7 +31,8 @@ public:
   {
   }
 
-  /** Finds those of a box. @param first,last its corners, both included */
+  /** Finds those of a box in the grid, which has two samples or more on each axis.
+   *  @param first,last its corners, both included */
   void Fill(const Point& first, const Point& last)
   {
     this->First = first;
@@ -53,6 +56,7 @@ public:
   Vector At(const CellPosition& position) const
   {
     const Point cell = position.Cell + -1 * this->First;
+    assert(cell[0] >= 0 && cell[0] + 1 < this->Width && cell[1] >= 0 && cell[1] + 1 < this->Rows);
     const std::int64_t row = 3 * this->Width;
     const double* const values =
       this->Values.data() + (std::int64_t{ cell[2] } * this->Rows + cell[1]) * row + cell[0];

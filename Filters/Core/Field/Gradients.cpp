@@ -132,7 +132,7 @@ Gradients::Gradients(const AnySamples& samples, const GridGeometry& geometry)
 }
 
 template <typename ValueOf>
-Vector Gradients::BesideGaps(const Vector& index, const ValueOf& valueOf) const
+Vector Gradients::FromCorners(const Vector& index, const ValueOf& valueOf) const
 {
   return std::visit(
     [&](const auto& view)
@@ -161,7 +161,7 @@ void Gradients::Find(const std::vector<Vector>& positions, Vector* gradients) co
   if (!this->OfSteps)
   {
     std::transform(positions.begin(), positions.end(), gradients,
-      [&](const Vector& index) { return this->BesideGaps(index, value); });
+      [&](const Vector& index) { return this->FromCorners(index, value); });
     return;
   }
   std::visit(
@@ -172,7 +172,7 @@ void Gradients::Find(const std::vector<Vector>& positions, Vector* gradients) co
         {
           gradients[i] = std::isfinite(gradient[0] + gradient[1] + gradient[2])
             ? ToWorld(*this->OfSteps, gradient)
-            : this->BesideGaps(positions[i], value);
+            : this->FromCorners(positions[i], value);
         });
     },
     this->Samples);
@@ -188,7 +188,7 @@ Vector Gradients::operator()(const Vector& index) const
 /** The gradient of a field that is 0 where samples are finite, else -1 or 1. */
 Vector Gradients::OfGaps(const Vector& index) const
 {
-  return this->BesideGaps(index,
+  return this->FromCorners(index,
     [](auto sample)
     {
       const auto value = static_cast<double>(sample);

@@ -15,8 +15,8 @@ namespace isodiamond
 
 /**
  * World-space gradients of the full-resolution field: central differences at the samples, one-sided
- * on the grid's boundary and beside samples that are not finite, interpolated trilinearly. Where
- * the field is not finite, neither are they.
+ * on the grid's boundary and beside samples that are not finite, interpolated trilinearly. Not
+ * finite where a sample is not and, on some axis, neither is one next to it.
  */
 class Gradients
 {
@@ -27,8 +27,8 @@ public:
   /** The gradient at a position in index space; for one beyond the grid, at the nearest in it. */
   Vector operator()(const Vector& index) const;
 
-  /** The same for many positions; faster where these are near each other. @param gradients one for
-   *  each is written */
+  /** The same for many positions, all finite; faster where these are near each other.
+   *  @param gradients one for each is written */
   void Find(const std::vector<Vector>& positions, Vector* gradients) const;
 
   /** The unit normal toward lower values, as of triangles. Where the field is not finite: toward
@@ -37,9 +37,9 @@ public:
   Vector NormalAt(const Vector& index, const Vector& gradient) const;
 
 private:
-  /** Minds samples that are not finite, and how the grid's cells differ. */
+  /** From each corner of the cell: minds samples that are not finite, and how cells differ. */
   template <typename ValueOf>
-  Vector BesideGaps(const Vector& index, const ValueOf& valueOf) const;
+  Vector FromCorners(const Vector& index, const ValueOf& valueOf) const;
   Vector OfGaps(const Vector& index) const;
 
   const AnySamples& Samples;

@@ -116,7 +116,7 @@ public:
     const int parity = Parity(place.Position);
     const ParityTable& shape = tables::Parities[parity];
     const std::int64_t index = this->IndexOf(centre);
-    const auto signOf = [&](int vertex) // beyond the last one, offsets are 0
+    const auto signOf = [&](int vertex) // beyond the last one, that of the centre
     {
       return this->SignOf(
         centre + half * shape.Offsets[vertex], index + half * this->Strides[parity][vertex]);

@@ -87,6 +87,9 @@ IsodiamondHierarchy::IsodiamondHierarchy(
   const EncodingView& encoding, DiamondSet diamonds, DiamondEdges edges)
   : IsodiamondHierarchy(encoding, std::move(diamonds))
 {
+  assert(this->Set.Size() == encoding.Arrays.Records.Size);
+  assert(this->Set.Size() == static_cast<std::int64_t>(edges.LowerAndKinds.size()));
+  assert(edges.Upper.empty() != this->Region().IsVolume());
   this->Complete(std::move(edges));
 }
 

@@ -189,7 +189,7 @@ struct EncodingView
   std::int64_t StorageSize() const;
 };
 
-/** A checked encoding, ready for queries. The encoding's arrays must outlive it. */
+/** An encoding, ready for queries: checked, unless it was just made. Its arrays must outlive it. */
 class IsodiamondHierarchy
 {
 public:
@@ -197,8 +197,8 @@ public:
    *  @throws std::invalid_argument naming what is wrong with the encoding. */
   IsodiamondHierarchy(const EncodingView& encoding, const ParallelFor& parallelFor);
 
-  /** The same, for an encoding that was just made, with these diamonds and edges: there is little
-   * to check. */
+  /** For an encoding that was just made of these diamonds, with these edges: takes all as it is.
+   *  Never for an encoding that comes from elsewhere. */
   IsodiamondHierarchy(const EncodingView& encoding, DiamondSet diamonds, DiamondEdges edges);
 
   const EncodingHeader& Header() const { return this->View.Header; }

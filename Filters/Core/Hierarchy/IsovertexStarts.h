@@ -25,7 +25,8 @@ public:
     this->InEight.reserve(diamonds);
   }
 
-  /** Adds the next diamond. @param isovertices that it has; all together fewer than 2^32 */
+  /** Adds the next diamond. Starts are right while there are fewer than 2^32 isovertices; Total()
+   *  always is. @param isovertices that it has */
   void Append(int isovertices)
   {
     if (this->InEight.size() % Eight == 0)

@@ -133,7 +133,7 @@ void ForEachPoint(const ExtractionPasses& passes, Body&& body)
 
 /** Points that are near each other: some of one brick's. */
 using PointGroup = std::vector<MeshPoint>;
-/** No group has more: what is found out about one stays in the cache. */
+/** No group has more: what is around one, such as gradients, fits into the processor's cache. */
 inline constexpr std::size_t MostInGroup = 256;
 
 /** Calls body(group) for the points that visit(each) calls each(point) with, in order. */
