@@ -134,14 +134,7 @@ void AddMorePointData(const Extraction& extraction, const MeshOptions& options, 
     options.MorePointData(extraction.PointCount(), mesh.PointData);
   if (!writers.empty())
   {
-    extraction.ForEachPointGroup(
-      [&](const isodiamond::PointGroup& points)
-      {
-        for (const PointWriter& write : writers)
-        {
-          write(points);
-        }
-      });
+    extraction.ForEachPointGroup(Together(writers));
   }
 }
 

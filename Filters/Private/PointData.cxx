@@ -25,19 +25,6 @@ namespace
 
 constexpr const char* NormalsName = "Normals";
 
-/** @param write (point) */
-template <typename Write>
-PointWriter OneByOne(Write write)
-{
-  return [write](const isodiamond::PointGroup& points)
-  {
-    for (const isodiamond::MeshPoint& point : points)
-    {
-      write(point);
-    }
-  };
-}
-
 /** @param normals,gradients may be null */
 PointWriter WriteGradients(const Volume& volume, vtkFloatArray* normals, vtkFloatArray* gradients)
 {
@@ -254,9 +241,9 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Volume& vol
     arrays[i] = made->GetArray(i);
   }
   CheckNames(wanted, volume.ArrayName, arrays);
-  for (const PointWriter& write : writers)
+  if (!writers.empty())
   {
-    isodiamond::ForEachStoredPointGroup(hierarchy, parallelFor, write);
+    isodiamond::ForEachStoredPointGroup(hierarchy, parallelFor, Together(writers));
   }
   return arrays;
 }

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkPointData;
@@ -22,6 +23,31 @@ namespace vtkIsodiamond
 
 /** Writes its data for some points; several threads may write for several groups at once. */
 using PointWriter = std::function<void(const isodiamond::PointGroup& points)>;
+
+/** A writer of each point for itself. @param write (point) */
+template <typename Write>
+PointWriter OneByOne(Write write)
+{
+  return [write](const isodiamond::PointGroup& points)
+  {
+    for (const isodiamond::MeshPoint& point : points)
+    {
+      write(point);
+    }
+  };
+}
+
+/** A writer that writes what several do, in one pass over the points. */
+inline PointWriter Together(std::vector<PointWriter> writers)
+{
+  return [writers = std::move(writers)](const isodiamond::PointGroup& points)
+  {
+    for (const PointWriter& write : writers)
+    {
+      write(points);
+    }
+  };
+}
 
 /** Makes arrays for a number of points, and returns the writers that fill them. */
 using PointDataMaker = std::function<std::vector<PointWriter>(vtkIdType count, vtkPointData*)>;

@@ -44,14 +44,9 @@ PointDataMaker WithWalls(PointDataMaker others, const isodiamond::Grid& grid)
       others ? others(count, pointData) : std::vector<PointWriter>{};
     const auto walls = NewArray<vtkUnsignedCharArray>(WallsArray, count);
     pointData->AddArray(walls);
-    writers.emplace_back(
-      [grid, values = walls->GetPointer(0)](const isodiamond::PointGroup& points)
-      {
-        for (const isodiamond::MeshPoint& point : points)
-        {
-          values[point.Id] = isodiamond::Walls::At(point.Index, grid);
-        }
-      });
+    writers.push_back(
+      OneByOne([grid, values = walls->GetPointer(0)](const isodiamond::MeshPoint& point)
+        { values[point.Id] = isodiamond::Walls::At(point.Index, grid); }));
     return writers;
   };
 }

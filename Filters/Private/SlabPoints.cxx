@@ -81,11 +81,9 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeStoredPointData(const Slabs& slab
     const PointsOfSlab own(hierarchy, slab);
     const auto count = static_cast<vtkIdType>(own.Stored.size());
     vtkNew<vtkPointData> data;
-    for (const PointWriter& write : FromVolume(slab.Given, wanted)(count, data))
-    {
-      isodiamond::ForEachIndex(
-        task.For(), own.Groups.size(), 4, [&](std::int64_t i) { write(own.Groups[i]); });
-    }
+    const PointWriter write = Together(FromVolume(slab.Given, wanted)(count, data));
+    isodiamond::ForEachIndex(
+      task.For(), own.Groups.size(), 4, [&](std::int64_t i) { write(own.Groups[i]); });
     for (int i = 0; i < data->GetNumberOfArrays(); ++i)
     {
       if (static_cast<int>(arrays.size()) == i)
