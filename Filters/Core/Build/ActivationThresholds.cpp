@@ -62,7 +62,8 @@ struct Rise
 /**
  * Codes that rise to the least solution.
  *
- * A sweep down gives each diamond the code due to its parents alone, one up raises the ancestors.
+ * A sweep down gives each diamond the code due to its parents alone, one up raises the ancestors of
+ * those that got ahead of one of their parents.
  * Then only the few diamonds are left whose parents were raised by a sibling's descendants; from
  * these the paper's own walk goes on, with a falling tolerance. If few diamonds have a code due to
  * their parents, the sweep down is not needed before the walk.
@@ -77,6 +78,7 @@ public:
     , Own(std::move(own))
     , Parallel(parallelFor)
     , Codes(members.Size())
+    , Ahead((members.Size() + 63) / 64)
   {
   }
 
@@ -86,6 +88,7 @@ public:
     : RisingCodes(grid, members, std::move(own), parallelFor)
   {
     std::copy(least.begin(), least.end(), this->Codes.begin());
+    std::fill(this->Ahead.begin(), this->Ahead.end(), ~std::uint64_t{ 0 });
   }
 
   std::vector<ErrorCode::Type> Thresholds()
@@ -126,15 +129,25 @@ private:
     }
   }
 
+  bool IsAhead(std::uint32_t rank) const
+  {
+    return ((this->Ahead[rank / 64].load(std::memory_order_relaxed) >> (rank % 64)) & 1U) != 0;
+  }
+
+  void SetAhead(std::uint32_t rank)
+  {
+    this->Ahead[rank / 64].fetch_or(std::uint64_t{ 1 } << (rank % 64), std::memory_order_relaxed);
+  }
+
   /** The code that a diamond has from its own error, once a parent is subdivided. */
-  ErrorCode::Type CodeBelowParents(const Visit& visit) const
+  ErrorCode::Type CodeBelow(const ParentRanks& parents, std::uint32_t rank) const
   {
     ErrorCode::Type highest = 0;
-    for (const std::uint32_t parent : visit.Parents())
+    for (const std::uint32_t parent : parents)
     {
       highest = std::max(highest, this->Code(parent));
     }
-    return std::min(highest, this->Own[visit.Rank]);
+    return std::min(highest, this->Own[rank]);
   }
 
   /** Calls body(visit) for the members of one scale and class. */
@@ -179,7 +192,14 @@ private:
           {
             if (this->Own[visit.Rank] != 0)
             {
-              this->Raise(visit.Rank, this->CodeBelowParents(visit));
+              const ParentRanks parents = visit.Parents();
+              const ErrorCode::Type code = this->CodeBelow(parents, visit.Rank);
+              this->Raise(visit.Rank, code);
+              if (std::any_of(parents.begin(), parents.end(),
+                    [&](std::uint32_t parent) { return this->Code(parent) < code; }))
+              {
+                this->SetAhead(visit.Rank);
+              }
             }
           });
       }
@@ -197,11 +217,15 @@ private:
           [&](const Visit& visit)
           {
             const ErrorCode::Type code = this->Code(visit.Rank);
-            if (code != 0)
+            if (code != 0 && this->IsAhead(visit.Rank))
             {
               for (const std::uint32_t parent : visit.Parents())
               {
-                this->Raise(parent, code);
+                if (this->Code(parent) < code)
+                {
+                  this->Raise(parent, code);
+                  this->SetAhead(parent);
+                }
               }
             }
           });
@@ -221,9 +245,13 @@ private:
           [&](const Visit& visit)
           {
             const ErrorCode::Type code = this->Code(visit.Rank);
-            if (code < this->Own[visit.Rank] && code < this->CodeBelowParents(visit))
+            if (code < this->Own[visit.Rank])
             {
-              found[visit.BrickIndex].push_back({ this->CodeBelowParents(visit), visit.Diamond });
+              const ErrorCode::Type due = this->CodeBelow(visit.Parents(), visit.Rank);
+              if (code < due)
+              {
+                found[visit.BrickIndex].push_back({ due, visit.Diamond });
+              }
             }
           });
       }
@@ -287,6 +315,8 @@ private:
   std::vector<ErrorCode::Type> Own; ///< holds the result in the end, to save memory
   const ParallelFor& Parallel;
   std::vector<std::atomic<ErrorCode::Type>> Codes;
+  std::vector<std::atomic<std::uint64_t>> Ahead; ///< whose code may exceed one of a parent: a bit
+                                                 ///< each, by rank
   std::priority_queue<Rise> Queue;
 };
 

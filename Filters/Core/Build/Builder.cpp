@@ -57,7 +57,7 @@ Encoding BuildIsodiamonds(Model model, const AnySamples& samples, const Isoregio
   std::optional<FieldErrors> errors; // take a pass over the samples, and are not always needed
   if (NeedsFieldErrors(region, options))
   {
-    errors.emplace(grid, samples, parallelFor);
+    errors.emplace(grid, samples, parallelFor, WantedRange(region));
   }
   const auto summary = [&](const Place& place) { return SummaryOf(*errors, code.Scale(), place); };
   return Build(model, { grid, samples, code.Scale(), summary }, region, options, parallelFor);

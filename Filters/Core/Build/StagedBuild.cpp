@@ -124,7 +124,8 @@ Encoding StagedBuild::Finish(Model model, const AnySamples& samples, const Paral
   kept.Resume(samples, parallelFor, options);
   if (!kept.CameInSlabs && NeedsFieldErrors(kept.Relevant.Header.Region, options))
   {
-    kept.Errors.emplace(kept.TheGrid, kept.Samples, kept.For);
+    kept.Errors.emplace(
+      kept.TheGrid, kept.Samples, kept.For, WantedRange(kept.Relevant.Header.Region));
   }
   DiamondCodes codes = options.Metric == ErrorMetric::Field
     ? kept.Done->MeasureField()

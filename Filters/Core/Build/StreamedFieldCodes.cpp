@@ -60,7 +60,7 @@ StreamedFieldCodes::StreamedFieldCodes(const Grid& grid, const DiamondSet& membe
 void StreamedFieldCodes::Add(
   const SampleSlab& slab, const SliceRange& own, const SliceRange& centres)
 {
-  const FieldErrors errors(this->TheGrid, slab, own, this->For);
+  const FieldErrors errors(this->TheGrid, slab, own, this->For, WantedRange(this->Metric.Region));
   ForEachMember(this->Members, this->For,
     [&](const Place& place, std::uint32_t rank)
     {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 namespace isodiamond
@@ -31,14 +32,16 @@ public:
 
   /** @param samples of some slices, from firstSlice on
    *  @param fits to those: what lies in other slices is not looked at
+   *  @param wanted of the range
    *  @param valueAt called with the diamond's vertices that are sampled */
   template <typename ValueAt>
   DomainSearch(const Grid& grid, const SampleView<T>& samples, int firstSlice,
-    const BlockFits& fits, const Place& place, const ValueAt& valueAt)
+    const BlockFits& fits, const WantedRange& wanted, const Place& place, const ValueAt& valueAt)
     : TheGrid(grid)
     , Samples(samples)
     , FirstSlice(firstSlice)
     , Fits(fits)
+    , Wanted(wanted)
     , TopLevel(place.Scale - LeastScale)
     , SticksOut(grid.SticksOut(place.Position, place.Scale))
   {
@@ -133,13 +136,13 @@ private:
   void Search(const Part& part, int level)
   {
     const BlockFit& cube = *part.Cube;
-    if (cube.IsFinite() && !this->Sums.CanGrow(cube.Range, part.Bound))
+    if (cube.IsFinite() && !this->Sums.CanGrow(cube.Range, part.Bound, this->Wanted))
     {
       return;
     }
     if (level == 0)
     {
-      this->Visit(part.Path);
+      this->Visit(part);
       return;
     }
     std::array<Part, 8> eighths; // greatest bound first
@@ -158,9 +161,26 @@ private:
       eighths.begin(), end, [&](const Part& eighth) { this->Search(eighth, level - 1); });
   }
 
-  /** Visits the samples of a tetrahedron in one of the smallest cubes: index a steps along the
-   *  path's first edge, b along the second and c along the third, a >= b >= c. */
-  void Visit(const KuhnTetrahedron<Corner>& path)
+  /** A row of samples in a tetrahedron, along the third edge of its path. */
+  struct Row
+  {
+    const T* First = nullptr;
+    std::int64_t Stride = 0;
+    int Count = 0;
+    Point Position{}; ///< of the first
+    Point Step{};
+    double Start = 0.0; ///< the interpolant there
+    double Slope = 0.0;
+
+    double Sample(int i) const { return static_cast<double>(this->First[i * this->Stride]); }
+    double Interpolated(int i) const { return this->Start + i * this->Slope; }
+  };
+
+  /** Calls body(row) for all rows of a tetrahedron in one of the smallest cubes: the sample that is
+   *  a steps along the path's first edge, b along the second and c along the third has a >= b >= c.
+   */
+  template <typename Body>
+  void ForEachRow(const KuhnTetrahedron<Corner>& path, const Body& body) const
   {
     std::array<Point, 3> steps{};
     std::array<std::int64_t, 3> strides{};
@@ -172,34 +192,81 @@ private:
       strides[i] = this->Samples.Index(steps[i]);
       slopes[i] = (path[i + 1].Value - path[i].Value) / FinestEdge;
     }
-    const bool isCut =
-      !this->TheGrid.IsSampled(path[0].Position) || !this->TheGrid.IsSampled(path[3].Position);
     const T* first = this->Samples.Pointer() +
       this->Samples.Index(path[0].Position + Point{ 0, 0, -this->FirstSlice });
-    SummaryBuilder sums = this->Sums;
     for (int a = 0; a <= FinestEdge; ++a)
     {
       for (int b = 0; b <= a; ++b)
       {
-        const T* row = first + a * strides[0] + b * strides[1];
-        const double start = path[0].Value + a * slopes[0] + b * slopes[1];
-        const Point point = path[0].Position + a * steps[0] + b * steps[1];
-        for (int c = 0; c <= b; ++c)
-        {
-          if (!isCut || this->TheGrid.IsSampled(point + c * steps[2]))
-          {
-            sums.Add(row[c * strides[2]], start + c * slopes[2]);
-          }
-        }
+        body(Row{ first + a * strides[0] + b * strides[1], strides[2], b + 1,
+          path[0].Position + a * steps[0] + b * steps[1], steps[2],
+          path[0].Value + a * slopes[0] + b * slopes[1], slopes[2] });
       }
     }
-    this->Sums = sums;
+  }
+
+  /** Visits the samples of a tetrahedron in one of the smallest cubes. */
+  void Visit(const Part& part)
+  {
+    const bool isWhole = this->TheGrid.IsSampled(part.Path[0].Position) &&
+      this->TheGrid.IsSampled(part.Path[3].Position);
+    if (!isWhole || !part.Cube->IsFinite())
+    {
+      this->VisitAny(part.Path, isWhole);
+    }
+    else if (this->Sums.HasEnoughRange(this->Wanted))
+    {
+      this->VisitFinite(part.Path, std::false_type());
+    }
+    else
+    {
+      this->VisitFinite(part.Path, std::true_type());
+    }
+  }
+
+  void VisitAny(const KuhnTetrahedron<Corner>& path, bool isWhole)
+  {
+    this->ForEachRow(path,
+      [&](const Row& row)
+      {
+        for (int i = 0; i < row.Count; ++i)
+        {
+          if (isWhole || this->TheGrid.IsSampled(row.Position + i * row.Step))
+          {
+            this->Sums.Add(row.First[i * row.Stride], row.Interpolated(i));
+          }
+        }
+      });
+  }
+
+  template <typename WithRange>
+  void VisitFinite(const KuhnTetrahedron<Corner>& path, WithRange withRange)
+  {
+    // By turns: no maximum waits for the one before.
+    FiniteExtremes even;
+    FiniteExtremes odd;
+    this->ForEachRow(path,
+      [&](const Row& row)
+      {
+        even.Add(row.Sample(0), row.Start, withRange);
+        for (int i = 1; i < row.Count; i += 2)
+        {
+          odd.Add(row.Sample(i), row.Interpolated(i), withRange);
+          if (i + 1 < row.Count)
+          {
+            even.Add(row.Sample(i + 1), row.Interpolated(i + 1), withRange);
+          }
+        }
+      });
+    even.Add(odd);
+    this->Sums.Add(even.Summary());
   }
 
   const Grid& TheGrid;
   const SampleView<T>& Samples;
   int FirstSlice;
   const BlockFits& Fits;
+  const WantedRange& Wanted;
   int TopLevel;
   bool SticksOut; ///< then the error is infinite, and only the range is left to find
   SummaryBuilder Sums;

@@ -2,12 +2,13 @@
 #ifndef isodiamond_DomainSummary_h
 #define isodiamond_DomainSummary_h
 
-#include "Field/Samples.h"
+#include "Field/Isoregion.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace isodiamond
 {
@@ -24,6 +25,28 @@ struct DomainSummary
   ValueRange Range;
 };
 
+/** What has to be known of the range of a domain's samples. */
+class WantedRange
+{
+public:
+  /** All of it. */
+  WantedRange() = default;
+  /** Whether one of a region's surfaces crosses it; if none does, all of it. */
+  explicit WantedRange(const Isoregion& region)
+    : Region(region)
+  {
+  }
+
+  /** Whether the range of some of the samples tells what has to be known. */
+  bool IsEnough(const ValueRange& some) const
+  {
+    return this->Region && this->Region->Crosses(some);
+  }
+
+private:
+  std::optional<Isoregion> Region;
+};
+
 /** Adds up a summary, sample by sample. */
 class SummaryBuilder
 {
@@ -34,6 +57,15 @@ public:
   SummaryBuilder& AddError(double error)
   {
     this->Error = std::max(this->Error, error);
+    return *this;
+  }
+
+  /** Adds what is known of other samples, all of which are finite. */
+  SummaryBuilder& Add(const DomainSummary& others)
+  {
+    this->AddError(others.Error);
+    this->Low = std::min(this->Low, others.Range.Minimum);
+    this->High = std::max(this->High, others.Range.Maximum);
     return *this;
   }
 
@@ -63,10 +95,16 @@ public:
     this->HasNaN |= sample != sample;
   }
 
-  /** Whether samples of a range, with errors up to a bound, can change the summary. */
-  bool CanGrow(const ValueRange& range, double bound) const
+  /** Whether samples of a range, with errors up to a bound, can change what has to be known. */
+  bool CanGrow(const ValueRange& range, double bound, const WantedRange& wanted) const
   {
-    return bound > this->Error || range.Minimum < this->Low || range.Maximum > this->High;
+    return bound > this->Error ||
+      ((range.Minimum < this->Low || range.Maximum > this->High) && !this->HasEnoughRange(wanted));
+  }
+
+  bool HasEnoughRange(const WantedRange& wanted) const
+  {
+    return wanted.IsEnough({ this->Low, this->High });
   }
 
   /** NaN counts as below every surface: it becomes the minimum, and the maximum if it is alone. */
@@ -87,6 +125,46 @@ private:
   double Low = Infinity;
   double High = -Infinity;
   bool HasNaN = false;
+};
+
+/** Adds up a summary of samples that are finite. */
+class FiniteExtremes
+{
+public:
+  /** @param withRange std::true_type or std::false_type: whether the sample counts for the range */
+  template <typename WithRange>
+  void Add(double sample, double interpolated, WithRange /*withRange*/)
+  {
+    const double error = std::fabs(sample - interpolated);
+    this->Error = error > this->Error ? error : this->Error;
+    this->Sum += error;
+    if constexpr (WithRange::value)
+    {
+      this->Low = sample < this->Low ? sample : this->Low;
+      this->High = sample > this->High ? sample : this->High;
+    }
+  }
+
+  void Add(const FiniteExtremes& others)
+  {
+    this->Error = std::max(this->Error, others.Error);
+    this->Sum += others.Sum;
+    this->Low = std::min(this->Low, others.Low);
+    this->High = std::max(this->High, others.High);
+  }
+
+  /** Whether what was added is finite, and so is the sum of the errors: if not, what is known is
+   *  wrong. */
+  bool AreFinite() const { return this->Sum < SummaryBuilder::Infinity; }
+
+  ValueRange Range() const { return { this->Low, this->High }; }
+  DomainSummary Summary() const { return { this->Error, this->Range() }; }
+
+private:
+  double Error = 0.0;
+  double Sum = 0.0; ///< of the errors: NaN or infinite from the first sample on that is not finite
+  double Low = SummaryBuilder::Infinity;
+  double High = -SummaryBuilder::Infinity;
 };
 
 }

@@ -6,7 +6,7 @@
 #include "FieldError/BlockFits.h"
 #include "FieldError/DomainSearch.h"
 #include "FieldError/DomainSummary.h"
-#include "Lattice/DiamondTables.h"
+#include "FieldError/SmallDomains.h"
 
 #include <variant>
 
@@ -24,12 +24,6 @@ inline bool OwnErrorCounts(
     (region.Holds(range) && grid.SticksOut(place.Position, place.Scale));
 }
 
-/** Whether a diamond has so few samples that all are visited: up to MidpointOrder::MaximumScale. */
-bool IsSmallDomain(const Place& place);
-
-/** The summary of such a diamond. @param slab that has its domain, as far as it is sampled */
-DomainSummary SummarizeSmallDomain(const Grid& grid, const SampleSlab& slab, const Place& place);
-
 /**
  * The summaries of a field's diamonds of all scales.
  *
@@ -43,12 +37,14 @@ public:
    *  domains lie around their centre, and cubes end there. */
   static constexpr int Overlap = BlockFits::FinestEdge;
 
-  /** The grid and the samples must outlive it. */
-  FieldErrors(const Grid& grid, const AnySamples& samples, const ParallelFor& parallelFor);
+  /** The grid and the samples must outlive it.
+   *  @param wanted of ranges: summaries have no more of them */
+  FieldErrors(const Grid& grid, const AnySamples& samples, const ParallelFor& parallelFor,
+    const WantedRange& wanted = {});
 
   /** @param own the slab's slices without those that overlap */
   FieldErrors(const Grid& grid, const SampleSlab& slab, const SliceRange& own,
-    const ParallelFor& parallelFor);
+    const ParallelFor& parallelFor, const WantedRange& wanted = {});
 
   /** For the whole volume; for a slab, only small domains around a centre in its own slices. */
   DomainSummary Summarize(const Place& place) const;
@@ -60,7 +56,8 @@ public:
     sums = std::visit(
       [&](const auto& view)
       {
-        return DomainSearch(this->TheGrid, view, this->Slab.First, this->Fits, place, valueAt)
+        return DomainSearch(
+          this->TheGrid, view, this->Slab.First, this->Fits, this->Wanted, place, valueAt)
           .Run(sums);
       },
       this->Slab.Samples);
@@ -69,6 +66,8 @@ public:
 private:
   const Grid& TheGrid;
   SampleSlab Slab;
+  WantedRange Wanted;
+  SmallDomains Small;
   BlockFits Fits;
 };
 

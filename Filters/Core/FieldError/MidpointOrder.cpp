@@ -93,7 +93,12 @@ MidpointOrder::MidpointOrder(const TypeTable& type, int scale)
     [&](const KuhnTetrahedron<Corner>& path) { builder.Cut(path, 1 << scale); });
 }
 
-const MidpointOrder& MidpointOrder::Of(const Place& place)
+int MidpointOrder::NumberOf(const Place& place)
+{
+  return 64 * place.Scale + TypeWithSpine(TypeOf(place.Position));
+}
+
+const MidpointOrder& MidpointOrder::Of(int number)
 {
   static const std::vector<MidpointOrder> orders = []
   {
@@ -108,7 +113,7 @@ const MidpointOrder& MidpointOrder::Of(const Place& place)
     }
     return all;
   }();
-  return orders[64 * place.Scale + TypeWithSpine(TypeOf(place.Position))];
+  return orders[number];
 }
 
 }

@@ -29,10 +29,16 @@ public:
     std::array<std::uint16_t, 2> Ends{}; ///< indices of earlier entries; void for vertices
   };
 
-  /** The order of a diamond of at most the maximum scale. */
-  static const MidpointOrder& Of(const Place& place);
+  /** How many numbers there are. */
+  static constexpr int Count = 64 * (MaximumScale + 1);
 
-  /** The diamond's vertices, which come first. */
+  /** The number of the order of a diamond of at most the maximum scale: less than Count. */
+  static int NumberOf(const Place& place);
+
+  /** The order with a number; empty if no diamond has it. */
+  static const MidpointOrder& Of(int number);
+
+  /** The diamond's vertices, which come first. Then comes its central vertex. */
   int VertexCount() const { return this->Vertices; }
   const std::vector<Entry>& Entries() const { return this->List; }
 
