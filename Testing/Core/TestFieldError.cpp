@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <memory>
 #include <optional>
 
 using namespace isodiamond;
@@ -125,6 +127,29 @@ DomainSummary VisitEverySample(const Grid& grid, const AnySamples& samples, cons
   return summary;
 }
 
+/** Calls body(place) for the diamonds of a grid from a scale on. */
+template <typename Body>
+void ForEachPlace(const Grid& grid, int firstScale, const Body& body)
+{
+  for (int scale = firstScale; scale < grid.Depth(); ++scale)
+  {
+    const std::array<int, 3> count = grid.Positions(scale);
+    for (Point p{}; p[2] < count[2]; ++p[2])
+    {
+      for (p[1] = 0; p[1] < count[1]; ++p[1])
+      {
+        for (p[0] = 0; p[0] < count[0]; ++p[0])
+        {
+          if (Parity(p) != 0)
+          {
+            body(Place{ scale, p });
+          }
+        }
+      }
+    }
+  }
+}
+
 }
 
 TEST(FieldError, EqualsBruteForce)
@@ -220,30 +245,86 @@ TEST(FieldError, OfLargeDomainsEqualsAVisitToEverySample)
     const Grid grid(field.Dims);
     const AnySamples samples = field.View();
     const FieldErrors errors(grid, samples, test::ThreadedFor(2));
-    for (int scale = 2; scale < grid.Depth(); ++scale)
-    {
-      const std::array<int, 3> count = grid.Positions(scale);
-      for (Point p{}; p[2] < count[2]; ++p[2])
+    ForEachPlace(grid, 2,
+      [&](const Place& place)
       {
-        for (p[1] = 0; p[1] < count[1]; ++p[1])
+        const DomainSummary expected = VisitEverySample(grid, samples, place);
+        const DomainSummary found = errors.Summarize(place);
+        ASSERT_TRUE(found.Error == expected.Error ||
+          std::abs(found.Error - expected.Error) < 1e-9 * expected.Error + 1e-14);
+        ASSERT_TRUE(IsSame(found.Range.Maximum, expected.Range.Maximum));
+        ASSERT_TRUE(IsSame(found.Range.Minimum, expected.Range.Minimum));
+      });
+  }
+}
+
+// What a build of one region asks for: errors, and whether a surface crosses a domain.
+TEST(FieldError, OfARegionHasTheSameErrorsAndCrossings)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const test::Field& field :
+    { test::NoiseField({ 49, 33, 36 }, 3), test::WaveField({ 40, 50, 33 }),
+      test::SphereField({ 64, 49, 33 }), test::SparseField({ 65, 33, 33 }, 4),
+      test::BrokenField({ 33, 40, 33 }, 5), test::SpikeField({ 33, 33, 65 }, nan) })
+  {
+    SCOPED_TRACE(field.Name);
+    const Grid grid(field.Dims);
+    const AnySamples samples = field.View();
+    const FieldErrors all(grid, samples, SerialFor);
+    const double above = field.Isovalue + 0.25 * std::abs(field.Isovalue) + 0.125;
+    for (const Isoregion& region :
+      { Isoregion(field.Isovalue), Isoregion(field.Isovalue, above), Isoregion(1e20) })
+    {
+      const FieldErrors some(grid, samples, SerialFor, WantedRange(region));
+      int whole = 0;
+      int shorter = 0;
+      ForEachPlace(grid, 0,
+        [&](const Place& place)
         {
-          for (p[0] = 0; p[0] < count[0]; ++p[0])
-          {
-            if (Parity(p) == 0)
-            {
-              continue;
-            }
-            const DomainSummary expected = VisitEverySample(grid, samples, { scale, p });
-            const DomainSummary found = errors.Summarize({ scale, p });
-            ASSERT_TRUE(found.Error == expected.Error ||
-              std::abs(found.Error - expected.Error) < 1e-9 * expected.Error + 1e-14);
-            ASSERT_TRUE(IsSame(found.Range.Maximum, expected.Range.Maximum));
-            ASSERT_TRUE(IsSame(found.Range.Minimum, expected.Range.Minimum));
-          }
-        }
-      }
+          const DomainSummary expected = all.Summarize(place);
+          const DomainSummary found = some.Summarize(place);
+          ASSERT_EQ(found.Error, expected.Error);
+          ASSERT_EQ(OwnErrorCounts(region, grid, found.Range, place),
+            OwnErrorCounts(region, grid, expected.Range, place));
+          const bool isWhole = IsSame(found.Range.Minimum, expected.Range.Minimum) &&
+            IsSame(found.Range.Maximum, expected.Range.Maximum);
+          ASSERT_TRUE(isWhole || region.Crosses(found.Range));
+          (isWhole ? whole : shorter) += 1;
+        });
+      EXPECT_GT(whole, 0);
+      EXPECT_EQ(shorter > 0, region.Isovalue() < 1e20);
     }
   }
+}
+
+// Samples so far apart that 32 bits cannot tell how far: nearly all of this memory is never used.
+TEST(FieldError, OfSmallDomainsInHugeSlices)
+{
+  constexpr int width = 16400;
+  constexpr int height = 17;
+  const std::array<int, 3> dims = { width, width, height };
+  const std::unique_ptr<std::int8_t, void (*)(void*)> memory(
+    static_cast<std::int8_t*>(std::calloc(std::size_t{ width } * width, height)), std::free);
+  if (memory == nullptr)
+  {
+    GTEST_SKIP() << "needs 4.6 GB of address space";
+  }
+  const Grid grid(dims);
+  const AnySamples samples = SampleView<std::int8_t>(memory.get(), dims);
+  const SmallDomains domains(grid, { samples, 0 }, {});
+  const Place place{ 3, { 101, 203, 1 } };
+  const Point centre = Centre(place);
+  for (int i = 0; i < 17 * 17 * 17; ++i)
+  {
+    const Point point = centre + Point{ i % 17 - 8, i / 17 % 17 - 8, i / 289 - 8 };
+    memory.get()[SampleIndex(dims, point)] = static_cast<std::int8_t>(i * 37 % 101);
+  }
+  const DomainSummary expected = VisitEverySample(grid, samples, place);
+  const DomainSummary found = domains.Summarize(place);
+  EXPECT_EQ(found.Error, expected.Error);
+  EXPECT_EQ(found.Range.Maximum, 100.0);
+  EXPECT_EQ(found.Range.Minimum, 0.0);
+  EXPECT_GT(found.Error, 10.0);
 }
 
 TEST(FieldError, AcceptsEveryScalarType)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldError/SmallDomains.h"
 
+#include <cassert>
 #include <limits>
 #include <type_traits>
 
@@ -120,6 +121,7 @@ std::optional<DomainSummary> SmallDomains::SummarizeFinite(
   const std::int32_t* const offsets = members.Offsets.data();
   const MidpointOrder::Entry* const order = members.Order;
   const int count = static_cast<int>(members.Offsets.size());
+  assert((count - members.VertexCount) % 2 == 1);
   // By turns: no maximum waits for the one before.
   std::array<FiniteExtremes, 2> turns;
   const auto visit = [&](int i, FiniteExtremes& extremes, auto withRange)
@@ -128,17 +130,13 @@ std::optional<DomainSummary> SmallDomains::SummarizeFinite(
     interpolated[i] = 0.5 * (interpolated[order[i].Ends[0]] + interpolated[order[i].Ends[1]]);
     extremes.Add(value, interpolated[i], withRange);
   };
-  const auto visitFrom = [&](int first, auto withRange)
+  const auto visitRest = [&](auto withRange)
   {
-    int i = first;
-    for (; i + 1 < count; i += 2)
+    // An even number: a domain is symmetric about its centre.
+    for (int i = members.VertexCount + 1; i < count; i += 2)
     {
       visit(i, turns[0], withRange);
       visit(i + 1, turns[1], withRange);
-    }
-    if (i < count)
-    {
-      visit(i, turns[0], withRange);
     }
   };
   for (int i = 0; i < members.VertexCount; ++i)
@@ -149,11 +147,11 @@ std::optional<DomainSummary> SmallDomains::SummarizeFinite(
   visit(members.VertexCount, turns[0], std::true_type()); // the centre: it tells most
   if (this->Wanted.IsEnough(turns[0].Range()))
   {
-    visitFrom(members.VertexCount + 1, std::false_type());
+    visitRest(std::false_type());
   }
   else
   {
-    visitFrom(members.VertexCount + 1, std::true_type());
+    visitRest(std::true_type());
   }
   turns[0].Add(turns[1]);
   return turns[0].AreFinite() ? std::make_optional(turns[0].Summary()) : std::nullopt;
