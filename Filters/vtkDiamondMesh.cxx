@@ -65,6 +65,7 @@ void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
   vtkIsodiamond::Mesh output;
   output.Points = vtkSmartPointer<vtkPoints>::New();
   vtkPoints* const points = output.Points;
+  points->SetDataType(this->OutputPointsPrecision == SINGLE_PRECISION ? VTK_FLOAT : VTK_DOUBLE);
   points->GetData()->SetNumberOfComponents(3);
   vtkIsodiamond::AllocateTuples(points->GetData(), static_cast<vtkIdType>(mesh.Points.size()));
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
@@ -72,19 +73,19 @@ void vtkDiamondMesh::WriteMesh(const vtkIsodiamond::State& state,
     const isodiamond::Point& p = mesh.Points[i];
     points->SetPoint(static_cast<vtkIdType>(i), world(p[0], p[1], p[2]).data());
   }
-  output.Cells =
-    vtkIsodiamond::WriteCells(static_cast<std::int64_t>(mesh.Tetrahedra.size()), 4, task.For(),
-      [&](auto* connectivity)
+  output.Cells = vtkIsodiamond::WriteCells(static_cast<std::int64_t>(mesh.Tetrahedra.size()), 4,
+    static_cast<std::int64_t>(mesh.Points.size()), task.For(),
+    [&](auto* connectivity)
+    {
+      for (std::array<std::int64_t, 4> ids : mesh.Tetrahedra)
       {
-        for (std::array<std::int64_t, 4> ids : mesh.Tetrahedra)
+        if (world.Mirrors())
         {
-          if (world.Mirrors())
-          {
-            std::swap(ids[2], ids[3]);
-          }
-          connectivity = std::copy(ids.begin(), ids.end(), connectivity);
+          std::swap(ids[2], ids[3]);
         }
-      });
+        connectivity = std::copy(ids.begin(), ids.end(), connectivity);
+      }
+    });
   AddArray("Level", mesh.Levels, output);
   AddArray("Class", mesh.Classes, output);
   vtkIsodiamond::KeepShare(this->GetShare(), output);

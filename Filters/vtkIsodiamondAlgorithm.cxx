@@ -139,6 +139,14 @@ void vtkIsodiamondAlgorithm::NoteTolerance(
 }
 
 //------------------------------------------------------------------------------
+void vtkIsodiamondAlgorithm::ForgetMesh()
+{
+  this->AchievedTolerance = 0.0;
+  this->SmallestDihedralAngle = 0.0;
+  this->LargestDihedralAngle = 0.0;
+}
+
+//------------------------------------------------------------------------------
 void vtkIsodiamondAlgorithm::NoteDihedralAngles(
   const vtkIsodiamond::Mesh& mesh, vtkDataObject* output)
 {

@@ -226,6 +226,9 @@ protected:
   void NoteTolerance(
     double tolerance, const vtkIsodiamond::CountedTolerance* aimed, vtkDataObject* output);
 
+  /** What was noted of a mesh counts no more: it has not been completed. */
+  void ForgetMesh();
+
   /** Puts the angles of a mesh for simulations where users can see them. */
   void NoteDihedralAngles(const vtkIsodiamond::Mesh& mesh, vtkDataObject* output);
 

@@ -366,20 +366,22 @@ void vtkIsodiamondBuilder::BuildFromHierarchy(
   vtkPolyData* input, vtkIsodiamond::Task& task, vtkPolyData* output)
 {
   const std::shared_ptr<const vtkIsodiamond::State> state =
-    vtkIsodiamondHierarchy::ReadState(input);
+    vtkIsodiamondHierarchy::ReadState(input, this->NumberOfThreads);
   if (!state->Scalars)
   {
     throw std::invalid_argument(
       "The input hierarchy is relevant or minimal: those are made for "
       "one isovalue or isorange, others come from an HD or from the image.");
   }
+  this->WarnWithoutPointArrays();
+  const vtkIsodiamond::Choice choice = this->GetChoice();
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {
     output->ShallowCopy(input);
+    vtkIsodiamond::WriteDefaultsOfQueries(*state, choice, this->ExactIsovertices, output);
     return;
   }
-  this->WarnWithoutPointArrays();
-  const vtkIsodiamond::Choice choice = this->GetChoice();
+  vtkIsodiamond::RemoveState(output->GetFieldData()); // the HD's, which came along
   isodiamond::BuildOptions options = this->GetOptions(state->World);
   options.Report = task.Report();
   isodiamond::Encoding encoding;

@@ -184,6 +184,11 @@ void vtkIsodiamondContour::Extract(const vtkIsodiamond::Volume& volume,
   }
   if (!meshes.empty())
   {
-    output->ShallowCopy(Appended(meshes, this->OutputPointsPrecision));
+    // Field data of the input have been passed on.
+    const vtkSmartPointer<vtkPolyData> all = Appended(meshes, this->OutputPointsPrecision);
+    vtkPolyData* surface = vtkPolyData::SafeDownCast(output);
+    surface->CopyStructure(all);
+    surface->GetPointData()->ShallowCopy(all->GetPointData());
+    surface->GetCellData()->ShallowCopy(all->GetCellData());
   }
 }

@@ -39,8 +39,8 @@ public:
 
   ///@{
   /**
-   * The isovalues, in field units, as in vtkContourFilter. Default: none; the output is empty until
-   * one is set.
+   * The isovalues, in field units. Default: one, 0, as in vtkContourFilter; without any the output
+   * is empty.
    */
   void SetValue(int i, double value) { this->ContourValues->SetValue(i, value); }
   double GetValue(int i) { return this->ContourValues->GetValue(i); }

@@ -269,15 +269,15 @@ int vtkIsodiamondExtractor::RequestData(
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
   this->Last.reset();
   this->AchievedTolerance = 0.0;
-  return vtkIsodiamond::Execute(this, output,
+  const int success = vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task& task)
     {
       vtkIsodiamond::RemoveState(output->GetFieldData());
       auto execution = std::make_unique<Execution>();
       vtkIsodiamond::WorldQuery query = this->GetQuery();
       task.Begin("Reading the hierarchy", 0.0, 0.2);
-      execution->State =
-        vtkIsodiamond::ReadForQuery(this, vtkPolyData::GetData(inputVector[0]), query);
+      execution->State = vtkIsodiamond::ReadForQuery(
+        this, vtkPolyData::GetData(inputVector[0]), this->NumberOfThreads, query);
       this->WarnOfUnusedValues(*execution->State);
       if (!IsForVolume(query, *execution->State))
       {
@@ -300,6 +300,11 @@ int vtkIsodiamondExtractor::RequestData(
       this->NoteTolerance(query.ErrorTolerance, aimed ? &*aimed : nullptr, output);
       this->Last = std::move(execution);
     });
+  if (!this->Last)
+  {
+    this->ForgetMesh();
+  }
+  return success;
 }
 
 //------------------------------------------------------------------------------

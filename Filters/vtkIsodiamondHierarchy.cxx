@@ -21,19 +21,23 @@ vtkIsodiamondHierarchy::~vtkIsodiamondHierarchy() = default;
 void vtkIsodiamondHierarchy::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  if (!vtkIsodiamond::HasHierarchy(this->GetFieldData()))
+  if (!vtkIsodiamond::HasHierarchy(this->GetFieldData()) || !this->GetState())
   {
     os << indent << "Model: (none)\n";
     return;
   }
   os << indent << "Model: " << this->GetModel() << "\n";
   os << indent << "Shape: " << this->GetShape() << "\n";
+  os << indent << "ErrorMetric: " << this->GetErrorMetric() << "\n";
   os << indent << "TwoSidedDistances: " << this->GetTwoSidedDistances() << "\n";
   os << indent << "PreservesTopology: " << this->GetPreservesTopology() << "\n";
   os << indent << "MinimumPieceSize: " << this->GetMinimumPieceSize() << "\n";
   os << indent << "NumberOfRemovedPieces: " << this->GetNumberOfRemovedPieces() << "\n";
   os << indent << "ArrayName: " << this->GetArrayName() << "\n";
   os << indent << "Isovalue: " << this->GetIsovalue() << "\n";
+  double isorange[2];
+  this->GetIsorange(isorange);
+  os << indent << "Isorange: " << isorange[0] << ", " << isorange[1] << "\n";
   os << indent << "NumberOfActiveIsodiamonds: " << this->GetNumberOfActiveIsodiamonds() << "\n";
   os << indent << "NumberOfRelevantIsodiamonds: " << this->GetNumberOfRelevantIsodiamonds() << "\n";
   os << indent << "NumberOfCreationIsodiamonds: " << this->GetNumberOfCreationIsodiamonds() << "\n";
@@ -42,16 +46,17 @@ void vtkIsodiamondHierarchy::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const vtkIsodiamond::State> vtkIsodiamondHierarchy::ReadState(vtkPolyData* polyData)
+std::shared_ptr<const vtkIsodiamond::State> vtkIsodiamondHierarchy::ReadState(
+  vtkPolyData* polyData, int numberOfThreads)
 {
   vtkIsodiamondHierarchy* hierarchy = vtkIsodiamondHierarchy::SafeDownCast(polyData);
   if (!hierarchy)
   {
-    return vtkIsodiamond::ReadState(polyData->GetFieldData());
+    return vtkIsodiamond::ReadState(polyData->GetFieldData(), numberOfThreads);
   }
   if (!hierarchy->State || !vtkIsodiamond::IsCurrent(*hierarchy->State, polyData->GetFieldData()))
   {
-    hierarchy->State = vtkIsodiamond::ReadState(polyData->GetFieldData());
+    hierarchy->State = vtkIsodiamond::ReadState(polyData->GetFieldData(), numberOfThreads);
   }
   return hierarchy->State;
 }

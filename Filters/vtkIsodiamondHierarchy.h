@@ -20,6 +20,7 @@
 #include "vtkPolyData.h"
 
 #include <memory> // for the shared state
+#include <string> // for the array's name
 
 namespace vtkIsodiamond
 {
@@ -125,9 +126,11 @@ public:
 #ifndef __VTK_WRAP__
   /**
    * The checked contents of a data set that holds a hierarchy; a vtkIsodiamondHierarchy keeps its
-   * own. For filters. @throws std::exception that says what is wrong.
+   * own. For filters. @param numberOfThreads 0 for as many as VTK would use
+   * @throws std::exception that says what is wrong.
    */
-  static std::shared_ptr<const vtkIsodiamond::State> ReadState(vtkPolyData* polyData);
+  static std::shared_ptr<const vtkIsodiamond::State> ReadState(
+    vtkPolyData* polyData, int numberOfThreads = 0);
 #endif
 
 protected:

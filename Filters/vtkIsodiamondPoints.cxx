@@ -70,7 +70,7 @@ void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
       errors->SetValue(id, hierarchy.Codes().Decode(hierarchy.Threshold(rank)));
       ++id;
     });
-  mesh.Cells = vtkIsodiamond::WriteCells(count, 1, isodiamond::SerialFor,
+  mesh.Cells = vtkIsodiamond::WriteCells(count, 1, count, isodiamond::SerialFor,
     [count](auto* connectivity)
     { std::iota(connectivity, connectivity + count, std::decay_t<decltype(*connectivity)>{}); });
   mesh.PointData->SetScalars(kinds);

@@ -41,22 +41,13 @@ bool AreVolumes(const std::vector<isodiamond::Isoregion>& regions)
   return !regions.empty() && regions.front().IsVolume();
 }
 
-/** Which hierarchy a query needs. Interior tolerances that reach the extent of the values need
- *  nothing inside. */
-vtkIsodiamond::Cache::Need NeedOf(
-  const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::Volume& volume)
+/** Which hierarchy a query needs. */
+vtkIsodiamond::Cache::Need NeedOf(const vtkIsodiamond::WorldQuery& query)
 {
-  // A tolerance of the field's extent or more refines nothing; with slabs the extent is not known.
-  const auto isLess = [&]
-  {
-    const isodiamond::ValueRange range = isodiamond::FiniteRange(volume.Samples);
-    return volume.InSlabs || query.InteriorTolerance < range.Maximum - range.Minimum;
-  };
-  const bool refinesInterior = query.InteriorTolerance < VTK_DOUBLE_MAX && isLess();
-  vtkIsodiamond::Cache::Need need{ !query.IsFull(), refinesInterior };
+  vtkIsodiamond::Cache::Need need{ !query.IsFull(), query.RefinesInterior };
   // Tetrahedra for simulations are refined once more where they are too far away.
   if (need.AllErrors && query.OneTolerance && !query.HasTarget && !query.SimulationQuality &&
-    !refinesInterior)
+    !query.RefinesInterior)
   {
     need.AllErrors = false;
     need.Only = query;
@@ -121,15 +112,21 @@ double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
 {
   double largest = 0.0;
   vtkSmartPointer<vtkDataObject> input = this->GetInput();
-  if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && this->Plan->IsAPart())
+  const bool isDistance = this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE;
+  vtkInformation* information =
+    this->GetNumberOfInputConnections(0) > 0 ? this->GetInputInformation(0, 0) : nullptr;
+  // Not what the plan was made for, if there is another input since.
+  if (isDistance && this->Plan->IsAPart() && vtkIsodiamond::HasWholeImage(information))
   {
-    input = vtkIsodiamond::WholeImage(this->GetInputInformation(0, 0));
+    input = vtkIsodiamond::WholeImage(information);
   }
   for (vtkDataSet* grid : vtkIsodiamond::LeavesOf(input))
   {
     const double inUnits = vtkIsodiamond::LargestTolerance(
       static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), grid, this->FindInputArray(grid));
-    largest = std::max(largest, inUnits / this->GetUnit(vtkIsodiamond::VoxelOf(grid)));
+    const double unit =
+      isDistance && this->ToleranceUnit == VOXELS ? vtkIsodiamond::VoxelOf(grid) : 0.0;
+    largest = std::max(largest, inUnits / this->GetUnit(unit));
   }
   this->ErrorToleranceRange[1] = largest > 0.0 ? largest : 1.0;
   return this->ErrorToleranceRange;
@@ -151,6 +148,7 @@ int vtkIsodiamondVolumeAlgorithm::ModifyRequest(vtkInformation* request, int whe
   if (isForData && when == vtkExecutive::BeforeForward)
   {
     this->NumberOfRemovedPieces = 0;
+    this->HasFailed = false;
   }
   if (isForData && when == vtkExecutive::AfterForward)
   {
@@ -189,7 +187,8 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
 {
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
   this->AchievedTolerance = 0.0;
-  return this->Plan->Execute(this, outputVector->GetInformationObject(0),
+  bool isDone = false;
+  const int success = this->Plan->Execute(this, outputVector->GetInformationObject(0),
     [&](vtkIsodiamond::Task& task)
     {
       vtkIsodiamond::WorldQuery query = this->GetQuery();
@@ -219,6 +218,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
         array = this->FindInputArray(grid);
         if (!array.Array && this->HaveBlocksTheArray)
         {
+          isDone = true;
           return;
         }
         volume = vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
@@ -226,6 +226,7 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       const double unit = this->GetUnit(volume.Placement.World.SmallestStep());
       query.ErrorTolerance *= unit;
       query.OutsideErrorTolerance *= unit;
+      query.RefinesInterior = this->RefinesInterior(query, array.Array);
       // Where cells are hidden, an interval volume is refined inside, by all errors.
       query.OneTolerance = this->OneTolerance &&
         this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
@@ -257,18 +258,44 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
         vtkIsodiamond::AddNumber<vtkIdTypeArray>(output->GetFieldData(),
           vtkIsodiamond::format::NumberOfRemovedPieces, this->RemovedFromBlock);
       }
+      isDone = true;
     });
+  this->HasFailed = this->HasFailed || !isDone;
+  if (this->HasFailed) // this block, or one before
+  {
+    this->ForgetMesh();
+    this->NumberOfRemovedPieces = 0;
+  }
+  return success;
 }
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondVolumeAlgorithm::BuildTogether(const vtkIsodiamond::Volume& volume,
   const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task)
 {
-  const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
+  const vtkIsodiamond::Cache::Need need = NeedOf(query);
   for (const isodiamond::Isoregion& region : this->GetRegions())
   {
     this->Hierarchies->StoredPointData(volume, region, need, this->GetPointDataWanted(), task);
   }
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsodiamondVolumeAlgorithm::RefinesInterior(
+  const vtkIsodiamond::WorldQuery& query, vtkDataArray* samples)
+{
+  if (!(query.InteriorTolerance < VTK_DOUBLE_MAX))
+  {
+    return false;
+  }
+  // A tolerance of the values' extent or more refines nothing; with slabs the extent is not known.
+  double extent = VTK_DOUBLE_MAX;
+  if (samples)
+  {
+    vtkIsodiamond::RunSerial( // once: the array keeps it
+      [&] { extent = vtkIsodiamond::ExtentOfValues(samples).value_or(0.0); });
+  }
+  return query.InteriorTolerance < extent;
 }
 
 //------------------------------------------------------------------------------
@@ -285,7 +312,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
   vtkIsodiamond::Task& task)
 {
   const std::vector<isodiamond::Isoregion> regions = this->GetRegions();
-  const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
+  const vtkIsodiamond::Cache::Need need = NeedOf(query);
   std::vector<const isodiamond::IsodiamondHierarchy*> hierarchies;
   std::vector<const isodiamond::CellCounts*> counts;
   for (std::size_t i = 0; i < regions.size(); ++i)
@@ -344,8 +371,8 @@ void vtkIsodiamondVolumeAlgorithm::ExtractAtTolerance(const vtkIsodiamond::Volum
   }
   vtkIsodiamond::Task extracting = task.Part(found ? aimPart : 0.0, 1.0);
   this->Extract(volume, aimed, extracting, output);
-  this->NoteTolerance(aimed.ErrorTolerance / unit, found ? &*found : nullptr, output);
   this->WriteTable(volume, aimed, unit, extracting, output);
+  this->NoteTolerance(aimed.ErrorTolerance / unit, found ? &*found : nullptr, output);
 }
 
 //------------------------------------------------------------------------------
@@ -353,7 +380,7 @@ void vtkIsodiamondVolumeAlgorithm::WriteTable(const vtkIsodiamond::Volume& volum
   const vtkIsodiamond::WorldQuery& query, double unit, vtkIsodiamond::Task& task,
   vtkDataObject* output)
 {
-  const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
+  const vtkIsodiamond::Cache::Need need = NeedOf(query);
   if (!need.AllErrors)
   {
     return; // as if errors were not known, even if they are: the mesh is that of a new filter
@@ -405,7 +432,7 @@ vtkIsodiamond::Mesh vtkIsodiamondVolumeAlgorithm::ExtractMesh(const vtkIsodiamon
 {
   constexpr double buildPart = 0.8;
   vtkIsodiamond::Task building = task.Part(0.0, buildPart);
-  const vtkIsodiamond::Cache::Need need = NeedOf(query, volume);
+  const vtkIsodiamond::Cache::Need need = NeedOf(query);
   const isodiamond::IsodiamondHierarchy& hierarchy =
     this->Hierarchies->Get(volume, region, need, building);
   const vtkIsodiamond::VolumePointData wanted = this->GetPointDataWanted();

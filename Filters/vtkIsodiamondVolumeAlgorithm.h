@@ -257,6 +257,8 @@ private:
 
   isodiamond::BuildOptions GetOptions(
     const isodiamond::GridGeometry& world, const vtkIsodiamond::WorldQuery& query) const;
+  /** @param samples null if they are not at hand */
+  static bool RefinesInterior(const vtkIsodiamond::WorldQuery& query, vtkDataArray* samples);
   double GetUnit(double voxel) const;
   vtkIsodiamond::CountedTolerance Aim(const vtkIsodiamond::Volume& volume,
     const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task);
@@ -274,6 +276,7 @@ private:
   /** Whether some blocks of a composite input have the array. The others then have no mesh; if no
    *  block has it, that is an error. */
   bool HaveBlocksTheArray = false;
+  bool HasFailed = false; ///< in the current or last execution, for one block at least
   vtkIdType NumberOfRemovedPieces = 0;
   vtkIdType RemovedFromBlock = 0; ///< counts only once the whole block has succeeded
 };

@@ -49,12 +49,12 @@ vtkSmartPointer<vtkCellArray> WriteCellsAs(
   return cells;
 }
 
-/** In 32 bits where these suffice: half the bytes. */
+/** In 32 bits where these suffice: half the bytes. @param ids what is written is less than that */
 template <typename Write>
-vtkSmartPointer<vtkCellArray> WriteCells(
-  std::int64_t count, int size, const isodiamond::ParallelFor& parallelFor, const Write& write)
+vtkSmartPointer<vtkCellArray> WriteCells(std::int64_t count, int size, std::int64_t ids,
+  const isodiamond::ParallelFor& parallelFor, const Write& write)
 {
-  return size * count <= std::numeric_limits<std::int32_t>::max()
+  return std::max(size * count, ids) <= std::numeric_limits<std::int32_t>::max()
     ? WriteCellsAs<vtkTypeInt32Array>(count, size, parallelFor, write)
     : WriteCellsAs<vtkTypeInt64Array>(count, size, parallelFor, write);
 }

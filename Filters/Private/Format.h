@@ -2,6 +2,8 @@
 #ifndef vtkIsodiamond_Format_h
 #define vtkIsodiamond_Format_h
 
+#include <string_view>
+
 /**
  * @file Format.h
  * What writing and reading hierarchies (State.h) must agree on: the names of field-data arrays, and
@@ -45,6 +47,12 @@ inline constexpr const char* NumberOfCreationIsodiamonds = "NumberOfCreationIsod
 inline constexpr const char* NumberOfIsovertices = "NumberOfIsovertices";
 inline constexpr const char* NumberOfRemovedPieces = "NumberOfRemovedPieces";
 inline constexpr const char* StorageSize = "StorageSize";
+
+/** Whether an array, which may have no name, is a part of what a hierarchy is made of. */
+inline bool IsOfHierarchy(const char* name)
+{
+  return name != nullptr && std::string_view(name).substr(0, 10) == "Isodiamond";
+}
 
 /** Such numbers beside a mesh. */
 inline constexpr const char* AchievedTolerance = "AchievedTolerance";

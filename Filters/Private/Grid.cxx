@@ -227,9 +227,28 @@ double VoxelOf(vtkDataSet* grid)
   const std::array<int, 3> dimensions = DimensionsOf(grid);
   const bool hasCells =
     std::all_of(dimensions.begin(), dimensions.end(), [](int samples) { return samples > 1; });
-  return hasCells && !vtkStructuredGrid::SafeDownCast(grid)
-    ? GeometryOf(grid, 0).World.SmallestStep()
-    : 0.0;
+  if (!hasCells || vtkStructuredGrid::SafeDownCast(grid))
+  {
+    return 0.0;
+  }
+  try
+  {
+    return GeometryOf(grid, 0).World.SmallestStep();
+  }
+  catch (const std::invalid_argument&) // coordinates that do not fit the grid
+  {
+    return 0.0;
+  }
+}
+
+void CheckGhosts(vtkUnsignedCharArray* ghosts, vtkIdType count)
+{
+  if (ghosts && (ghosts->GetNumberOfComponents() != 1 || ghosts->GetNumberOfTuples() != count))
+  {
+    throw std::invalid_argument("The grid's ghost array \"" +
+      std::string(vtkDataSetAttributes::GhostArrayName()) +
+      "\" does not have one value for each cell or point.");
+  }
 }
 
 isodiamond::HiddenCells HiddenCellsOf(vtkDataSet* grid, int padding)
@@ -240,6 +259,8 @@ isodiamond::HiddenCells HiddenCellsOf(vtkDataSet* grid, int padding)
   {
     return {};
   }
+  CheckGhosts(cellGhosts, grid->GetNumberOfCells());
+  CheckGhosts(pointGhosts, grid->GetNumberOfPoints());
   constexpr int hiddenCell = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL |
     vtkDataSetAttributes::DUPLICATECELL;
   const std::array<int, 3> samples = DimensionsOf(grid);

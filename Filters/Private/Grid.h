@@ -6,6 +6,7 @@
 #include "Field/HiddenCells.h"
 
 #include "vtkSmartPointer.h"
+#include "vtkType.h"
 
 #include <array>
 #include <vector>
@@ -13,6 +14,7 @@
 class vtkDataArray;
 class vtkDataObject;
 class vtkDataSet;
+class vtkUnsignedCharArray;
 
 /**
  * @file Grid.h
@@ -30,7 +32,8 @@ std::array<int, 3> DimensionsOf(vtkDataSet* grid);
 /** The length of a grid's diagonal: of an image the one in index space, else that of its bounds. */
 double DiagonalOf(vtkDataSet* grid);
 
-/** The smallest spacing of an image or rectilinear grid; 0 for all else. */
+/** The smallest spacing of an image or rectilinear grid; 0 for all else, and if coordinates are
+ *  missing. */
 double VoxelOf(vtkDataSet* grid);
 
 /** Where a grid's samples are in the world. */
@@ -48,6 +51,10 @@ struct Geometry
  * @throws std::invalid_argument for a grid without positions
  */
 Geometry GeometryOf(vtkDataSet* grid, int padding);
+
+/** Checks a ghost array, which may be null. @param count of the grid's cells or points
+ *  @throws std::invalid_argument unless it has one value for each */
+void CheckGhosts(vtkUnsignedCharArray* ghosts, vtkIdType count);
 
 /** Blanked cells, cells at blanked points, and ghosts. @param padding as above */
 isodiamond::HiddenCells HiddenCellsOf(vtkDataSet* grid, int padding);

@@ -89,7 +89,8 @@ void AddCells(Extraction& extraction, std::int64_t counted, int size, const Mesh
   const std::int64_t ownCount = isodiamond::TotalOf(own);
   const std::int64_t count = ownCount + static_cast<std::int64_t>(ghosts.Cells.size());
   const auto levels = NewArray<vtkSignedCharArray>("Level", count);
-  mesh.Cells = WriteCells(count, size, parallelFor,
+  // First with the ids of all points, even for a share.
+  mesh.Cells = WriteCells(count, size, extraction.PointCount(), parallelFor,
     [&](auto* connectivity)
     {
       std::int64_t written = 0;

@@ -2,6 +2,7 @@
 #include "Private/Parts.h"
 
 #include "Private/Arrays.h"
+#include "Private/Grid.h"
 #include "Private/SlabRequest.h"
 
 #include "vtkCellData.h"
@@ -228,6 +229,8 @@ Parts::Parts(vtkInformation* input, const ControllerPeers& peers)
   this->Others.Together(
     [&]
     {
+      CheckGhosts(this->Own->GetPointGhostArray(), this->Own->GetNumberOfPoints());
+      CheckGhosts(this->Own->GetCellGhostArray(), this->Own->GetNumberOfCells());
       const Extent own = OwnExtent(this->Own);
       if (IsEmpty(own))
       {

@@ -198,7 +198,10 @@ PointDataMaker FromHierarchy(const isodiamond::IsodiamondHierarchy& hierarchy,
     const auto arrays = std::make_shared<ArrayPairs>();
     for (vtkDataArray* array : stored)
     {
-      output->AddArray(AddPair(*arrays, array, count, false));
+      if (!output->HasArray(array->GetName())) // the mesh's own come first
+      {
+        output->AddArray(AddPair(*arrays, array, count, false));
+      }
     }
     if (output->HasArray(NormalsName))
     {

@@ -60,7 +60,9 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
     return ExtractMesh(refined, asked, task);
   }
   const PlacedTolerance tolerance(query, measure, options.World);
-  asked.DistanceTolerance = query.ErrorTolerance;
+  asked.DistanceTolerance = query.Region
+    ? std::min(query.ErrorTolerance, OutsideOf(query, measure, options.World))
+    : query.ErrorTolerance;
   asked.ToleranceIn = [&](const isodiamond::Vector* corners, int count)
   { return tolerance.In(corners, count); };
   asked.KeepsInside = std::isfinite(query.InteriorTolerance);

@@ -60,6 +60,12 @@ std::array<int, 3> WholeDimensionsOf(vtkInformation* input)
   return { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1, extent[5] - extent[4] + 1 };
 }
 
+bool HasWholeImage(vtkInformation* input)
+{
+  return input != nullptr && vtkImageData::GetData(input) != nullptr &&
+    input->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
+}
+
 vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input)
 {
   vtkImageData* slab = vtkImageData::GetData(input);

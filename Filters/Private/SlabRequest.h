@@ -31,6 +31,9 @@ std::array<int, 6> WholeExtentOf(vtkInformation* input);
 std::array<int, 3> WholeDimensionsOf(vtkInformation* input);
 ///@}
 
+/** Whether an input, which may be null, is an image of which the whole is known. */
+bool HasWholeImage(vtkInformation* input);
+
 /** The whole image of which an input is a slab, without its arrays. */
 vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input);
 

@@ -19,7 +19,24 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** Reads arrays by name, checks their types and keeps them alive. */
+/** All arrays of a hierarchy, and when each was last modified. */
+std::vector<std::pair<vtkSmartPointer<vtkAbstractArray>, vtkMTimeType>> ArraysOf(
+  vtkFieldData* fieldData)
+{
+  std::vector<std::pair<vtkSmartPointer<vtkAbstractArray>, vtkMTimeType>> arrays;
+  for (int i = 0; i < fieldData->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = fieldData->GetAbstractArray(i);
+    if (format::IsOfHierarchy(array->GetName()))
+    {
+      array->GetInformation(); // made when an array is first asked for its range: a modification
+      arrays.emplace_back(array, array->GetMTime());
+    }
+  }
+  return arrays;
+}
+
+/** Reads arrays by name, and checks their types. */
 class Reader
 {
 public:
@@ -39,7 +56,6 @@ public:
       throw std::invalid_argument(
         "the field data array \"" + std::string(name) + "\" is missing or malformed");
     }
-    this->Target.Arrays.emplace_back(array);
     return array;
   }
 
@@ -95,7 +111,8 @@ private:
   State& Target;
 };
 
-void ReadIsodiamonds(Reader& reader, const isodiamond::EncodingHeader& header, State& state)
+void ReadIsodiamonds(
+  Reader& reader, const isodiamond::EncodingHeader& header, int numberOfThreads, State& state)
 {
   isodiamond::EncodingView view;
   view.Header = header;
@@ -116,7 +133,7 @@ void ReadIsodiamonds(Reader& reader, const isodiamond::EncodingHeader& header, S
   {
     view.Arrays.Followers = reader.Stored<std::uint64_t>(format::Followers);
   }
-  RunThreaded(0,
+  RunThreaded(numberOfThreads,
     [&] { state.Isodiamonds = std::make_unique<isodiamond::IsodiamondHierarchy>(view, SMPFor()); });
 }
 
@@ -138,7 +155,6 @@ void ReadPointArrays(vtkFieldData* fieldData, State& state)
     {
       throw std::invalid_argument("the field data array \"" + name + "\" is malformed");
     }
-    state.Arrays.emplace_back(array);
     state.StorageSize += array->GetNumberOfValues() * array->GetDataTypeSize();
     auto own = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
     own->ShallowCopy(array);
@@ -208,7 +224,7 @@ void CheckHeader(const Header& header)
 }
 
 /** Header, parameters, then the arrays of the model. @throws std::invalid_argument */
-void ReadArrays(vtkFieldData* fieldData, State& state)
+void ReadArrays(vtkFieldData* fieldData, int numberOfThreads, State& state)
 {
   Reader reader(fieldData, state);
   const Header header = ReadHeader(reader);
@@ -258,7 +274,7 @@ void ReadArrays(vtkFieldData* fieldData, State& state)
   }
   else
   {
-    ReadIsodiamonds(reader, core, state);
+    ReadIsodiamonds(reader, core, numberOfThreads, state);
     ReadPointArrays(fieldData, state);
   }
 }
@@ -293,7 +309,7 @@ double FieldScale(vtkFieldData* fieldData)
   return Parameter(fieldData, ParameterAt::FieldScale);
 }
 
-std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
+std::shared_ptr<const State> ReadState(vtkFieldData* fieldData, int numberOfThreads)
 {
   if (!HasHierarchy(fieldData))
   {
@@ -304,7 +320,8 @@ std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
   try
   {
     auto state = std::make_shared<State>();
-    ReadArrays(fieldData, *state);
+    state->Arrays = ArraysOf(fieldData);
+    ReadArrays(fieldData, numberOfThreads, *state);
     return state;
   }
   catch (const std::invalid_argument& problem)
@@ -316,9 +333,7 @@ std::shared_ptr<const State> ReadState(vtkFieldData* fieldData)
 
 bool IsCurrent(const State& state, vtkFieldData* fieldData)
 {
-  return std::all_of(state.Arrays.begin(), state.Arrays.end(),
-    [&](const vtkSmartPointer<vtkAbstractArray>& array)
-    { return fieldData->GetAbstractArray(array->GetName()) == array; });
+  return state.Arrays == ArraysOf(fieldData);
 }
 
 }

@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkFieldData;
@@ -37,7 +38,8 @@ struct State
   std::string ArrayName;
   isodiamond::AffineMap World;
   std::int64_t StorageSize = 0;
-  std::vector<vtkSmartPointer<vtkAbstractArray>> Arrays;
+  /** All that the field data had of the hierarchy, and when each array was last modified. */
+  std::vector<std::pair<vtkSmartPointer<vtkAbstractArray>, vtkMTimeType>> Arrays;
   /** Other arrays at stored points, under their own names. */
   std::vector<vtkSmartPointer<vtkDataArray>> PointArrays;
   /** One of the two is set: RI and MI, or HD. */
@@ -54,10 +56,11 @@ double LargestTolerance(vtkFieldData* fieldData);
 /** The extent of the field's values; 1 if there is no hierarchy. */
 double FieldScale(vtkFieldData* fieldData);
 
-/** Reads and checks a hierarchy. @throws std::exception saying what is wrong with it. */
-std::shared_ptr<const State> ReadState(vtkFieldData* fieldData);
+/** Reads and checks a hierarchy. @param numberOfThreads 0 for as many as VTK would use
+ *  @throws std::exception saying what is wrong with it. */
+std::shared_ptr<const State> ReadState(vtkFieldData* fieldData, int numberOfThreads);
 
-/** Whether the state was read from exactly these arrays. */
+/** Whether the state was read from exactly these arrays, and none was modified since. */
 bool IsCurrent(const State& state, vtkFieldData* fieldData);
 
 /** Removes a hierarchy, and the numbers that describe it, from field data that were passed on with
@@ -69,6 +72,11 @@ void RemoveState(vtkFieldData* fieldData);
 void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice,
   const isodiamond::AffineMap& world, const std::string& arrayName,
   const std::vector<vtkSmartPointer<vtkDataArray>>& pointArrays, vtkPolyData* output);
+
+/** Gives an HD in a data set other defaults of queries, and another way to place isovertices.
+ *  @param state the HD as it was read */
+void WriteDefaultsOfQueries(
+  const State& state, const Choice& choice, bool exactIsovertices, vtkPolyData* output);
 
 /** Puts an HD into a data set. @param choice,exactIsovertices the default of queries, and how they
  *  place isovertices */

@@ -121,6 +121,21 @@ void WriteHeader(const isodiamond::EncodingHeader& header, const Choice& choice,
   fieldData->AddArray(name);
 }
 
+/** The header of an HD. */
+void WriteScalarsHeader(const std::array<int, 3>& dimensions, double errorScale,
+  const Choice& choice, bool exactIsovertices, const isodiamond::AffineMap& world,
+  const std::string& arrayName, vtkFieldData* fieldData)
+{
+  isodiamond::EncodingHeader header;
+  header.TheModel = isodiamond::Model::HierarchyOfDiamonds;
+  header.Dimensions = dimensions;
+  header.Region = choice.Region();
+  header.ErrorScale = errorScale;
+  header.FieldScale = errorScale;
+  header.ExactIsovertices = exactIsovertices;
+  WriteHeader(header, choice, world, arrayName, fieldData);
+}
+
 /** Numbers for users who look at the field data, in ParaView's Information for instance. */
 void WriteNumbers(const isodiamond::Encoding& encoding, vtkFieldData* fieldData)
 {
@@ -153,7 +168,6 @@ void WriteDefaults(const Choice& choice, vtkFieldData* fieldData)
 
 void RemoveState(vtkFieldData* fieldData)
 {
-  const std::string prefix = "Isodiamond"; // of all that a hierarchy is made of
   const std::set<std::string> numbers = { format::LargestErrorTolerance, format::Isovalue,
     format::Isorange, format::NumberOfActiveIsodiamonds, format::NumberOfRelevantIsodiamonds,
     format::NumberOfCreationIsodiamonds, format::NumberOfIsovertices, format::NumberOfRemovedPieces,
@@ -161,7 +175,7 @@ void RemoveState(vtkFieldData* fieldData)
   for (int i = fieldData->GetNumberOfArrays() - 1; i >= 0; --i)
   {
     const char* name = fieldData->GetAbstractArray(i)->GetName();
-    if (name && (std::string(name).rfind(prefix, 0) == 0 || numbers.count(name) > 0))
+    if (format::IsOfHierarchy(name) || (name && numbers.count(name) > 0))
     {
       fieldData->RemoveArray(i);
     }
@@ -201,6 +215,16 @@ void WriteIsodiamonds(const isodiamond::Encoding& encoding, const Choice& choice
   }
 }
 
+void WriteDefaultsOfQueries(
+  const State& state, const Choice& choice, bool exactIsovertices, vtkPolyData* output)
+{
+  const isodiamond::ScalarHierarchy& scalars = *state.Scalars;
+  vtkFieldData* fieldData = output->GetFieldData();
+  WriteScalarsHeader(scalars.SampleGrid().Dimensions(), scalars.Codes().Scale(), choice,
+    exactIsovertices, state.World, state.ArrayName, fieldData);
+  WriteDefaults(choice, fieldData);
+}
+
 void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choice,
   bool exactIsovertices, const Volume& volume, vtkPolyData* output)
 {
@@ -209,14 +233,8 @@ void WriteScalars(const isodiamond::ScalarEncoding& encoding, const Choice& choi
   const isodiamond::AffineMap& world = *volume.Placement.World.Affine();
   WriteOutline(dimensions, world, output);
   vtkFieldData* fieldData = output->GetFieldData();
-  isodiamond::EncodingHeader header;
-  header.TheModel = isodiamond::Model::HierarchyOfDiamonds;
-  header.Dimensions = dimensions;
-  header.Region = choice.Region();
-  header.ErrorScale = encoding.ErrorScale;
-  header.FieldScale = encoding.ErrorScale;
-  header.ExactIsovertices = exactIsovertices;
-  WriteHeader(header, choice, world, volume.ArrayName, fieldData);
+  WriteScalarsHeader(
+    dimensions, encoding.ErrorScale, choice, exactIsovertices, world, volume.ArrayName, fieldData);
   // A copy: the input's own array, if shared, would be renamed for the input, too.
   AddSamples(fieldData, format::Samples, volume.Array->GetDataType(),
     volume.Array->GetVoidPointer(0), volume.Array->GetNumberOfTuples());

@@ -108,54 +108,77 @@ CountedTolerance LeastTolerance(const ErrorCode& codes, std::int64_t target,
   return found;
 }
 
+namespace
+{
+
+/** Tolerances that differ by a factor. */
+constexpr double TargetStep = 4.0;
+
+/** A tolerance with few enough cells. The last one is at least a million times the guess. */
+CountedTolerance FirstWithFew(CountedTolerance tried, std::int64_t target,
+  const std::function<std::int64_t(double tolerance)>& cellsAt, double& many)
+{
+  constexpr int steps = 10;
+  for (int i = 0; i < steps && tried.Cells > target && tried.Tolerance > 0.0; ++i)
+  {
+    many = tried.Tolerance;
+    tried.Tolerance *= TargetStep;
+    tried.Cells = cellsAt(tried.Tolerance);
+  }
+  return tried;
+}
+
+/** Goes down as long as there are few cells; down to 0, if need be: below some tolerance,
+ *  triangles for simulations no longer increase. @param many afterwards a tolerance with too many
+ *  cells, or one that is low enough; 0 if 0 has few */
+CountedTolerance LastWithFew(CountedTolerance few, std::int64_t target,
+  const std::function<std::int64_t(double tolerance)>& cellsAt, double& many)
+{
+  constexpr int steps = 4;
+  for (int i = 0; i <= steps; ++i)
+  {
+    const double tolerance = i < steps ? few.Tolerance / TargetStep : 0.0;
+    const CountedTolerance tried{ tolerance, cellsAt(tolerance) };
+    if (tried.Cells > target)
+    {
+      many = i < steps ? tolerance : few.Tolerance / TargetStep;
+      return few;
+    }
+    few = tried;
+  }
+  return few;
+}
+
+}
+
 CountedTolerance LeastToleranceBelow(
   double guess, std::int64_t target, const std::function<std::int64_t(double tolerance)>& cellsAt)
 {
-  constexpr double step = 4.0;
-  constexpr int steps = 4;
   constexpr int bisections = 6;
-  const auto at = [&](double tolerance) {
-    return CountedTolerance{ tolerance, cellsAt(tolerance) };
-  };
-  CountedTolerance below = at(guess);
-  double above = guess / step;
-  for (int i = 0; i < steps && below.Cells > target; ++i)
+  double many = 0.0; // a tolerance with too many cells, once there is one
+  CountedTolerance few = FirstWithFew({ guess, cellsAt(guess) }, target, cellsAt, many);
+  if (guess == 0.0 || few.Cells > target)
   {
-    above = below.Tolerance;
-    below = at(step * below.Tolerance);
+    return few;
   }
-  if (guess == 0.0 || below.Cells > target)
+  if (many == 0.0)
   {
-    return below;
+    few = LastWithFew(few, target, cellsAt, many);
   }
-  CountedTolerance tried = at(above);
-  for (int i = 0; i < steps && tried.Cells <= target; ++i)
+  for (int i = 0; i < bisections && many > 0.0; ++i)
   {
-    below = tried;
-    above /= step;
-    tried = at(above);
-  }
-  if (tried.Cells <= target)
-  {
-    tried = at(0.0); // below some tolerance, simulation triangles no longer increase
+    const double tolerance = std::sqrt(many * few.Tolerance);
+    const CountedTolerance tried{ tolerance, cellsAt(tolerance) };
     if (tried.Cells <= target)
     {
-      return tried;
-    }
-  }
-  for (int i = 0; i < bisections; ++i)
-  {
-    tried = at(std::sqrt(above * below.Tolerance));
-    if (tried.Cells <= target)
-    {
-      below = tried;
+      few = tried;
     }
     else
     {
-      above = tried.Tolerance;
+      many = tolerance;
     }
   }
-  return below;
+  return few;
 }
 
 void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64_t target)

@@ -56,7 +56,8 @@ public:
   vtkSmartPointer<vtkCellArray> Write(const std::vector<std::array<std::uint32_t, Size>>& cells,
     const isodiamond::ParallelFor& parallelFor) const
   {
-    return WriteCells(static_cast<std::int64_t>(cells.size()), static_cast<int>(Size), parallelFor,
+    return WriteCells(static_cast<std::int64_t>(cells.size()), static_cast<int>(Size),
+      this->Points.Count(), parallelFor,
       [&](auto* connectivity)
       {
         using Id = std::remove_pointer_t<decltype(connectivity)>;

@@ -37,6 +37,7 @@ struct WorldQuery
   bool HasTarget = false;    ///< whether that tolerance is yet to be found
   bool OneTolerance = false; ///< whether errors are to be measured for it alone
   double InteriorTolerance = HUGE_VAL;
+  bool RefinesInterior = false; ///< whether that tolerance may refine anything; of a volume
   /** In the world; the tolerances hold there. */
   std::optional<isodiamond::Box> Region;
   double OutsideErrorTolerance = HUGE_VAL; ///< 0: see OutsideOf()
@@ -251,14 +252,14 @@ void RefineState(const State& state, const WorldQuery& query, int numberOfThread
 /** The hierarchy that a data set holds, ready for a query.
  *  @throws std::exception that says what is wrong with the input or the query */
 inline std::shared_ptr<const State> ReadForQuery(
-  vtkAlgorithm* filter, vtkPolyData* input, const WorldQuery& query)
+  vtkAlgorithm* filter, vtkPolyData* input, int numberOfThreads, const WorldQuery& query)
 {
   CheckTolerances(query);
   if (!input)
   {
     throw std::invalid_argument("There is no input hierarchy.");
   }
-  std::shared_ptr<const State> state = vtkIsodiamondHierarchy::ReadState(input);
+  std::shared_ptr<const State> state = vtkIsodiamondHierarchy::ReadState(input, numberOfThreads);
   if (query.View && state->Metric != isodiamond::ErrorMetric::Distance)
   {
     throw std::invalid_argument("A view-dependent mesh needs a hierarchy of the distance metric.");

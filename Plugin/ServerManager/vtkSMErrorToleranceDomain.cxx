@@ -16,6 +16,14 @@
 
 vtkStandardNewMacro(vtkSMErrorToleranceDomain);
 
+namespace
+{
+
+/** As vtkIsodiamond::DistanceOfInterest of the filters, which a client need not have. */
+constexpr double DistanceOfInterest = 0.02;
+
+}
+
 //------------------------------------------------------------------------------
 vtkSMErrorToleranceDomain::vtkSMErrorToleranceDomain() = default;
 
@@ -54,7 +62,7 @@ double vtkSMErrorToleranceDomain::FindLargest()
   else if (input && vtkSMUncheckedPropertyHelper(metric).GetAsInt() == 1) // distance
   {
     const double* bounds = input->GetBounds();
-    largest = 0.02 *
+    largest = DistanceOfInterest *
       std::hypot(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]) /
       this->FindUnit(input);
   }

@@ -4,10 +4,10 @@
  * @brief   error tolerances that are worth trying, for the slider
  *
  * From 0 to what the input and the metric make of it: by the distance metric 2 % of the diagonal of
- * the input's bounds, by the field metric the extent of the array's values; of a hierarchy what it
- * says itself; rounded up. Required properties: *Input*, and of filters that work on a volume
- * *Metric* (without one it is the field's) and *ArraySelection*; *Unit* where tolerances can be in
- * voxels.
+ * the input's bounds, by the field metric the extent of the array's values; rounded up. Required
+ * properties: *Input*; of filters that work on a volume also *Metric* and *ArraySelection*, and
+ * *Unit* where tolerances can be in voxels. Without *Metric* the input is a hierarchy, which says
+ * itself how far: its field data have *LargestErrorTolerance*.
  */
 
 #ifndef vtkSMErrorToleranceDomain_h

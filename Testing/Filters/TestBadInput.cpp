@@ -18,12 +18,18 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkRTAnalyticSource.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 namespace
@@ -127,6 +133,65 @@ TEST(BadInput, ArraysThatCannotBeContoured)
       filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "bits");
     },
     "not supported");
+}
+
+TEST(BadInput, GhostArraysOfAnotherSize)
+{
+  for (const bool isOfCells : { true, false })
+  {
+    for (const auto& [tuples, components] : { std::array<int, 2>{ 5, 1 }, { 9 * 9 * 9, 2 } })
+    {
+      const int size[] = { tuples, components };
+      ExpectRefusal(
+        [&](vtkAlgorithm* filter)
+        {
+          const auto image = test::BallImage({ 9, 9, 9 });
+          vtkNew<vtkUnsignedCharArray> ghosts;
+          ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+          ghosts->SetNumberOfComponents(size[1]);
+          ghosts->SetNumberOfTuples(size[0]);
+          ghosts->Fill(0.0);
+          vtkDataSetAttributes* data = isOfCells
+            ? static_cast<vtkDataSetAttributes*>(image->GetCellData())
+            : static_cast<vtkDataSetAttributes*>(image->GetPointData());
+          data->AddArray(ghosts);
+          filter->SetInputDataObject(0, image);
+        },
+        "ghost array");
+    }
+  }
+}
+
+// A getter that may be called at any time.
+TEST(BadInput, NeverHarmsWhoAsksForTheRangeOfTolerances)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  vtkNew<vtkRectilinearGrid> grid;
+  grid->SetDimensions(3, 3, 3); // without coordinates
+  contour->SetInputData(grid);
+  for (const int unit : { 0, 1 })
+  {
+    contour->SetToleranceUnit(unit);
+    EXPECT_GT(contour->GetErrorToleranceRange()[1], 0.0);
+  }
+  // What was known of slabs does not count for another input, or for none.
+  vtkNew<vtkRTAnalyticSource> source;
+  source->SetWholeExtent(0, 20, 0, 20, 0, 40);
+  vtkNew<vtkIsodiamondContour> inSlabs;
+  inSlabs->SetInputConnection(source->GetOutputPort());
+  inSlabs->SetNumberOfBlocks(4);
+  inSlabs->SetValue(0, 150.0);
+  inSlabs->Update();
+  ASSERT_EQ(inSlabs->GetNumberOfSlabs(), 4);
+  EXPECT_GT(inSlabs->GetErrorToleranceRange()[1], 0.9);
+  inSlabs->SetInputData(grid);
+  EXPECT_EQ(inSlabs->GetErrorToleranceRange()[1], contour->GetErrorToleranceRange()[1]);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(101, 1, 1);
+  inSlabs->SetInputData(image);
+  EXPECT_DOUBLE_EQ(inSlabs->GetErrorToleranceRange()[1], 2.0);
+  inSlabs->RemoveAllInputConnections(0);
+  EXPECT_EQ(inSlabs->GetErrorToleranceRange()[1], 1.0);
 }
 
 TEST(BadInput, NoInputAtAll)

@@ -45,6 +45,7 @@ public:
     return 14.0 - std::hypot(x - 13.0, y - 16.0, 0.5 * (z - 36.0)) + bump;
   };
   bool HasOther = true;
+  const char* NameOfOther = "other";
   bool CanMakeParts = true;
   bool MakesMore = false;  ///< slices than it is asked for
   bool MakesOther = false; ///< slices than it is asked for
@@ -93,7 +94,7 @@ protected:
     vtkNew<vtkFloatArray> density;
     density->SetName("density");
     vtkNew<vtkUnsignedCharArray> other;
-    other->SetName("other");
+    other->SetName(this->NameOfOther);
     const vtkIdType count = image->GetNumberOfPoints();
     density->SetNumberOfTuples(count);
     other->SetNumberOfTuples(this->HasOther ? count : 0);
@@ -233,6 +234,21 @@ TEST(Blocks, MakeTheSameVolume)
   both.ForEach([](vtkIsodiamondIntervalVolume* volume) { volume->SetErrorTolerance(1.0); });
   EXPECT_EQ(both.Difference(), "");
   EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), 4);
+}
+
+// An array of the input that has the name of one of the mesh's own.
+TEST(Blocks, MakeTheSameOfArraysWithNamesOfTheMeshsOwn)
+{
+  Both<vtkIsodiamondIntervalVolume> both(4);
+  both.ForEach([](auto* volume) { volume->SetIsorange(-1.0, 4.5); });
+  both.Source->NameOfOther = "Surface";
+  both.SourceOfParts->NameOfOther = "Surface";
+  EXPECT_EQ(both.Difference(), "");
+  EXPECT_EQ(both.InBlocks->GetNumberOfSlabs(), 4);
+  double range[2];
+  both.InBlocks->GetOutput()->GetPointData()->GetArray("Surface")->GetRange(range);
+  EXPECT_EQ(range[0], -1.0);
+  EXPECT_EQ(range[1], 1.0);
 }
 
 TEST(Blocks, MakeTheSameHierarchy)

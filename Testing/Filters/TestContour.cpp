@@ -4,6 +4,8 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFlyingEdges3D.h"
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
@@ -177,6 +179,28 @@ TEST(Contour, HasTheAttributesOfAContourFilter)
   contour->Update();
   EXPECT_EQ(contour->GetNumberOfContours(), 3);
   EXPECT_EQ(contour->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
+}
+
+TEST(Contour, PassesFieldDataOn)
+{
+  const vtkSmartPointer<vtkImageData> image = test::BallImage({ 17, 17, 17 });
+  vtkNew<vtkDoubleArray> note;
+  note->SetName("note");
+  note->InsertNextValue(3.0);
+  image->GetFieldData()->AddArray(note);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  for (const int isovalues : { 0, 1, 2 })
+  {
+    contour->SetNumberOfContours(isovalues);
+    for (int i = 0; i < isovalues; ++i)
+    {
+      contour->SetValue(i, 0.1 * i);
+    }
+    contour->Update();
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells() > 0, isovalues > 0);
+    EXPECT_NE(contour->GetOutput()->GetFieldData()->GetArray("note"), nullptr) << isovalues;
+  }
 }
 
 TEST(Contour, BuildsOnlyWhatChanged)

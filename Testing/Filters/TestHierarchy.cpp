@@ -19,7 +19,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <set>
 #include <sstream>
+#include <string>
 
 namespace
 {
@@ -30,6 +33,16 @@ vtkSmartPointer<vtkIsodiamondBuilder> MakeBuilder(int model)
   builder->SetInputData(test::BallImage({ 33, 29, 31 }));
   builder->SetModel(model);
   return builder;
+}
+
+std::set<std::string> NamesOf(vtkDataObject* data)
+{
+  std::set<std::string> names;
+  for (int i = 0; i < data->GetFieldData()->GetNumberOfArrays(); ++i)
+  {
+    names.insert(data->GetFieldData()->GetAbstractArray(i)->GetName());
+  }
+  return names;
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> Extract(vtkAlgorithmOutput* hierarchy, double tolerance)
@@ -353,6 +366,81 @@ TEST(Hierarchy, IsNotCarriedAlongByMeshes)
   EXPECT_GT(hierarchy->GetFieldData()->GetNumberOfArrays(), 5); // it keeps its own
 }
 
+TEST(Hierarchy, MadeFromAnHDHasNothingOfIt)
+{
+  const auto scalars = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  const auto direct = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  vtkNew<vtkIsodiamondBuilder> indirect;
+  indirect->SetInputConnection(scalars->GetOutputPort());
+  indirect->SetModel(vtkIsodiamondHierarchy::MINIMAL);
+  direct->Update();
+  indirect->Update();
+  EXPECT_EQ(NamesOf(indirect->GetOutput()), NamesOf(direct->GetOutput()));
+  EXPECT_EQ(test::Difference(
+              Extract(indirect->GetOutputPort(), 0.1), Extract(direct->GetOutputPort(), 0.1)),
+    "");
+}
+
+TEST(Hierarchy, HDFromAnHDHasItsOwnDefaultsOfQueries)
+{
+  const auto first = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  vtkNew<vtkIsodiamondBuilder> second;
+  second->SetInputConnection(first->GetOutputPort());
+  second->SetModel(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  second->SetIsovalue(0.2);
+  second->SetShapeToIntervalVolume();
+  second->SetIsorange(0.1, 0.4);
+  second->ExactIsoverticesOff();
+  second->ComputeNormalsOn();
+  const auto messages = test::Watch(second);
+  second->Update();
+  EXPECT_EQ(messages->WarningCount, 1) << messages->Warnings; // an HD has no normals
+  vtkIsodiamondHierarchy* hierarchy = second->GetHierarchy();
+  EXPECT_EQ(hierarchy->GetIsovalue(), 0.2);
+  EXPECT_EQ(hierarchy->GetShape(), vtkIsodiamondHierarchy::INTERVAL_VOLUME);
+  EXPECT_EQ(NamesOf(second->GetOutput()), NamesOf(first->GetOutput()));
+  EXPECT_EQ(first->GetHierarchy()->GetIsovalue(), 0.0);
+  EXPECT_EQ(first->GetHierarchy()->GetShape(), vtkIsodiamondHierarchy::ISOSURFACE);
+  const auto direct = MakeBuilder(vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS);
+  direct->SetShapeToIntervalVolume();
+  direct->SetIsorange(0.1, 0.4);
+  direct->ExactIsoverticesOff();
+  EXPECT_EQ(
+    test::Difference(Extract(second->GetOutputPort(), 0.1), Extract(direct->GetOutputPort(), 0.1)),
+    "");
+}
+
+TEST(Hierarchy, IsReadAgainWhenItsArraysChange)
+{
+  const auto builder = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  builder->Update();
+  vtkIsodiamondHierarchy* hierarchy = builder->GetHierarchy();
+  vtkFieldData* fieldData = hierarchy->GetFieldData();
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputData(hierarchy);
+  const auto messages = test::Watch(extractor);
+  const auto update = [&]
+  {
+    extractor->Modified();
+    extractor->Update();
+    return extractor->GetOutput()->GetNumberOfCells();
+  };
+  const vtkIdType cells = update();
+  EXPECT_GT(cells, 100);
+  vtkDataArray* header = fieldData->GetArray("IsodiamondHeader");
+  header->SetTuple1(0, 99);
+  header->Modified();
+  EXPECT_EQ(update(), 0);
+  EXPECT_EQ(messages->ErrorCount, 1) << messages->Errors;
+  header->SetTuple1(0, 3);
+  header->Modified();
+  EXPECT_EQ(update(), cells);
+  fieldData->GetArray("IsodiamondIsovertices")->Initialize(); // its memory is gone
+  fieldData->GetArray("IsodiamondIsovertices")->Modified();
+  EXPECT_EQ(update(), 0);
+  EXPECT_EQ(messages->ErrorCount, 2) << messages->Errors;
+}
+
 TEST(Hierarchy, OfVersion2HasOneSidedDistancesAndAllPieces)
 {
   const auto builder = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
@@ -460,5 +548,22 @@ TEST(DiamondMesh, FillsTheDomainOnlyForHierarchiesThatHoldIt)
     }
     EXPECT_NE(output->GetCellData()->GetArray("Level"), nullptr);
     EXPECT_NE(output->GetCellData()->GetArray("Class"), nullptr);
+  }
+}
+
+TEST(DiamondMesh, HasThePrecisionThatIsAskedFor)
+{
+  const auto builder = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);
+  vtkNew<vtkDiamondMesh> mesh;
+  mesh->SetInputConnection(builder->GetOutputPort());
+  for (const auto& [precision, type] :
+    { std::array<int, 2>{ vtkAlgorithm::SINGLE_PRECISION, VTK_FLOAT },
+      { vtkAlgorithm::DOUBLE_PRECISION, VTK_DOUBLE },
+      { vtkAlgorithm::DEFAULT_PRECISION, VTK_DOUBLE } })
+  {
+    mesh->SetOutputPointsPrecision(precision);
+    mesh->Update();
+    EXPECT_GT(mesh->GetOutput()->GetNumberOfPoints(), 100);
+    EXPECT_EQ(mesh->GetOutput()->GetPoints()->GetDataType(), type);
   }
 }

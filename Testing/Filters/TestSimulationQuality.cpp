@@ -3,6 +3,7 @@
 // errors.
 #include "FilterTestTools.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -535,6 +536,36 @@ TEST(SimulationQuality, OfSurfacesNeedsTheDistanceMetric)
       std::string::npos);
     EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
   }
+}
+
+// An abort after the mesh was made, while its table of cells is counted.
+TEST(SimulationQuality, TellsNothingOfAMeshThatWasNotCompleted)
+{
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  volume->SetInputData(test::BallImage({ 17, 17, 17 }));
+  volume->SetIsorange(0.0, 10.0);
+  volume->SetErrorTolerance(0.5);
+  volume->SimulationQualityOn();
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      auto* filter = static_cast<vtkAlgorithm*>(caller);
+      const char* text = filter->GetProgressText();
+      filter->SetAbortExecute(text && std::string(text) == "Counting cells" ? 1 : 0);
+    });
+  const unsigned long observer = volume->AddObserver(vtkCommand::ProgressEvent, stop);
+  volume->Update();
+  EXPECT_EQ(volume->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(volume->GetAchievedTolerance(), 0.0);
+  EXPECT_EQ(volume->GetSmallestDihedralAngle(), 0.0);
+  EXPECT_EQ(volume->GetLargestDihedralAngle(), 0.0);
+  volume->RemoveObserver(observer);
+  volume->SetAbortExecute(0);
+  volume->Modified();
+  volume->Update();
+  EXPECT_EQ(volume->GetAchievedTolerance(), 0.5);
+  EXPECT_GT(volume->GetSmallestDihedralAngle(), 0.0);
 }
 
 TEST(SimulationQuality, OfNothingIsEmpty)

@@ -5,6 +5,7 @@
 #include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
 #include "Mesh/ExtractionPasses.h"
+#include "Mesh/PatchPoints.h"
 
 #include <array>
 #include <cstdint>
@@ -49,7 +50,7 @@ struct CutMesh
 /** The index in CutMesh::Tetrahedron::Cuts of the edge between two vertices. */
 inline constexpr int CutEdge(int younger, int older)
 {
-  return younger + older - (younger == 0 ? 1 : 0);
+  return EdgeByAge(younger, older) - EdgeByAge(0, 1);
 }
 
 /** The world positions of the vertices. */

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace isodiamond
@@ -19,18 +21,25 @@ public:
 
   CellsAtPoints() = default;
 
-  /** @param pointsOf (cell) -> its points, a range */
+  /** @param pointsOf (cell) -> its points, a range
+   *  @throws std::length_error if they are more than 2^32 - 1 */
   template <typename PointsOf>
   CellsAtPoints(std::size_t pointCount, std::size_t cellCount, PointsOf&& pointsOf)
     : First(pointCount + 1)
   {
     // Count, sum up, fill in.
+    std::uint64_t total = 0;
     for (std::size_t cell = 0; cell < cellCount; ++cell)
     {
       for (const std::uint32_t point : pointsOf(cell))
       {
         ++this->First[point + 1];
+        ++total;
       }
+    }
+    if (total > std::numeric_limits<std::uint32_t>::max())
+    {
+      throw std::length_error("A mesh for this may have 2^32 - 1 corners of cells at most.");
     }
     for (std::size_t i = 1; i < this->First.size(); ++i)
     {

@@ -97,7 +97,8 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
     const bool isBehind = (state == BelowLower && crossing.Surface == 1) ||
       (state == AboveUpper && crossing.Surface == 0);
     const Walls::Type common = CommonWalls(walls, this->Mesh.WallsOf(other));
-    if (isBehind || common != walls || !this->IsCut(vertex, other, crossing.Surface))
+    if (isBehind || common != walls || // or it would leave a wall
+      !this->IsCut(vertex, other, crossing.Surface))
     {
       continue;
     }
@@ -106,7 +107,7 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
     const double distance = std::sqrt(Dot(way, way) / Dot(edge, edge));
     if (distance < nearest.Distance || (distance == nearest.Distance && point < nearest.Point))
     {
-      nearest = { distance, vertex, point, crossing.Surface, common };
+      nearest = { distance, vertex, point, crossing.Surface };
     }
   }
   return nearest;
@@ -161,10 +162,6 @@ bool MovedVertices::ArePiecesPositive(std::uint32_t tetrahedron) const
 bool MovedVertices::TryToMove(const Goal& goal)
 {
   const std::uint32_t vertex = goal.Vertex;
-  if (goal.OnWalls != this->Mesh.WallsOf(vertex))
-  {
-    return false; // it would leave a wall
-  }
   const std::uint8_t state = this->States[vertex];
   const Vector position = this->Positions[vertex];
   this->States[vertex] = static_cast<std::uint8_t>(StateOn(goal.Surface));

@@ -39,7 +39,6 @@ private:
     std::uint32_t Vertex = 0;
     std::uint32_t Point = CutMesh::None;
     int Surface = 0;
-    isodiamond::Walls::Type OnWalls = 0; ///< that the isovertex is on
   };
 
   TetrahedronMesh PlacedPoints() const;
