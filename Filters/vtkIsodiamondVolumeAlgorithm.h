@@ -166,8 +166,8 @@ public:
 
   ///@{
   /**
-   * Up to how many MiB of hierarchies are kept besides those that the last execution used. The
-   * least recently used go first. Default: 512.
+   * Up to how many MiB of hierarchies, with the arrays at their points, are kept besides those that
+   * the last execution used. The least recently used go first. Default: 512.
    */
   vtkSetClampMacro(CacheSize, int, 0, VTK_INT_MAX);
   vtkGetMacro(CacheSize, int);

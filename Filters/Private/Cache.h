@@ -10,6 +10,7 @@
 #include "Private/Task.h"
 #include "Private/WorldQuery.h"
 
+#include "vtkDataArray.h"
 #include "vtkType.h"
 
 #include <cstdint>
@@ -113,9 +114,16 @@ private:
     /** 0 if an abort left nothing to show yet. */
     std::int64_t Bytes() const
     {
-      return this->Staged || this->Hierarchy
-        ? this->Current().StorageSize() + this->Current().DerivedSize()
-        : 0;
+      std::int64_t bytes = 0;
+      if (this->Staged || this->Hierarchy)
+      {
+        bytes = this->Current().StorageSize() + this->Current().DerivedSize();
+      }
+      for (vtkDataArray* array : this->StoredArrays)
+      {
+        bytes += array->GetNumberOfValues() * array->GetDataTypeSize();
+      }
+      return bytes;
     }
   };
 

@@ -148,12 +148,7 @@ bool MovedVertices::ArePiecesPositive(std::uint32_t tetrahedron) const
   const auto arePositive = [&](const std::vector<PatchTetrahedron>& pieces)
   {
     return std::all_of(pieces.begin(), pieces.end(),
-      [&](const PatchTetrahedron& piece)
-      {
-        const Corners points = this->CornersOf(tetrahedron, piece);
-        return SmallestSine(this->Mesh.PointAt(points[0]), this->Mesh.PointAt(points[1]),
-                 this->Mesh.PointAt(points[2]), this->Mesh.PointAt(points[3])) > 0.0;
-      });
+      [&](const PatchTetrahedron& piece) { return this->SineOf(tetrahedron, piece) > 0.0; });
   };
   const std::vector<std::vector<PatchTetrahedron>>& patches = this->PatchesOf(tetrahedron);
   return !isBent || patches.empty() || std::any_of(patches.begin(), patches.end(), arePositive);
@@ -208,6 +203,14 @@ Corners MovedVertices::CornersOf(std::uint32_t tetrahedron, const PatchTetrahedr
     this->PointOf(tetrahedron, piece[flip ? 2 : 3]) };
 }
 
+/** The smallest sine of a piece's dihedral angles. */
+double MovedVertices::SineOf(std::uint32_t tetrahedron, const PatchTetrahedron& piece) const
+{
+  const Corners points = this->CornersOf(tetrahedron, piece);
+  return SmallestSine(this->Mesh.PointAt(points[0]), this->Mesh.PointAt(points[1]),
+    this->Mesh.PointAt(points[2]), this->Mesh.PointAt(points[3]));
+}
+
 /** Of several ways to cut a leaf, the one whose worst piece is best. */
 std::uint8_t MovedVertices::BestPatch(std::uint32_t tetrahedron) const
 {
@@ -219,10 +222,7 @@ std::uint8_t MovedVertices::BestPatch(std::uint32_t tetrahedron) const
     double worst = HUGE_VAL;
     for (const PatchTetrahedron& piece : patches[i])
     {
-      const Corners points = this->CornersOf(tetrahedron, piece);
-      worst = std::min(worst,
-        SmallestSine(this->Mesh.PointAt(points[0]), this->Mesh.PointAt(points[1]),
-          this->Mesh.PointAt(points[2]), this->Mesh.PointAt(points[3])));
+      worst = std::min(worst, this->SineOf(tetrahedron, piece));
     }
     if (worst > best)
     {

@@ -42,6 +42,7 @@ private:
   };
 
   TetrahedronMesh PlacedPoints() const;
+  double SineOf(std::uint32_t tetrahedron, const PatchTetrahedron& piece) const;
   std::uint8_t BestPatch(std::uint32_t tetrahedron) const;
   Goal NearestTo(std::uint32_t vertex) const;
   bool TryToMove(const Goal& goal);
