@@ -20,7 +20,7 @@ namespace
 constexpr int MostPasses = 10;
 /** Tries in all passes, for this many that are bad before the first pass: where it is hopeless, as
  * a coarse mesh can be no better, there would be ever more. */
-constexpr std::size_t MostTries(std::size_t bad)
+constexpr std::size_t MostSearches(std::size_t bad)
 {
   return 1000 + 4 * bad;
 }
@@ -56,7 +56,7 @@ public:
   void Run(const ParallelFor& parallelFor)
   {
     std::vector<std::uint32_t> bad = WorstFirst(this->Mesh, this->Wanted);
-    std::size_t triesLeft = MostTries(bad.size());
+    std::size_t triesLeft = MostSearches(bad.size());
     for (int pass = 0; pass < MostPasses; ++pass)
     {
       if (bad.size() > triesLeft)
