@@ -57,6 +57,17 @@ assert table["Triangles at tolerance 0"] == full, table
 assert full > table["Triangles at tolerance 0.1"] > table["Triangles at tolerance 0.5"] > coarse
 
 
+# ParaView's panels have no widget for ids.
+for proxy in (contour, IsodiamondIntervalVolume(wavelet), IsodiamondHierarchy(wavelet)):
+    properties = proxy.SMProxy.NewPropertyIterator()
+    properties.UnRegister(None)
+    while not properties.IsAtEnd():
+        shown = properties.GetProperty()
+        isOfIds = shown.IsA("vtkSMIdTypeVectorProperty") and not shown.GetInformationOnly()
+        assert not isOfIds, properties.GetKey()
+        properties.Next()
+
+
 # The viewpoint is found for each axis by itself: the same number on two of them changes neither.
 long = Wavelet(WholeExtent=[0, 140, -10, 10, -10, 10])
 long.UpdatePipeline()
