@@ -112,11 +112,11 @@ double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
 {
   double largest = 0.0;
   vtkSmartPointer<vtkDataObject> input = this->GetInput();
-  const bool isDistance = this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE;
   vtkInformation* information =
     this->GetNumberOfInputConnections(0) > 0 ? this->GetInputInformation(0, 0) : nullptr;
   // Not what the plan was made for, if there is another input since.
-  if (isDistance && this->Plan->IsAPart() && vtkIsodiamond::HasWholeImage(information))
+  if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && this->Plan->IsAPart() &&
+    vtkIsodiamond::HasWholeImage(information))
   {
     input = vtkIsodiamond::WholeImage(information);
   }
@@ -124,9 +124,7 @@ double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
   {
     const double inUnits = vtkIsodiamond::LargestTolerance(
       static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), grid, this->FindInputArray(grid));
-    const double unit =
-      isDistance && this->ToleranceUnit == VOXELS ? vtkIsodiamond::VoxelOf(grid) : 0.0;
-    largest = std::max(largest, inUnits / this->GetUnit(unit));
+    largest = std::max(largest, inUnits / this->GetUnit(vtkIsodiamond::VoxelOf(grid)));
   }
   this->ErrorToleranceRange[1] = largest > 0.0 ? largest : 1.0;
   return this->ErrorToleranceRange;

@@ -11,11 +11,11 @@
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationExecutivePortKey.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <vtksys/SystemInformation.hxx>
 
@@ -30,8 +30,6 @@ namespace vtkIsodiamond
 {
 namespace
 {
-
-using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 /** The bytes that the image's samples take, of the type that upstream states, else as floats. */
 double BytesOf(vtkInformation* input)
@@ -103,8 +101,7 @@ bool HasFailed(vtkInformation* input)
 
 void SlabPlan::Request(vtkInformation* input, vtkInformation* output, int blocks)
 {
-  const bool isImage =
-    input && vtkImageData::GetData(input) && input->Has(Pipeline::WHOLE_EXTENT());
+  const bool isImage = HasWholeImage(input);
   const int peers = isImage ? ControllerPeers::CountOf(output) : 1;
   this->Peers.reset();
   if (peers > 1)

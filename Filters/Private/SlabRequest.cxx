@@ -63,7 +63,7 @@ std::array<int, 3> WholeDimensionsOf(vtkInformation* input)
 bool HasWholeImage(vtkInformation* input)
 {
   return input != nullptr && vtkImageData::GetData(input) != nullptr &&
-    input->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
+    input->Has(Pipeline::WHOLE_EXTENT());
 }
 
 vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input)
