@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Layers, formatting and static analysis. Any finding is a failure.
+# Layers, formatting, the classes' documentation and static analysis. Any finding is a failure.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -11,6 +11,9 @@ python3 scripts/check-layers.py
 
 echo "clang-format"
 git ls-files '*.h' '*.cpp' '*.cxx' | xargs clang-format --dry-run -Werror
+
+echo "Doxygen"
+docs/doxygen.sh "$build/doxygen" >/dev/null
 
 echo "clang-tidy"
 if [ ! -f "$build/compile_commands.json" ]; then

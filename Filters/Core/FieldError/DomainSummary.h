@@ -133,7 +133,7 @@ class FiniteExtremes
 public:
   /** @param withRange std::true_type or std::false_type: whether the sample counts for the range */
   template <typename WithRange>
-  void Add(double sample, double interpolated, WithRange /*withRange*/)
+  void Add(double sample, double interpolated, [[maybe_unused]] WithRange withRange)
   {
     const double error = std::fabs(sample - interpolated);
     this->Error = error > this->Error ? error : this->Error;
