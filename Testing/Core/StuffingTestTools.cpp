@@ -193,7 +193,7 @@ ImprovementOptions OptionsFor(const TetrahedronMesh& mesh, double wantedAngle)
   for (const Vector& position : mesh.Positions)
   {
     options.CutEdges.push_back(
-      { position - Vector{ 0.5, 0.0, 0.0 }, position + Vector{ 0.5, 0.0, 0.0 } });
+      { position - Vector{ 0.5, 0.0, 0.0 }, position + Vector{ 0.5, 0.0, 0.0 }, 1.0 });
   }
   return options;
 }

@@ -121,6 +121,25 @@ TEST(GridGeometry, OfAxesIsThatOfTheSamePositions)
   }
 }
 
+TEST(GridGeometry, IndexAtIsTheWayBack)
+{
+  AffineMap map;
+  map.Rows = { { { 0.5, 0.2, 0.0, 7.0 }, { -0.1, 2.0, 0.3, 8.0 }, { 0.0, 0.1, -3.0, 9.0 } } };
+  const AxisCoordinates axes = { { { 0.0, 1.0, 1.5, 4.0, 4.25 }, { 3.0, 2.0, -5.0, -6.0 },
+    { 0.0, 0.1, 0.3, 0.6, 5.0, 5.5 } } };
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 7.0);
+  for (const GridGeometry& world : { GridGeometry(map), GridGeometry(axes), GridGeometry(axes, 1) })
+  {
+    for (int i = 0; i < 200; ++i)
+    {
+      const Vector index = i < 6 ? Vector{ 1.0 * i, 1.0 * i, 1.0 * i }
+                                 : Vector{ uniform(random), uniform(random), uniform(random) };
+      ExpectNear(world.IndexAt(world(index)), index);
+    }
+  }
+}
+
 TEST(GridGeometry, SmallestStepIsTheLeastOfAnyAxis)
 {
   AffineMap map;

@@ -371,6 +371,51 @@ TEST(Stuffing, IsTheSameWhereCoordinatesAreThoseOfAnAffineMap)
   EXPECT_TRUE(mapped.Mesh.Positions == listed.Mesh.Positions);
 }
 
+// Steep edges that a surface cuts are nearly parallel to walls there.
+TEST(Stuffing, StaysInTheGridWhereSpacingsDiffer)
+{
+  std::size_t shifts = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed)
+  {
+    const test::Field field = test::NoiseField({ 6, 6, 6 }, seed);
+    const double step = seed % 2 == 0 ? 4.0 : 10.0;
+    const AffineMap map = test::Spacing(1.0, 1.0, step);
+    AxisCoordinates axes;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (int i = 0; i < field.Dims[axis]; ++i)
+      {
+        axes[axis].push_back(map.Rows[axis][axis] * (axis == 2 ? i * i : i));
+      }
+    }
+    BuildOptions options = test::Distance();
+    options.World = seed <= 2 ? GridGeometry(map) : GridGeometry(axes);
+    const test::Built built(
+      BuildIsodiamonds(Model::Minimal, field.View(), { 3.7, HUGE_VAL }, SerialFor, options),
+      SerialFor);
+    Query query;
+    query.Tolerance = 1.0;
+    const test::Stuffed stuffed(*built.Hierarchy, query, options.World);
+    shifts += stuffed.Shifted().size();
+    const test::Volume volume = stuffed.AsVolume();
+    const Vector first = options.World({ 0.0, 0.0, 0.0 });
+    const Vector last = options.World({ 5.0, 5.0, 5.0 });
+    for (const auto& point : volume.Points)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_GE(point[axis], first[axis] - 1e-9) << seed;
+        EXPECT_LE(point[axis], last[axis] + 1e-9) << seed;
+      }
+    }
+    for (const Corners& corners : stuffed.Mesh.Tetrahedra)
+    {
+      EXPECT_GT(SmallestSine(stuffed.Mesh, corners), 0.0);
+    }
+  }
+  EXPECT_GT(shifts, 10U);
+}
+
 TEST(Stuffing, LeavesOutWhatIsHidden)
 {
   const test::Field field = test::SphereField({ 17, 17, 17 });

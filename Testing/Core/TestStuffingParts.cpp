@@ -316,7 +316,7 @@ TEST(SurfaceChanges, StayNearByTheHeightOfWhatGoes)
 
 TEST(SurfaceChanges, ShiftPointsInASpindleAwayFromWhatIsBeyondOrToTheMiddle)
 {
-  const CutSide edge{ { 1.0, 2.0, 0.0 }, { 1.0, 2.0, 2.0 } };
+  const CutSide edge{ { 1.0, 2.0, 0.0 }, { 1.0, 2.0, 2.0 }, 2.0 };
   const auto canBe = [&](double before, double aside, double after) {
     return IsBeside(edge, { 1.0, 2.0, before }, { 1.0 + aside, 2.0, after });
   };
@@ -479,7 +479,7 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
     options.CutEdges = { edge, {}, {}, {} };
     return Improve(flat, options, SerialFor);
   };
-  const CutSide rising{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+  const CutSide rising{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, 1.0 };
   const TetrahedronMesh round = improve(0.2, rising);
   EXPECT_GE(DihedralAngles(round)[0], options.WantedAngle);
   ASSERT_EQ(round.Blended.size(), 1U);
@@ -493,12 +493,12 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
   for (const auto& [move, length] : { std::pair(0.04, 1.0), std::pair(0.2, 0.16) })
   {
     const TetrahedronMesh better =
-      improve(move, { { 0.0, 0.0, 0.04 }, { 0.0, 0.0, 0.04 + length } });
+      improve(move, { { 0.0, 0.0, 0.04 }, { 0.0, 0.0, 0.04 + length }, length });
     EXPECT_GT(DihedralAngles(better)[0], DihedralAngles(flat)[0]);
     EXPECT_LE(better.Positions.back()[2], 0.09 + 1e-12);
   }
   // Not towards the end beyond, and not at all if the edge is unknown.
-  const TetrahedronMesh aside = improve(0.2, { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.06 } });
+  const TetrahedronMesh aside = improve(0.2, { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.06 }, 0.06 });
   ASSERT_EQ(aside.Positions.size(), 5U);
   EXPECT_LE(aside.Positions[4][2], 0.05);
   EXPECT_GT(DihedralAngles(aside)[0], DihedralAngles(flat)[0]);

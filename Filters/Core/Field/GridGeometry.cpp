@@ -26,6 +26,17 @@ Vector AlongAxes(const AxisCoordinates& coordinates, const CellPosition& positio
   return along;
 }
 
+/** The index at which an axis has a coordinate. @param coordinates that rise or fall */
+double IndexOn(const std::vector<double>& coordinates, double coordinate)
+{
+  const bool falls = coordinates.front() > coordinates.back();
+  const auto next = std::lower_bound(coordinates.begin() + 1, coordinates.end() - 1, coordinate,
+    [falls](double a, double b) { return falls ? a > b : a < b; });
+  const double before = *(next - 1);
+  return static_cast<double>(next - 1 - coordinates.begin()) +
+    (coordinate - before) / (*next - before);
+}
+
 }
 
 std::array<int, 3> GridGeometry::Dimensions() const
@@ -81,6 +92,21 @@ Vector GridGeometry::operator()(const Vector& index) const
       }
     });
   return position;
+}
+
+Vector GridGeometry::IndexAt(const Vector& position) const
+{
+  if (const AffineMap* map = this->Affine())
+  {
+    return map->Inverse(position);
+  }
+  const auto& axes = std::get<AxisCoordinates>(this->Map);
+  Vector index{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    index[axis] = this->Shift + IndexOn(axes[axis], position[axis]);
+  }
+  return index;
 }
 
 std::array<Vector, 3> GridGeometry::DerivativesAt(const Point& sample) const

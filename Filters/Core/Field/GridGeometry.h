@@ -60,6 +60,10 @@ public:
   /** The world position of a position in index space. */
   Vector operator()(const Vector& index) const;
 
+  /** The position in index space of one in the world; not for a curvilinear grid. Not a number
+   *  where samples coincide. */
+  Vector IndexAt(const Vector& position) const;
+
   /** The derivatives of the position with respect to the index on each axis, at a sample: central
    *  differences, one-sided at the grid's ends. */
   std::array<Vector, 3> DerivativesAt(const Point& sample) const;

@@ -442,17 +442,20 @@ private:
     {
       return 0.0;
     }
-    const CutSide& edge = this->Options.CutEdges[source];
-    const Vector along = edge.Beyond - edge.Inside;
-    return std::min(this->Options.SurfaceMove, MostOfEdge * std::sqrt(Dot(along, along)));
+    return std::min(this->Options.SurfaceMove, MostOfEdge * this->Options.CutEdges[source].Length);
   }
   bool MayShift(std::uint32_t point, const Vector& place) const
   {
     const double most = this->MostShift(point);
     const std::uint32_t source = this->Mesh.SourceOf(point);
-    const Vector way = place - this->Mesh.At(source);
-    return most > 0.0 && Dot(way, way) <= most * most &&
-      IsBeside(this->Options.CutEdges[source], this->Mesh.At(source), place);
+    const Vector& from = this->Mesh.At(source);
+    return most > 0.0 && Dot(place - from, place - from) <= most * most &&
+      IsBeside(this->Options.CutEdges[source], this->InLattice(from), this->InLattice(place));
+  }
+  /** A place where cut edges are. */
+  Vector InLattice(const Vector& place) const
+  {
+    return this->Options.World != nullptr ? this->Options.World->IndexAt(place) : place;
   }
 
   void TryToShift(std::uint32_t point)

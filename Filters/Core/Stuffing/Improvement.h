@@ -2,6 +2,7 @@
 #ifndef isodiamond_Improvement_h
 #define isodiamond_Improvement_h
 
+#include "Field/GridGeometry.h"
 #include "Field/Parallel.h"
 #include "Stuffing/KnownChanges.h"
 #include "Stuffing/SurfaceChanges.h"
@@ -20,6 +21,8 @@ struct ImprovementOptions
   /** By point: the edge that a surface cuts there. Points on surfaces move only if these are known.
    */
   std::vector<CutSide> CutEdges = {};
+  /** From index space, where cut edges are, to the world; null if that is where they are. */
+  const GridGeometry* World = nullptr;
   /** The directions in which points on the grid's boundary can move, by axis; 0 for not at all. */
   std::array<Vector, 3> Axes{};
 };

@@ -55,9 +55,20 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
   return axes;
 }
 
-/** The cut edges of isovertices, by point. */
-std::vector<CutSide> CutEdgesOf(const Background& background)
+/** Whether a grid has axes, and not just positions. */
+bool HasAxes(const GridGeometry& world)
 {
+  return world.Affine() != nullptr || world.Axes() != nullptr;
+}
+
+/** The cut edges of isovertices, by point. */
+std::vector<CutSide> CutEdgesOf(const Background& background, bool inIndexSpace)
+{
+  const auto placeOf = [&](std::uint32_t vertex) -> Vector
+  {
+    const auto [x, y, z] = background.Leaves().Vertices[vertex].Position;
+    return inIndexSpace ? Vector{ 1.0 * x, 1.0 * y, 1.0 * z } : background.PositionOf(vertex);
+  };
   std::vector<CutSide> edges(background.AllCrossings().size());
   for (std::size_t point = 0; point < edges.size(); ++point)
   {
@@ -68,8 +79,9 @@ std::vector<CutSide> CutEdgesOf(const Background& background)
       const std::vector<CutMesh::Vertex>& vertices = background.Leaves().Vertices;
       const bool isRising = vertices[younger].Sign < vertices[older].Sign;
       const bool isOlderInside = isRising == (crossing.Surface == 0);
-      edges[point] = { background.PositionOf(isOlderInside ? older : younger),
-        background.PositionOf(isOlderInside ? younger : older) };
+      const Vector way = background.PositionOf(older) - background.PositionOf(younger);
+      edges[point] = { placeOf(isOlderInside ? older : younger),
+        placeOf(isOlderInside ? younger : older), std::sqrt(Dot(way, way)) };
     }
   }
   return edges;
@@ -123,7 +135,8 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;
   options.Axes = AxesOf(input.World);
-  options.CutEdges = CutEdgesOf(background);
+  options.World = HasAxes(input.World) ? &input.World : nullptr;
+  options.CutEdges = CutEdgesOf(background, options.World != nullptr);
   StuffedMesh result;
   result.Mesh = Improve(std::move(meshes.Stuffed), options, parallelFor, known);
   if (getsCoarser)

@@ -19,17 +19,18 @@ bool StaysNear(const LocalMesh& mesh, std::uint32_t from, std::uint32_t to, doub
 bool CanTurn(const LocalMesh& mesh, std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring,
   double distance);
 
-/** An edge that a surface cuts. */
+/** An edge that a surface cuts, in index space. On a curvilinear grid, in the world. */
 struct CutSide
 {
   Vector Inside{}; ///< the end on the volume's side
   Vector Beyond{};
+  double Length = 0.0; ///< in the world
 };
 
 /** Whether an isovertex may be at a place beside its edge: in a spindle around the edge, which
  *  meets those of the lattice's other edges, and the grid's boundary, at its ends only, so that
  *  sheets stay apart; and no nearer to the end beyond than it is now, or than the edge's middle.
- *  Where spacings differ, spindles may overlap. */
+ *  That is so in index space: on a curvilinear grid spindles may overlap. */
 bool IsBeside(const CutSide& edge, const Vector& from, const Vector& to);
 
 /** Whether a point on a surface can move to a place: this folds no boundary triangle around it. */

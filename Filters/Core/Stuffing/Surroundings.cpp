@@ -8,7 +8,7 @@ namespace isodiamond
 {
 Surroundings::Surroundings(
   const LocalMesh& whole, const ImprovementOptions& options, std::uint32_t tetrahedron)
-  : TheOptions{ options.WantedAngle, options.SurfaceMove, {}, options.Axes }
+  : TheOptions{ options.WantedAngle, options.SurfaceMove, {}, options.World, options.Axes }
   , TheMesh(this->CopyOf(whole, options, tetrahedron))
 {
 }
