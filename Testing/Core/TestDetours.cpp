@@ -162,14 +162,13 @@ TEST(Detours, MakeTheWorstNoWorse)
     }
     noisy.Options.CutEdges.clear();
     const double wanted = WantedSine(noisy.Options);
-    LocalMesh mesh(noisy.Stuffed.Mesh);
-    const std::vector<std::uint32_t> before = WorstFirst(mesh, wanted);
-    const double worst = mesh.SineOf(before.at(0));
-    TakeDetours(mesh, noisy.Options, SerialFor);
-    const std::vector<std::uint32_t> after = WorstFirst(mesh, wanted);
+    const LocalMesh start(noisy.Stuffed.Mesh);
+    const std::vector<std::uint32_t> before = WorstFirst(start, wanted);
+    noisy.Stuffed.Mesh = TakeDetours(noisy.Stuffed.Mesh, noisy.Options, SerialFor);
+    const LocalMesh end(noisy.Stuffed.Mesh);
+    const std::vector<std::uint32_t> after = WorstFirst(end, wanted);
     helped += before.size() - std::min(before.size(), after.size());
-    EXPECT_TRUE(after.empty() || mesh.SineOf(after[0]) >= worst);
-    noisy.Stuffed.Mesh = mesh.Take();
+    EXPECT_TRUE(after.empty() || end.SineOf(after[0]) >= start.SineOf(before.at(0)));
     for (Vector& position : noisy.Stuffed.Mesh.Positions)
     {
       position[2] /= Squeezed;

@@ -7,6 +7,7 @@
 #include "Patches/IntervalPatches.h"
 #include "Stuffing/Background.h"
 #include "Stuffing/BestPlace.h"
+#include "Stuffing/Detours.h"
 #include "Stuffing/Improvement.h"
 #include "Stuffing/LocalMesh.h"
 #include "Stuffing/RingFilling.h"
@@ -477,7 +478,7 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
   {
     options.SurfaceMove = move;
     options.CutEdges = { edge, {}, {}, {} };
-    return Improve(flat, options, SerialFor);
+    return TakeDetours(Improve(flat, options, SerialFor), options, SerialFor);
   };
   const CutSide rising{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, 1.0 };
   const TetrahedronMesh round = improve(0.2, rising);

@@ -20,8 +20,7 @@ constexpr int DetourPasses = 4;
 ///@{
 /** Changes that are tried at one place, and in all: some, and this many more for each tetrahedron
  * that is good thanks to them; they take half of that. Where a mesh is too coarse to be better, it
- * ends soon; and where steps on the axes differ, and much is bad, it takes no longer than single
- * changes do. */
+ * ends soon; and where steps on the axes differ, and much is bad, there is a limit. */
 constexpr std::int64_t TriesAtOnePlace(int pass)
 {
   return std::int64_t{ 1000 } << pass;
@@ -30,7 +29,7 @@ constexpr std::int64_t FirstTries = 4000;
 constexpr std::int64_t TriesForOneMore = 200;
 constexpr std::int64_t MostTries(std::size_t tetrahedra)
 {
-  return 2000 + static_cast<std::int64_t>(tetrahedra / 5);
+  return 4000 + static_cast<std::int64_t>(tetrahedra / 2);
 }
 ///@}
 /** Random changes at the beginning of an attempt: 1 to this many. */
@@ -229,9 +228,9 @@ private:
   std::vector<int> TakenIn; ///< by point: the last turn that it was in
 };
 
-}
-
-void TakeDetours(LocalMesh& mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
+/** See Detours.h. */
+void ImproveByDetours(
+  LocalMesh& mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
 {
   const double wanted = WantedSine(options);
   ApartSurroundings apart(mesh, options);
@@ -263,6 +262,16 @@ void TakeDetours(LocalMesh& mesh, const ImprovementOptions& options, const Paral
       waiting = WorstFirst(mesh, wanted, std::move(waiting)); // some are good by now, or gone
     }
   }
+}
+
+}
+
+TetrahedronMesh TakeDetours(
+  TetrahedronMesh mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
+{
+  LocalMesh local(std::move(mesh));
+  ImproveByDetours(local, options, parallelFor);
+  return local.Take();
 }
 
 }

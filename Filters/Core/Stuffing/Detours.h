@@ -4,14 +4,13 @@
 
 #include "Field/Parallel.h"
 #include "Stuffing/Improvement.h"
-#include "Stuffing/LocalMesh.h"
 
 namespace isodiamond
 {
 
 /**
- * Improves bad tetrahedra that no single change improves, by several changes, the first of which
- * make things worse.
+ * Improves the bad tetrahedra of a mesh that no single change improves, by several changes, the
+ * first of which make things worse.
  *
  * On a copy of what is around a bad one, one to three random changes are made, and then those that
  * Improvement.h would make next, until it finds no more. The best of many such attempts, each from
@@ -19,8 +18,8 @@ namespace isodiamond
  * tetrahedron no worse. The search ends when attempts have not helped for too long. The random
  * numbers are the same each time: the result depends on nothing but the mesh.
  */
-void TakeDetours(
-  LocalMesh& mesh, const ImprovementOptions& options, const ParallelFor& parallelFor);
+TetrahedronMesh TakeDetours(
+  TetrahedronMesh mesh, const ImprovementOptions& options, const ParallelFor& parallelFor);
 
 }
 

@@ -3,7 +3,6 @@
 
 #include "Stuffing/BestChange.h"
 #include "Stuffing/ChangeNotes.h"
-#include "Stuffing/Detours.h"
 #include "Stuffing/LocalMesh.h"
 #include "Stuffing/Shortfall.h"
 
@@ -79,12 +78,6 @@ public:
     }
   }
 
-  /** Improves what is left, for which no single change does anything. */
-  void TakeDetours(const ParallelFor& parallelFor)
-  {
-    isodiamond::TakeDetours(this->Mesh, this->Options, parallelFor);
-  }
-
   TetrahedronMesh Take() { return this->Mesh.Take(); }
 
 private:
@@ -150,7 +143,6 @@ TetrahedronMesh Improve(TetrahedronMesh mesh, const ImprovementOptions& options,
   Improver improver(std::move(mesh), options, known);
   improver.DoKnown(parallelFor);
   improver.Run(parallelFor);
-  improver.TakeDetours(parallelFor);
   return improver.Take();
 }
 

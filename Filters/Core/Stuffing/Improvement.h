@@ -40,8 +40,8 @@ double WantedSine(const ImprovementOptions& options);
  * these helps, an edge gets a point in its middle, which is moved. No change makes the worst one
  * worse. Points on surfaces stay where they are, or are removed, unless all of that fails: where
  * sheets nearly touch there is no room for good shapes, so such a point is moved off its surface
- * (SurfaceChanges.h), as a new point. What is left in the end needs several changes at once
- * (Detours.h).
+ * (SurfaceChanges.h), as a new point. What is left in the end needs several changes at once, which
+ * Detours.h looks for.
  *
  * Known changes come first, in their order, then the worst tetrahedra; the result depends on
  * nothing but the mesh and what is known. The topology is kept

@@ -192,18 +192,25 @@ void LocalMesh::NoteShares(std::uint32_t point, const std::vector<Share>& shares
   {
     for (const Share& part : this->SharesOf(share.Point))
     {
-      const auto same = std::find_if(
-        all.begin(), all.end(), [&](const Share& known) { return known.Point == part.Point; });
-      if (same != all.end())
-      {
-        same->Part += share.Part * part.Part;
-      }
-      else
-      {
-        all.push_back({ part.Point, share.Part * part.Part });
-      }
+      all.push_back({ part.Point, share.Part * part.Part });
     }
   }
+  // One for each point. There can be hundreds, where points move often.
+  std::stable_sort(
+    all.begin(), all.end(), [](const Share& a, const Share& b) { return a.Point < b.Point; });
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < all.size(); ++i)
+  {
+    if (all[i].Point == all[kept].Point)
+    {
+      all[kept].Part += all[i].Part;
+    }
+    else
+    {
+      all[++kept] = all[i];
+    }
+  }
+  all.resize(std::min(kept + 1, all.size()));
   if (this->BlendOf[point] == None)
   {
     this->BlendOf[point] = static_cast<std::uint32_t>(this->TheMesh.Blended.size());

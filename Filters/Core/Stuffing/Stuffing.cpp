@@ -3,10 +3,12 @@
 
 #include "Stuffing/Background.h"
 #include "Stuffing/Coarsening.h"
+#include "Stuffing/Detours.h"
 #include "Stuffing/Improvement.h"
 #include "Stuffing/MovedVertices.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +19,9 @@ namespace
 
 /** In degrees; a little more than is promised to be tried for, as coordinates get rounded. */
 constexpr double WantedAngle = 15.5;
+
+/** This many tetrahedra are worth a thread. */
+constexpr std::int64_t LeastRange = 2048;
 
 Walls::Type WallsOf(const CutMesh::Vertex& vertex, const Grid& grid)
 {
@@ -106,6 +111,23 @@ BothMeshes CutLeaves(const Background& background, bool withPlain, const Paralle
   return meshes;
 }
 
+/** Whether a mesh has angles that are not as wanted. */
+bool HasBad(
+  const TetrahedronMesh& mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
+{
+  std::atomic<bool> hasBad = false;
+  const double wanted = WantedSine(options);
+  ForEachIndex(parallelFor, mesh.Tetrahedra.size(), LeastRange,
+    [&](std::int64_t i)
+    {
+      if (SmallestSine(mesh, mesh.Tetrahedra[i]) < wanted)
+      {
+        hasBad = true;
+      }
+    });
+  return hasBad;
+}
+
 bool HasFixedVertex(const CutMesh& leaves, std::uint32_t leaf)
 {
   const auto& vertices = leaves.Tetrahedra[leaf].Vertices;
@@ -137,14 +159,26 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   options.Axes = AxesOf(input.World);
   options.World = HasAxes(input.World) ? &input.World : nullptr;
   options.CutEdges = CutEdgesOf(background, options.World != nullptr);
+  CoarseningInput coarsening{ meshes.Plain, input.Allowances, input.CanBeFiner, input.KeepsInside };
+  coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
+  coarsening.Axes = options.Axes;
   StuffedMesh result;
   result.Mesh = Improve(std::move(meshes.Stuffed), options, parallelFor, known);
+  if (HasBad(result.Mesh, options, parallelFor))
+  {
+    // Detours are long: they wait until nothing else needs a finer mesh.
+    if (getsCoarser)
+    {
+      result.FarLeaves = FarLeaves(result.Mesh, coarsening, parallelFor);
+    }
+    if (!result.FarLeaves.empty())
+    {
+      return result;
+    }
+    result.Mesh = TakeDetours(std::move(result.Mesh), options, parallelFor);
+  }
   if (getsCoarser)
   {
-    CoarseningInput coarsening{ meshes.Plain, input.Allowances, input.CanBeFiner,
-      input.KeepsInside };
-    coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
-    coarsening.Axes = options.Axes;
     result.FarLeaves = Coarsen(result.Mesh, coarsening, parallelFor);
   }
   return result;
