@@ -297,6 +297,12 @@ void vtkIsodiamondBuilder::BuildFromImage(
   const isodiamond::Isoregion region = choice.Region();
   const vtkIsodiamond::Volume volume =
     vtkIsodiamond::ReadVolume(image, this->FindInputArray(image), this->ClosesBoundary());
+  if (volume.Hidden.Any())
+  {
+    vtkWarningMacro(
+      "Blanked and ghost cells are in the hierarchy like all others: only the filters "
+      "that make a mesh from an image in one step leave them out.");
+  }
   const isodiamond::AffineMap& world = *volume.Placement.World.Affine(); // as all images'
   if (this->Model == vtkIsodiamondHierarchy::HIERARCHY_OF_DIAMONDS)
   {

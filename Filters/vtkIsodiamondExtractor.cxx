@@ -375,7 +375,8 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
     return vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles, cellsAt);
   }
   const double guess = isUniform ? found.Tolerance : 0.01 * codes.Scale();
-  return vtkIsodiamond::LeastToleranceBelow(guess, this->TargetNumberOfTriangles, cellsAt);
+  return vtkIsodiamond::LeastToleranceBelow(
+    guess, codes.Scale(), this->TargetNumberOfTriangles, cellsAt);
 }
 
 //------------------------------------------------------------------------------

@@ -321,10 +321,11 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
     counts.push_back(
       &this->Hierarchies->Count(volume, regions[i], need, query.InteriorTolerance, part));
   }
-  const bool isUniform = !(query.Region || query.View);
+  // Counts are those of uniform meshes of the whole grid.
+  const bool isCounted = !query.Region && !query.View && !volume.Hidden.Any();
   const bool getsCoarser =
     !hierarchies.empty() && vtkIsodiamond::GetsCoarser(query, hierarchies.front()->Header().Metric);
-  if (hierarchies.empty() || (isUniform && !getsCoarser))
+  if (hierarchies.empty() || (isCounted && !getsCoarser))
   {
     return vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles);
   }
@@ -345,12 +346,12 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
     }
     return cells;
   };
+  const isodiamond::ErrorCode& codes = hierarchies.front()->Codes();
   return getsCoarser
     ? vtkIsodiamond::LeastToleranceBelow(
         vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles).Tolerance,
-        this->TargetNumberOfTriangles, cellsAt)
-    : vtkIsodiamond::LeastTolerance(
-        hierarchies.front()->Codes(), this->TargetNumberOfTriangles, cellsAt);
+        codes.Scale(), this->TargetNumberOfTriangles, cellsAt)
+    : vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles, cellsAt);
 }
 
 //------------------------------------------------------------------------------
@@ -379,9 +380,11 @@ void vtkIsodiamondVolumeAlgorithm::WriteTable(const vtkIsodiamond::Volume& volum
   vtkDataObject* output)
 {
   const vtkIsodiamond::Cache::Need need = NeedOf(query);
-  if (!need.AllErrors)
+  // Without all errors: as if they were not known, even if they are, since the mesh is that of a
+  // new filter. Where cells are hidden, counts are too high.
+  if (!need.AllErrors || volume.Hidden.Any())
   {
-    return; // as if errors were not known, even if they are: the mesh is that of a new filter
+    return;
   }
   std::vector<const isodiamond::CellCounts*> counts;
   for (const isodiamond::Isoregion& region : this->GetRegions())

@@ -8,6 +8,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -114,18 +115,21 @@ namespace
 /** Tolerances that differ by a factor. */
 constexpr double TargetStep = 4.0;
 
-/** A tolerance with few enough cells. The last one is at least a million times the guess. */
-CountedTolerance FirstWithFew(CountedTolerance tried, std::int64_t target,
-  const std::function<std::int64_t(double tolerance)>& cellsAt, double& many)
+/** Goes up to a tolerance with few enough cells. @param many a tolerance with too many; afterwards
+ *  one that is nearer @param last that may be tried, with few enough */
+CountedTolerance FirstWithFew(double& many, const CountedTolerance& last, std::int64_t target,
+  const std::function<std::int64_t(double tolerance)>& cellsAt)
 {
-  constexpr int steps = 10;
-  for (int i = 0; i < steps && tried.Cells > target && tried.Tolerance > 0.0; ++i)
+  for (double tolerance = TargetStep * many; tolerance < last.Tolerance; tolerance *= TargetStep)
   {
-    many = tried.Tolerance;
-    tried.Tolerance *= TargetStep;
-    tried.Cells = cellsAt(tried.Tolerance);
+    const CountedTolerance tried{ tolerance, cellsAt(tolerance) };
+    if (tried.Cells <= target)
+    {
+      return tried;
+    }
+    many = tolerance;
   }
-  return tried;
+  return last;
 }
 
 /** Goes down as long as there are few cells; down to 0, if need be: below some tolerance,
@@ -151,31 +155,43 @@ CountedTolerance LastWithFew(CountedTolerance few, std::int64_t target,
 
 }
 
-CountedTolerance LeastToleranceBelow(
-  double guess, std::int64_t target, const std::function<std::int64_t(double tolerance)>& cellsAt)
+CountedTolerance LeastToleranceBelow(double guess, double largest, std::int64_t target,
+  const std::function<std::int64_t(double tolerance)>& cellsAt)
 {
   constexpr int bisections = 6;
-  double many = 0.0; // a tolerance with too many cells, once there is one
-  CountedTolerance few = FirstWithFew({ guess, cellsAt(guess) }, target, cellsAt, many);
-  if (guess == 0.0 || few.Cells > target)
+  const auto at = [&](double tolerance) {
+    return CountedTolerance{ tolerance, cellsAt(tolerance) };
+  };
+  CountedTolerance few = at(std::min(guess, largest));
+  if (few.Tolerance == 0.0)
   {
     return few;
   }
-  if (many == 0.0)
+  double many = 0.0; // a tolerance with too many cells, once there is one
+  if (few.Cells <= target)
   {
     few = LastWithFew(few, target, cellsAt, many);
   }
+  else
+  {
+    const CountedTolerance last = few.Tolerance < largest ? at(largest) : few;
+    if (last.Cells > target)
+    {
+      return last;
+    }
+    many = few.Tolerance;
+    few = FirstWithFew(many, last, target, cellsAt);
+  }
   for (int i = 0; i < bisections && many > 0.0; ++i)
   {
-    const double tolerance = std::sqrt(many * few.Tolerance);
-    const CountedTolerance tried{ tolerance, cellsAt(tolerance) };
+    const CountedTolerance tried = at(std::sqrt(many * few.Tolerance));
     if (tried.Cells <= target)
     {
       few = tried;
     }
     else
     {
-      many = tolerance;
+      many = tried.Tolerance;
     }
   }
   return few;
@@ -187,7 +203,8 @@ void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64
   {
     vtkWarningWithObjectMacro(filter,
       "The coarsest mesh has " << found.Cells << " cells, more than the target of " << target
-                               << ".");
+                               << ". PreserveTopology and PreserveFeatures keep what a coarser one "
+                               << "would lose; MinimumPieceSize removes specks.");
   }
 }
 

@@ -44,9 +44,10 @@ CountedTolerance LeastTolerance(const isodiamond::ErrorCode& codes, std::int64_t
  *
  * @param guess the tolerance that would be found without simplification; most likely more than the
  *        result
+ * @param largest tolerance that makes a difference: the result if no tolerance has few enough
  */
-CountedTolerance LeastToleranceBelow(
-  double guess, std::int64_t target, const std::function<std::int64_t(double tolerance)>& cellsAt);
+CountedTolerance LeastToleranceBelow(double guess, double largest, std::int64_t target,
+  const std::function<std::int64_t(double tolerance)>& cellsAt);
 
 /** Warns if even the coarsest mesh has more cells than the target. */
 void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64_t target);

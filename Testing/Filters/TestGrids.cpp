@@ -5,7 +5,9 @@
 #include "vtkCellData.h"
 #include "vtkContourFilter.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondHierarchy.h"
 #include "vtkIsodiamondIntervalVolume.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
@@ -267,6 +269,26 @@ TEST(Grids, RegionsOfInterestOfBentGridsAreOfTheWorld)
       }
     }
     EXPECT_GT(inRegion, 50);
+  }
+}
+
+TEST(Grids, BlankedCellsAreInHierarchiesWithAWarning)
+{
+  for (const bool isBlanked : { false, true })
+  {
+    vtkNew<vtkUniformGrid> grid;
+    grid->ShallowCopy(test::BallImage({ 9, 9, 9 }));
+    if (isBlanked)
+    {
+      grid->BlankCell(100);
+    }
+    vtkNew<vtkIsodiamondBuilder> builder;
+    builder->SetInputData(grid);
+    auto messages = test::Watch(builder);
+    builder->Update();
+    EXPECT_EQ(messages->WarningCount, isBlanked ? 1 : 0);
+    EXPECT_EQ(messages->Warnings.find("Blanked") != std::string::npos, isBlanked);
+    EXPECT_GT(builder->GetHierarchy()->GetNumberOfActiveIsodiamonds(), 0);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "vtkIsodiamondIntervalVolume.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkUniformGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -145,6 +146,50 @@ TEST(Target, ThatNoMeshMeets)
   EXPECT_TRUE(std::isfinite(contour->GetAchievedTolerance()));
   contour->SetTargetNumberOfTriangles(coarsest);
   EXPECT_EQ(CellsOf(contour.GetPointer()), coarsest);
+  EXPECT_EQ(messages->WarningCount, 1);
+}
+
+// What lies in hidden cells does not count; there is no table of numbers, which would count it.
+TEST(Target, WhereCellsAreHidden)
+{
+  vtkNew<vtkUniformGrid> grid;
+  grid->ShallowCopy(Image());
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells() / 2; ++cell)
+  {
+    grid->BlankCell(cell);
+  }
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(grid);
+  contour->SetValue(0, 50.0);
+  auto messages = test::Watch(contour);
+  const vtkIdType full = CellsOf(contour.GetPointer());
+  ExpectTargetIsMet(contour.GetPointer(), full / 2);
+  EXPECT_EQ(contour->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
+  contour->SetErrorTolerance(VTK_DOUBLE_MAX);
+  const vtkIdType coarsest = CellsOf(contour.GetPointer());
+  contour->SetTargetNumberOfTriangles(coarsest);
+  EXPECT_EQ(CellsOf(contour.GetPointer()), coarsest);
+  EXPECT_EQ(messages->WarningCount, 0);
+}
+
+// Two meshes are made to find that out, and the last one.
+TEST(Target, ThatNoSimplifiedMeshMeets)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  const auto image = Image();
+  contour->SetInputData(image);
+  contour->SetValue(0, 50.0);
+  contour->SimplifyOn();
+  contour->SetErrorTolerance(image->GetLength());
+  const vtkIdType coarsest = CellsOf(contour.GetPointer());
+  auto messages = test::Watch(contour);
+  contour->SetTargetNumberOfTriangles(coarsest - 1);
+  EXPECT_EQ(CellsOf(contour.GetPointer()), coarsest);
+  EXPECT_EQ(messages->WarningCount, 1);
+  EXPECT_NEAR(contour->GetAchievedTolerance(), image->GetLength(), 1e-6);
+  contour->SetTargetNumberOfTriangles(coarsest);
+  EXPECT_LE(CellsOf(contour.GetPointer()), coarsest);
+  EXPECT_LT(contour->GetAchievedTolerance(), image->GetLength());
   EXPECT_EQ(messages->WarningCount, 1);
 }
 
