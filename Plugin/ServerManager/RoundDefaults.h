@@ -17,9 +17,29 @@
 /**
  * @file RoundDefaults.h
  * Defaults within ranges, as round numbers.
+ *
+ * ParaView takes a value in a Python constructor that equals the XML's default for one that was not
+ * given, and replaces it. So the XML has a default that nobody types where these domains find one.
  */
 namespace RoundDefaults
 {
+
+/** The XML's default where people would type 0. */
+constexpr double Untyped = 1e-300;
+
+/** Makes 0 of what is still the XML's default. */
+inline void ReplaceUntyped(vtkSMProperty* property, bool useUncheckedValues)
+{
+  vtkSMPropertyHelper helper(property);
+  helper.SetUseUnchecked(useUncheckedValues);
+  for (unsigned int i = 0; i < helper.GetNumberOfElements(); ++i)
+  {
+    if (helper.GetAsDouble(i) == Untyped)
+    {
+      helper.Set(i, 0.0);
+    }
+  }
+}
 
 /** The attribute `default_parts` of a domain's XML. */
 inline std::vector<double> ReadParts(vtkPVXMLElement* element)
@@ -34,8 +54,8 @@ inline std::vector<double> ReadParts(vtkPVXMLElement* element)
 }
 
 /** Sets a property's elements, as many as there are parts or ranges, whichever is more; none where
- *  a range ends before it begins, as bounds of what has never been updated do: the XML's defaults
- *  stay. @return false without ranges or parts */
+ *  a range ends before it begins, as bounds of what has never been updated do. @return false
+ * without ranges or parts */
 inline bool Set(vtkSMDoubleRangeDomain& domain, const std::vector<double>& parts,
   vtkSMProperty* property, bool useUncheckedValues)
 {

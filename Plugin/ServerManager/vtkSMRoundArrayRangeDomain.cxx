@@ -56,10 +56,11 @@ void vtkSMRoundArrayRangeDomain::Update(vtkSMProperty* requestingProperty)
 //------------------------------------------------------------------------------
 int vtkSMRoundArrayRangeDomain::SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues)
 {
-  return this->SetToFieldArray(property, useUncheckedValues) ||
-      RoundDefaults::Set(*this, this->Parts, property, useUncheckedValues)
-    ? 1
-    : this->Superclass::SetDefaultValues(property, useUncheckedValues);
+  const bool isSet = this->SetToFieldArray(property, useUncheckedValues) ||
+    RoundDefaults::Set(*this, this->Parts, property, useUncheckedValues) ||
+    this->Superclass::SetDefaultValues(property, useUncheckedValues) != 0;
+  RoundDefaults::ReplaceUntyped(property, useUncheckedValues);
+  return isSet ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------

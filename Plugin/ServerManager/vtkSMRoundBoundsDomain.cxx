@@ -29,7 +29,8 @@ int vtkSMRoundBoundsDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLE
 //------------------------------------------------------------------------------
 int vtkSMRoundBoundsDomain::SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues)
 {
-  return RoundDefaults::Set(*this, this->Parts, property, useUncheckedValues)
-    ? 1
-    : this->Superclass::SetDefaultValues(property, useUncheckedValues);
+  const bool isSet = RoundDefaults::Set(*this, this->Parts, property, useUncheckedValues) ||
+    this->Superclass::SetDefaultValues(property, useUncheckedValues) != 0;
+  RoundDefaults::ReplaceUntyped(property, useUncheckedValues);
+  return isSet ? 1 : 0;
 }

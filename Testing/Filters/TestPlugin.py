@@ -19,6 +19,12 @@ assert fresh.GetDataInformation().GetNumberOfCells() > 0
 # Nor does it know bounds: the region of interest has no size then, of which the filter warns, and
 # is not inside out.
 assert list(fresh.RegionOfInterestSize) == [0, 0, 0], fresh.RegionOfInterestSize
+assert list(fresh.RegionOfInterestPosition) == [0, 0, 0], fresh.RegionOfInterestPosition
+assert list(fresh.ViewPosition) == [0, 0, 1], fresh.ViewPosition
+never = Wavelet()
+assert IsodiamondHierarchy(never).Isovalue == 0
+assert list(IsodiamondHierarchy(never).Isorange) == [0, 1]
+assert list(IsodiamondIntervalVolume(never).Isorange) == [0, 1]
 
 wavelet = Wavelet()
 wavelet.UpdatePipeline()
@@ -179,6 +185,24 @@ assert list(spike.Isosurfaces) == [14], spike.Isosurfaces  # finite values: 1 to
 spike.UpdatePipeline()
 assert spike.GetDataInformation().GetNumberOfCells() > 0
 
+# What a constructor is given stays, whatever it is.
+given = IsodiamondHierarchy(wavelet, Isovalue=0)
+assert given.Isovalue == 0, given.Isovalue
+given = IsodiamondHierarchy(wavelet, Shape="Interval Volume", Isorange=[0, 1])
+assert list(given.Isorange) == [0, 1], given.Isorange
+given = IsodiamondContour(
+    wavelet,
+    Isosurfaces=[0],
+    RegionOfInterestPosition=[0, 0, 0],
+    RegionOfInterestSize=[1, 1, 1],
+    ViewPosition=[0, 0, 1],
+)
+assert list(given.Isosurfaces) == [0], given.Isosurfaces
+assert list(given.RegionOfInterestPosition) == [0, 0, 0], given.RegionOfInterestPosition
+assert list(given.ViewPosition) == [0, 0, 1], given.ViewPosition
+given = IsodiamondIntervalVolume(wavelet, Isorange=[0, 1])
+assert list(given.Isorange) == [0, 1], given.Isorange
+
 # Two steps.
 hierarchy = IsodiamondHierarchy(wavelet)
 assert hierarchy.Isovalue == 160 and hierarchy.ErrorMetric == "Automatic"
@@ -186,8 +210,10 @@ assert hierarchy.Model == "Minimal Isodiamonds"
 assert hierarchy.PreserveTopology == 1 and hierarchy.MinimumPieceSize == 0
 hierarchy.UpdatePipeline()
 assert hierarchy.FieldData["NumberOfRemovedPieces"].GetRange() == (0, 0)
+zero = IsodiamondExtract(hierarchy, UseIsovalue=1, Isovalue=0)
+assert zero.Isovalue == 0, zero.Isovalue
 extract = IsodiamondExtract(hierarchy)
-assert extract.PreserveTopology == 0
+assert extract.PreserveTopology == 0 and extract.Isovalue == 160
 domain = extract.GetProperty("ErrorTolerance").GetDomain("range")
 assert domain.GetMaximum(0) == 0.7, domain.GetMaximum(0)  # by distance
 extract.UpdatePipeline()
