@@ -3,6 +3,8 @@
 
 #include "Private/Arrays.h"
 
+#include "vtkAbstractArray.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -73,14 +75,31 @@ vtkSmartPointer<vtkDataArray> PaddedCopy(vtkDataArray* array, const std::array<i
   return copy;
 }
 
+/** What a grid has instead of an array to contour, for a message. */
+std::string OtherArrays(vtkDataSet* grid)
+{
+  std::string text;
+  for (int i = 0; i < grid->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = grid->GetPointData()->GetAbstractArray(i);
+    const int components = array->GetNumberOfComponents();
+    text += (text.empty() ? " It has \"" : ", \"") +
+      std::string(array->GetName() ? array->GetName() : "") + "\"" +
+      (components != 1 ? " with " + std::to_string(components) + " components" : "");
+  }
+  text += text.empty() ? "" : ".";
+  return grid->GetCellData()->GetNumberOfArrays() > 0
+    ? text + " Cell data have to be converted to point data first."
+    : text;
+}
+
 void CheckArray(const InputArray& inputArray, vtkDataSet* grid)
 {
   vtkDataArray* array = inputArray.Array;
   if (!array)
   {
     throw std::invalid_argument(
-      "There is no array to contour: the input has no such point data array. Cell data have to be "
-      "converted to point data first.");
+      "There is no array to contour: the input has no such point data array." + OtherArrays(grid));
   }
   const std::string name =
     "Array \"" + std::string(array->GetName() ? array->GetName() : "") + "\" ";

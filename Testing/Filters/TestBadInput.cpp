@@ -92,7 +92,25 @@ TEST(BadInput, ArraysThatCannotBeContoured)
     [](vtkAlgorithm* filter) {
       filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "nowhere");
     },
-    "no such point data array. Cell data have to be converted");
+    "no such point data array. It has \"");
+  ExpectRefusal(
+    [](vtkAlgorithm* filter)
+    {
+      const auto image = test::BallImage({ 9, 9, 9 });
+      vtkNew<vtkFloatArray> velocity;
+      velocity->SetName("velocity");
+      velocity->SetNumberOfComponents(3);
+      velocity->SetNumberOfTuples(image->GetNumberOfPoints());
+      velocity->Fill(1.0);
+      vtkNew<vtkFloatArray> ofCells;
+      ofCells->SetName("cells");
+      ofCells->SetNumberOfTuples(image->GetNumberOfCells());
+      image->GetPointData()->Initialize();
+      image->GetPointData()->AddArray(velocity);
+      image->GetCellData()->AddArray(ofCells);
+      filter->SetInputDataObject(0, image);
+    },
+    "It has \"velocity\" with 3 components. Cell data have to be converted");
   ExpectRefusal(
     [](vtkAlgorithm* filter)
     {
