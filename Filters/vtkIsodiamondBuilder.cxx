@@ -249,8 +249,8 @@ vtkIsodiamond::InputArray vtkIsodiamondBuilder::FindInputArray(vtkDataObject* in
 //------------------------------------------------------------------------------
 vtkIsodiamond::Choice vtkIsodiamondBuilder::GetChoice() const
 {
-  return { static_cast<isodiamond::Shape>(this->Shape), this->Isovalue,
-    { this->Isorange[0], this->Isorange[1] } };
+  return { static_cast<isodiamond::Shape>(this->Shape), vtkIsodiamond::AsTyped(this->Isovalue),
+    { vtkIsodiamond::AsTyped(this->Isorange[0]), this->Isorange[1] } };
 }
 
 //------------------------------------------------------------------------------

@@ -19,7 +19,6 @@
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <cmath>
 #include <optional>
 
 namespace
@@ -29,12 +28,6 @@ namespace
 bool IsForVolume(const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::State& state)
 {
   return query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
-}
-
-/** The panel's properties start at 1e-300 where 0 would be taken for not given. */
-double OrZero(double value)
-{
-  return std::abs(value) < 1e-299 ? 0.0 : value;
 }
 
 }
@@ -119,7 +112,7 @@ void vtkIsodiamondExtractor::SetIsovalue(double isovalue)
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::StoreIsovalue(double isovalue)
 {
-  isovalue = OrZero(isovalue);
+  isovalue = vtkIsodiamond::AsTyped(isovalue);
   this->FirstIsovalue = this->FirstIsovalue.value_or(isovalue);
   this->StoreWantedIsovalue(isovalue);
 }
@@ -144,7 +137,7 @@ void vtkIsodiamondExtractor::SetIsorange(double lower, double upper)
 //------------------------------------------------------------------------------
 void vtkIsodiamondExtractor::StoreIsorange(double lower, double upper)
 {
-  lower = OrZero(lower);
+  lower = vtkIsodiamond::AsTyped(lower);
   this->FirstIsorange = this->FirstIsorange.value_or(std::array<double, 2>{ lower, upper });
   this->StoreWantedIsorange(lower, upper);
 }

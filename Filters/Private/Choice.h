@@ -11,6 +11,14 @@
 namespace vtkIsodiamond
 {
 
+/** A value as people would type it: properties of ParaView's panel start at 1e-300 where it would
+ *  take 0 for not given, and stay there if it knows no input, or where all processes run a script.
+ */
+inline double AsTyped(double value)
+{
+  return std::abs(value) < 1e-299 ? 0.0 : value;
+}
+
 /** What a user chose to extract: a shape, and the values of both shapes. */
 struct Choice
 {
