@@ -14,7 +14,7 @@
 #include "vtkCellData.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
-#include "vtkSignedCharArray.h"
+#include "vtkShortArray.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -29,7 +29,7 @@ namespace
 void AddArray(const char* name, const std::vector<std::int8_t>& values, vtkIsodiamond::Mesh& output)
 {
   const auto array =
-    vtkIsodiamond::NewArray<vtkSignedCharArray>(name, static_cast<vtkIdType>(values.size()));
+    vtkIsodiamond::NewArray<vtkShortArray>(name, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   output.CellData->AddArray(array);
 }

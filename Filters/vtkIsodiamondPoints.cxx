@@ -16,7 +16,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkSignedCharArray.h"
+#include "vtkShortArray.h"
 #include "vtkSmartPointer.h"
 
 #include <numeric>
@@ -52,9 +52,9 @@ void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
   vtkPoints* const points = mesh.Points;
   points->GetData()->SetNumberOfComponents(3);
   vtkIsodiamond::AllocateTuples(points->GetData(), count);
-  const auto kinds = vtkIsodiamond::NewArray<vtkSignedCharArray>("Kind", count);
-  const auto classes = vtkIsodiamond::NewArray<vtkSignedCharArray>("Class", count);
-  const auto levels = vtkIsodiamond::NewArray<vtkSignedCharArray>("Level", count);
+  const auto kinds = vtkIsodiamond::NewArray<vtkShortArray>("Kind", count);
+  const auto classes = vtkIsodiamond::NewArray<vtkShortArray>("Class", count);
+  const auto levels = vtkIsodiamond::NewArray<vtkShortArray>("Level", count);
   const auto errors = vtkIsodiamond::NewArray<vtkDoubleArray>("Error", count);
   const int rootScale = hierarchy.SampleGrid().Depth() - 1;
   vtkIdType id = 0;
@@ -63,10 +63,9 @@ void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
     {
       const isodiamond::Point centre = isodiamond::Centre(place);
       points->SetPoint(id, world(centre[0], centre[1], centre[2]).data());
-      kinds->SetValue(id, static_cast<signed char>(hierarchy.KindOf(rank)));
-      classes->SetValue(
-        id, static_cast<signed char>(isodiamond::ShapeOf(place.Position).DiamondClass));
-      levels->SetValue(id, static_cast<signed char>(rootScale - place.Scale));
+      kinds->SetValue(id, static_cast<short>(hierarchy.KindOf(rank)));
+      classes->SetValue(id, static_cast<short>(isodiamond::ShapeOf(place.Position).DiamondClass));
+      levels->SetValue(id, static_cast<short>(rootScale - place.Scale));
       errors->SetValue(id, hierarchy.Codes().Decode(hierarchy.Threshold(rank)));
       ++id;
     });

@@ -15,7 +15,7 @@ void ForEachCell(const MeshCells& mesh, const isodiamond::CellRange& cells, Body
   constexpr std::int64_t most = 1 << 16; // at once
   const std::int64_t room = std::min(most, cells.Count());
   std::vector<vtkIdType> corners(mesh.Size * room);
-  std::vector<std::int8_t> levels(room);
+  std::vector<std::int16_t> levels(room);
   for (std::int64_t first = cells.First; first < cells.Last; first += most)
   {
     const isodiamond::CellRange block = { first, std::min(first + most, cells.Last) };
@@ -47,7 +47,7 @@ Ghosts FindGhosts(
   for (int level = 0; level < levels; ++level)
   {
     const std::size_t before = ghosts.Corners.size();
-    const auto look = [&](std::int64_t cell, const vtkIdType* corners, std::int8_t levelOfCell)
+    const auto look = [&](std::int64_t cell, const vtkIdType* corners, std::int16_t levelOfCell)
     {
       if (!isGhost[cell] &&
         std::any_of(corners, corners + mesh.Size, [&](vtkIdType point) { return near[point]; }))
@@ -59,7 +59,7 @@ Ghosts FindGhosts(
       }
     };
     const auto lookBefore = [&](
-                              std::int64_t cell, const vtkIdType* corners, std::int8_t levelOfCell)
+                              std::int64_t cell, const vtkIdType* corners, std::int16_t levelOfCell)
     {
       std::for_each(
         corners, corners + mesh.Size, [&](vtkIdType point) { ghosts.ArePointsOwn[point] = false; });

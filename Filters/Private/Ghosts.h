@@ -17,10 +17,10 @@ namespace vtkIsodiamond
  *  common with it and, level by level, with the ghosts so far. */
 struct Ghosts
 {
-  std::vector<vtkIdType> Cells;    ///< their ids in the whole mesh
-  std::vector<vtkIdType> Corners;  ///< of each cell, as point ids in the whole mesh
-  std::vector<std::int8_t> Levels; ///< as they were read, one per cell
-  std::vector<bool> ArePointsOwn;  ///< by point of the whole mesh: this share has it, none before
+  std::vector<vtkIdType> Cells;     ///< their ids in the whole mesh
+  std::vector<vtkIdType> Corners;   ///< of each cell, as point ids in the whole mesh
+  std::vector<std::int16_t> Levels; ///< as they were read, one per cell
+  std::vector<bool> ArePointsOwn;   ///< by point of the whole mesh: this share has it, none before
 };
 
 /** The cells of a mesh, as they are seen here. */
@@ -30,7 +30,7 @@ struct MeshCells
   std::int64_t PointCount = 0;
   int Size = 3; ///< corners per cell
   /** Writes the corners of a range of cells, and a level for each cell. */
-  std::function<void(const isodiamond::CellRange&, vtkIdType* corners, std::int8_t* levels)> Read;
+  std::function<void(const isodiamond::CellRange&, vtkIdType* corners, std::int16_t* levels)> Read;
 };
 
 /** Finds the ghosts around a share. Cells are read block by block, all of them once per level; of

@@ -18,7 +18,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSignedCharArray.h"
+#include "vtkShortArray.h"
 #include "vtkUnsignedShortArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -88,7 +88,9 @@ void AddCells(Extraction& extraction, std::int64_t counted, int size, const Mesh
   const std::vector<isodiamond::CellRange> own = isodiamond::OwnCells(dealt);
   const std::int64_t ownCount = isodiamond::TotalOf(own);
   const std::int64_t count = ownCount + static_cast<std::int64_t>(ghosts.Cells.size());
-  const auto levels = NewArray<vtkSignedCharArray>("Level", count);
+  // Neither this array nor "Surface" has signed characters, which ParaView writes into CSV files as
+  // such; VTK takes unsigned ones for colours.
+  const auto levels = NewArray<vtkShortArray>("Level", count);
   // First with the ids of all points, even for a share.
   mesh.Cells = WriteCells(count, size, extraction.PointCount(), parallelFor,
     [&](auto* connectivity)
@@ -152,7 +154,7 @@ void AddValues(
   const isodiamond::IntervalExtraction& extraction, const MeshOptions& options, Mesh& mesh)
 {
   const auto values = NewArray<Array>(NameOfValues(options), extraction.PointCount());
-  const auto surfaces = NewArray<vtkSignedCharArray>("Surface", extraction.PointCount());
+  const auto surfaces = NewArray<vtkShortArray>("Surface", extraction.PointCount());
   extraction.WriteValues(values->GetPointer(0), surfaces->GetPointer(0));
   mesh.PointData->SetScalars(values);
   mesh.PointData->AddArray(surfaces);
@@ -243,7 +245,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
 {
   isodiamond::IntervalExtraction extraction(refined, parallelFor, ExtractedShare(options).OfMesh());
   AddCells(extraction, extraction.TetrahedronCount(), 4, options, parallelFor, mesh,
-    [&](const isodiamond::CellRange& cells, auto* connectivity, std::int8_t* levels)
+    [&](const isodiamond::CellRange& cells, auto* connectivity, std::int16_t* levels)
     { extraction.WriteTetrahedra(cells, options.World.Mirrors(), connectivity, levels); });
   AddPoints(extraction, options, true, mesh);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
@@ -268,7 +270,7 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& op
 {
   isodiamond::SurfaceExtraction extraction(refined, parallelFor, ExtractedShare(options).OfMesh());
   AddCells(extraction, extraction.TriangleCount(), 3, options, parallelFor, mesh,
-    [&](const isodiamond::CellRange& cells, auto* connectivity, std::int8_t* levels)
+    [&](const isodiamond::CellRange& cells, auto* connectivity, std::int16_t* levels)
     { extraction.WriteTriangles(cells, options.World.Mirrors(), connectivity, levels); });
   AddPoints(extraction, options, false, mesh);
   if (options.WithThresholds)

@@ -46,7 +46,7 @@ MeshCells CellsOf(const Mesh& mesh)
 {
   vtkCellArray* const cells = mesh.Cells;
   const auto read = [cells](
-                      const isodiamond::CellRange& range, vtkIdType* corners, std::int8_t* levels)
+                      const isodiamond::CellRange& range, vtkIdType* corners, std::int16_t* levels)
   {
     for (std::int64_t cell = range.First; cell < range.Last; ++cell)
     {

@@ -8,7 +8,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkPoints.h"
-#include "vtkSignedCharArray.h"
+#include "vtkShortArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -171,7 +171,7 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   mesh.Cells = used.Write(stuffed.Tetrahedra, parallelFor);
 
   const auto count = static_cast<std::int64_t>(stuffed.Tetrahedra.size());
-  const auto levels = NewArray<vtkSignedCharArray>("Level", count);
+  const auto levels = NewArray<vtkShortArray>("Level", count);
   for (std::int64_t i = 0; i < count; ++i)
   {
     levels->SetValue(i, leaves.Tetrahedra[stuffed.Origins[i]].Level);

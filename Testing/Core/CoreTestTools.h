@@ -92,7 +92,7 @@ struct Mesh
 {
   std::vector<std::array<float, 3>> Points;
   std::vector<std::array<std::int32_t, 3>> Triangles;
-  std::vector<std::int8_t> Levels;
+  std::vector<std::int16_t> Levels;
 
   bool operator==(const Mesh& other) const
   {

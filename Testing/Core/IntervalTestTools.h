@@ -22,7 +22,7 @@ struct Volume
   std::vector<double> Values;
   std::vector<std::int8_t> Surfaces;
   std::vector<std::array<std::int32_t, 4>> Tetrahedra;
-  std::vector<std::int8_t> Levels;
+  std::vector<std::int16_t> Levels;
 
   bool operator==(const Volume& other) const
   {

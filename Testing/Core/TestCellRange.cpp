@@ -22,7 +22,7 @@ struct Range
 {
   std::vector<std::vector<float>> Points; ///< position, number among those stored, surface
   std::vector<std::vector<std::int32_t>> Cells;
-  std::vector<std::int8_t> Levels;
+  std::vector<std::int16_t> Levels;
 };
 
 /** Some cells and their points, picked from the whole mesh by hand. */
@@ -126,12 +126,12 @@ auto WithExtraction(
   {
     IntervalExtraction extraction(refined, parallelFor, share);
     return use(extraction, std::integral_constant<int, 4>{},
-      [&](const CellRange& range, std::int32_t* ids, std::int8_t* levels)
+      [&](const CellRange& range, std::int32_t* ids, std::int16_t* levels)
       { extraction.WriteTetrahedra(range, false, ids, levels); });
   }
   SurfaceExtraction extraction(refined, parallelFor, share);
   return use(extraction, std::integral_constant<int, 3>{},
-    [&](const CellRange& range, std::int32_t* ids, std::int8_t* levels)
+    [&](const CellRange& range, std::int32_t* ids, std::int16_t* levels)
     { extraction.WriteTriangles(range, false, ids, levels); });
 }
 

@@ -92,7 +92,7 @@ void ExpectSameMesh(const Oracle& oracle, const reference::DiamondSet& subdivide
     levels[reference::LevelOf(oracle.Hierarchy, leaf)] +=
       reference::CountTetrahedra(reference::SignsOf(oracle.Samples, oracle.Range, leaf));
   }
-  for (const std::int8_t level : volume.Levels)
+  for (const std::int16_t level : volume.Levels)
   {
     --levels[level];
   }

@@ -290,6 +290,22 @@ TEST(MovedVertices, TakeTheNearestIsovertexOnTheirWall)
   EXPECT_LT(stuffed.CountBad(), stuffed.Mesh.Tetrahedra.size() / 1000);
 }
 
+namespace
+{
+
+/** The corners of each tetrahedron, sorted. */
+std::multiset<std::set<std::uint32_t>> SortedTetrahedra(const TetrahedronMesh& mesh)
+{
+  std::multiset<std::set<std::uint32_t>> all;
+  for (const Corners& corners : mesh.Tetrahedra)
+  {
+    all.emplace(corners.begin(), corners.end());
+  }
+  return all;
+}
+
+}
+
 // Before any improvement, which could mend faults.
 TEST(MovedVertices, LeavePositiveTetrahedraAndTheTopology)
 {
@@ -319,6 +335,9 @@ TEST(MovedVertices, LeavePositiveTetrahedraAndTheTopology)
     }
     const Background background(leaves, vertices, walls, points, false);
     MovedVertices moved(background);
+    // As measured, it is the volume's mesh, to the last diagonal.
+    EXPECT_TRUE(SortedTetrahedra(moved.CutAsMeasured()) == SortedTetrahedra(stuffed.PlainMesh()))
+      << seed;
     const test::AnyMesh plain(*built.Hierarchy, Query{});
     test::Stuffed cut = stuffed;
     for (const bool isMoved : { false, true })

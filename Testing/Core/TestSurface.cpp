@@ -265,7 +265,7 @@ TEST(Surface, AtInfiniteToleranceDependsOnTheRoot)
   EXPECT_EQ(test::FindFault(mesh, field.Dims), "");
   EXPECT_EQ(mesh.Triangles.size(), 8U); // four, and two quadrilaterals of two each
   EXPECT_TRUE(std::all_of(
-    mesh.Levels.begin(), mesh.Levels.end(), [](std::int8_t level) { return level == 0; }));
+    mesh.Levels.begin(), mesh.Levels.end(), [](std::int16_t level) { return level == 0; }));
   // A relevant root: all corners are on one side, so nothing is there without subdivision.
   field = test::SparseField({ 17, 17, 17 }, 3);
   for (const std::size_t corner : { 0, 16, 272, 288, 4624, 4640, 4896, 4912 })

@@ -160,7 +160,7 @@ private:
 /** Removes the cells of a mesh whose middle is in a hidden cell of the grid, and their levels. */
 template <typename Point, std::size_t Corners>
 void RemoveHidden(const std::vector<Point>& points, const isodiamond::HiddenCells& hidden,
-  Simplices<Corners>& cells, std::vector<std::int8_t>& levels)
+  Simplices<Corners>& cells, std::vector<std::int16_t>& levels)
 {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cells.size(); ++i)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin in pvpython: proxies, defaults, Show and SaveScreenshot."""
+import csv
 import os
 import sys
 
@@ -254,6 +255,17 @@ volume.UpdatePipeline()
 tetrahedra = volume.GetDataInformation().GetNumberOfCells()
 assert tetrahedra > 0
 assert sorted(volume.PointData.keys()) == ["RTData", "Surface"]
+# Numbers in CSV files, not characters.
+table = os.path.join(sys.argv[1], "volume.csv")
+for association, name, lowest in (("Point Data", "Surface", -1), ("Cell Data", "Level", 0)):
+    SaveData(table, volume, FieldAssociation=association)
+    with open(table, encoding="ascii") as lines:
+        numbers = {int(row[name]) for row in csv.DictReader(lines)}
+    assert len(numbers) > 1 and lowest <= min(numbers) and max(numbers) < 30, numbers
+points_table = os.path.join(sys.argv[1], "points.csv")
+SaveData(points_table, points)
+with open(points_table, encoding="ascii") as lines:
+    assert all(int(row[name]) >= 0 for row in csv.DictReader(lines) for name in ("Class", "Level"))
 volume.ErrorTolerance = 1
 volume.UpdatePipeline()
 coarse = volume.GetDataInformation().GetNumberOfCells()

@@ -47,7 +47,7 @@ void Extract(const IsodiamondHierarchy& hierarchy, const Query& query)
     std::vector<float> values(extraction.PointCount());
     std::vector<std::int8_t> surfaces(extraction.PointCount());
     std::vector<std::int32_t> connectivity(4 * extraction.TetrahedronCount());
-    std::vector<std::int8_t> levels(extraction.TetrahedronCount());
+    std::vector<std::int16_t> levels(extraction.TetrahedronCount());
     extraction.WritePoints(AffineMap(), points.data());
     extraction.WriteValues(values.data(), surfaces.data());
     extraction.WriteTetrahedra(false, connectivity.data(), levels.data());
@@ -59,7 +59,7 @@ void Extract(const IsodiamondHierarchy& hierarchy, const Query& query)
     Check(extraction.PointCount() <= MostPoints);
     std::vector<float> points(3 * extraction.PointCount());
     std::vector<std::int32_t> connectivity(3 * extraction.TriangleCount());
-    std::vector<std::int8_t> levels(extraction.TriangleCount());
+    std::vector<std::int16_t> levels(extraction.TriangleCount());
     extraction.WritePoints(AffineMap(), points.data());
     extraction.WriteTriangles(false, connectivity.data(), levels.data());
     CheckIds(connectivity, extraction.PointCount());

@@ -27,14 +27,14 @@ namespace isodiamond
  */
 template <int Size, typename Id, typename WriteBrick>
 void WriteCellsOf(const ExtractionPasses& passes, const CellRange& range, Id* connectivity,
-  std::int8_t* levels, WriteBrick&& writeBrick)
+  std::int16_t* levels, WriteBrick&& writeBrick)
 {
   passes.ForEachBrickWithCells(range,
     [&](std::int64_t brick, const CellRange& own)
     {
       const CellRange common = { std::max(own.First, range.First), std::min(own.Last, range.Last) };
       Id* const ids = connectivity + Size * (common.First - range.First);
-      std::int8_t* const ownLevels = levels + (common.First - range.First);
+      std::int16_t* const ownLevels = levels + (common.First - range.First);
       if (common.Count() == own.Count())
       {
         writeBrick(brick, ids, ownLevels);
@@ -42,7 +42,7 @@ void WriteCellsOf(const ExtractionPasses& passes, const CellRange& range, Id* co
       }
       // The range begins or ends within the brick, which can only write all its cells at once.
       std::vector<Id> allIds(Size * own.Count());
-      std::vector<std::int8_t> allLevels(own.Count());
+      std::vector<std::int16_t> allLevels(own.Count());
       writeBrick(brick, allIds.data(), allLevels.data());
       const std::int64_t skipped = common.First - own.First;
       std::copy_n(allIds.begin() + Size * skipped, Size * common.Count(), ids);

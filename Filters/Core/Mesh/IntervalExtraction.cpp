@@ -88,7 +88,7 @@ class TetrahedronWriter
 {
 public:
   TetrahedronWriter(const IsodiamondHierarchy& hierarchy, const VertexWindow& window, bool mirrored,
-    Id* connectivity, std::int8_t* levels)
+    Id* connectivity, std::int16_t* levels)
     : Hierarchy(hierarchy)
     , Window(window)
     , Tables(AllPatchTables())
@@ -124,7 +124,7 @@ public:
           this->Next[2] = ids[corners[flip ? 3 : 2]];
           this->Next[3] = ids[corners[flip ? 2 : 3]];
           this->Next += 4;
-          *this->NextLevel++ = static_cast<std::int8_t>(level);
+          *this->NextLevel++ = static_cast<std::int16_t>(level);
         }
       });
   }
@@ -136,7 +136,7 @@ private:
   const PatchPointTable<AgePointPlaces>& Places;
   bool Mirrored;
   Id* Next;
-  std::int8_t* NextLevel;
+  std::int16_t* NextLevel;
 };
 
 }
@@ -157,8 +157,8 @@ IntervalExtraction::IntervalExtraction(
 {
 }
 
-template <typename Value>
-void IntervalExtraction::WriteValues(Value* values, std::int8_t* surfaces) const
+template <typename Value, typename Side>
+void IntervalExtraction::WriteValues(Value* values, Side* surfaces) const
 {
   const Isoregion& region = this->Passes.Hierarchy().Region();
   std::array<Value, 2> isovalues{};
@@ -174,7 +174,7 @@ void IntervalExtraction::WriteValues(Value* values, std::int8_t* surfaces) const
       this->ForEachPoint(
         [&, inside = insideValues.Pointer()](const MeshPoint& point)
         {
-          surfaces[point.Id] = static_cast<std::int8_t>(point.Surface);
+          surfaces[point.Id] = static_cast<Side>(point.Surface);
           values[point.Id] = point.Surface == 0 ? static_cast<Value>(inside[point.Stored])
                                                 : isovalues[point.Surface < 0 ? 0 : 1];
         });
@@ -184,10 +184,10 @@ void IntervalExtraction::WriteValues(Value* values, std::int8_t* surfaces) const
 
 template <typename Id>
 void IntervalExtraction::WriteTetrahedra(
-  const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const
+  const CellRange& range, bool mirrored, Id* connectivity, std::int16_t* levels) const
 {
   WriteCellsOf<4>(this->Passes, range, connectivity, levels,
-    [&](std::int64_t brick, Id* ids, std::int8_t* levelsOfIds)
+    [&](std::int64_t brick, Id* ids, std::int16_t* levelsOfIds)
     {
       const VertexWindow window(this->Passes, brick);
       TetrahedronWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored, ids, levelsOfIds);
@@ -198,9 +198,11 @@ void IntervalExtraction::WriteTetrahedra(
 
 template void IntervalExtraction::WriteValues(float*, std::int8_t*) const;
 template void IntervalExtraction::WriteValues(double*, std::int8_t*) const;
+template void IntervalExtraction::WriteValues(float*, std::int16_t*) const;
+template void IntervalExtraction::WriteValues(double*, std::int16_t*) const;
 template void IntervalExtraction::WriteTetrahedra(
-  const CellRange&, bool, std::int32_t*, std::int8_t*) const;
+  const CellRange&, bool, std::int32_t*, std::int16_t*) const;
 template void IntervalExtraction::WriteTetrahedra(
-  const CellRange&, bool, long long*, std::int8_t*) const;
+  const CellRange&, bool, long long*, std::int16_t*) const;
 
 }

@@ -35,10 +35,10 @@ public:
    *
    * @param values receives field values: the isovalue on a surface, the sample inside; NaN on a
    *        surface without an isovalue, where an open side meets NaN; float or double
-   * @param surfaces receives -1 on the lower surface, 1 on the upper one, else 0
+   * @param surfaces receives -1 on the lower surface, 1 on the upper one, else 0; 8 or 16 bits each
    */
-  template <typename Value>
-  void WriteValues(Value* values, std::int8_t* surfaces) const;
+  template <typename Value, typename Side>
+  void WriteValues(Value* values, Side* surfaces) const;
 
   /**
    * Writes the tetrahedra.
@@ -49,7 +49,7 @@ public:
    *        resolution
    */
   template <typename Id>
-  void WriteTetrahedra(bool mirrored, Id* connectivity, std::int8_t* levels) const
+  void WriteTetrahedra(bool mirrored, Id* connectivity, std::int16_t* levels) const
   {
     this->WriteTetrahedra(this->Passes.AllCells(), mirrored, connectivity, levels);
   }
@@ -57,7 +57,7 @@ public:
   /** Writes only a range of the tetrahedra. */
   template <typename Id>
   void WriteTetrahedra(
-    const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const;
+    const CellRange& range, bool mirrored, Id* connectivity, std::int16_t* levels) const;
 
   /** The leaves before they are cut. @param hidden the hidden cells, or null */
   CutMesh Leaves(const HiddenCells* hidden) const { return MakeCutMesh(this->Passes, hidden); }

@@ -51,7 +51,7 @@ class TriangleWriter
 {
 public:
   TriangleWriter(const IsodiamondHierarchy& hierarchy, const VertexWindow& window, bool mirrored,
-    Id* connectivity, std::int8_t* levels)
+    Id* connectivity, std::int16_t* levels)
     : Hierarchy(hierarchy)
     , Window(window)
     , Places(PointsOfTriangles())
@@ -79,7 +79,7 @@ public:
         this->Next[1 + flip] = idOf(corners[1]);
         this->Next[2 - flip] = idOf(corners[2]);
         this->Next += 3;
-        *this->NextLevel++ = static_cast<std::int8_t>(level);
+        *this->NextLevel++ = static_cast<std::int16_t>(level);
       });
   }
 
@@ -89,7 +89,7 @@ private:
   const PatchPointTable<TrianglePointPlaces>& Places;
   bool Mirrored;
   Id* Next;
-  std::int8_t* NextLevel;
+  std::int16_t* NextLevel;
 };
 
 }
@@ -108,10 +108,10 @@ SurfaceExtraction::SurfaceExtraction(
 
 template <typename Id>
 void SurfaceExtraction::WriteTriangles(
-  const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const
+  const CellRange& range, bool mirrored, Id* connectivity, std::int16_t* levels) const
 {
   WriteCellsOf<3>(this->Passes, range, connectivity, levels,
-    [&](std::int64_t brick, Id* ids, std::int8_t* levelsOfIds)
+    [&](std::int64_t brick, Id* ids, std::int16_t* levelsOfIds)
     {
       const VertexWindow window(this->Passes, brick);
       TriangleWriter<Id> writer(this->Passes.Hierarchy(), window, mirrored, ids, levelsOfIds);
@@ -137,8 +137,8 @@ void SurfaceExtraction::WriteThresholds(ErrorCode::Type* codes) const
 }
 
 template void SurfaceExtraction::WriteTriangles(
-  const CellRange&, bool, std::int32_t*, std::int8_t*) const;
+  const CellRange&, bool, std::int32_t*, std::int16_t*) const;
 template void SurfaceExtraction::WriteTriangles(
-  const CellRange&, bool, long long*, std::int8_t*) const;
+  const CellRange&, bool, long long*, std::int16_t*) const;
 
 }

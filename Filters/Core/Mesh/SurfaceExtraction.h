@@ -38,7 +38,7 @@ public:
    *        at full resolution
    */
   template <typename Id>
-  void WriteTriangles(bool mirrored, Id* connectivity, std::int8_t* levels) const
+  void WriteTriangles(bool mirrored, Id* connectivity, std::int16_t* levels) const
   {
     this->WriteTriangles(this->Passes.AllCells(), mirrored, connectivity, levels);
   }
@@ -46,7 +46,7 @@ public:
   /** Writes only a range of the triangles. */
   template <typename Id>
   void WriteTriangles(
-    const CellRange& range, bool mirrored, Id* connectivity, std::int8_t* levels) const;
+    const CellRange& range, bool mirrored, Id* connectivity, std::int16_t* levels) const;
 
   /** Writes for each triangle the code of the threshold of the diamond that it lies in: a bound of
    *  that diamond's own error, as it is not subdivided. 0 at full resolution. */

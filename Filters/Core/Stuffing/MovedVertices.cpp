@@ -261,6 +261,20 @@ TetrahedronMesh MovedVertices::PlacedPoints() const
   return mesh;
 }
 
+void MovedVertices::AddPieces(
+  std::uint32_t tetrahedron, std::uint8_t patch, TetrahedronMesh& mesh) const
+{
+  const std::vector<std::vector<PatchTetrahedron>>& patches = this->PatchesOf(tetrahedron);
+  if (!patches.empty())
+  {
+    for (const PatchTetrahedron& piece : patches[patch])
+    {
+      mesh.Tetrahedra.push_back(this->CornersOf(tetrahedron, piece));
+      mesh.Origins.push_back(tetrahedron);
+    }
+  }
+}
+
 TetrahedronMesh MovedVertices::Cut(const ParallelFor& parallelFor) const
 {
   TetrahedronMesh mesh = this->PlacedPoints();
@@ -270,15 +284,18 @@ TetrahedronMesh MovedVertices::Cut(const ParallelFor& parallelFor) const
     [&](std::int64_t i) { best[i] = this->BestPatch(static_cast<std::uint32_t>(i)); });
   for (std::uint32_t i = 0; i < count; ++i)
   {
-    const std::vector<std::vector<PatchTetrahedron>>& patches = this->PatchesOf(i);
-    if (!patches.empty())
-    {
-      for (const PatchTetrahedron& piece : patches[best[i]])
-      {
-        mesh.Tetrahedra.push_back(this->CornersOf(i, piece));
-        mesh.Origins.push_back(i);
-      }
-    }
+    this->AddPieces(i, best[i], mesh);
+  }
+  return mesh;
+}
+
+TetrahedronMesh MovedVertices::CutAsMeasured() const
+{
+  TetrahedronMesh mesh = this->PlacedPoints();
+  const auto count = static_cast<std::uint32_t>(this->Mesh.Leaves().Tetrahedra.size());
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    this->AddPieces(i, 0, mesh); // the first way is the only one that IntervalPatches() knows
   }
   return mesh;
 }

@@ -28,8 +28,13 @@ public:
   /** Moves all vertices that can be moved. */
   void MoveAll(const ParallelFor& parallelFor);
 
-  /** What is in range, as tetrahedra of points. */
+  /** What is in range, as tetrahedra of points. Of several ways to cut a leaf, the one whose worst
+   *  piece is best. */
   TetrahedronMesh Cut(const ParallelFor& parallelFor) const;
+
+  /** The interval volume's mesh: each leaf cut in the way that the errors of diamonds are those of.
+   *  @pre no vertex has been moved */
+  TetrahedronMesh CutAsMeasured() const;
 
 private:
   /** An isovertex that a vertex could move to. */
@@ -44,6 +49,7 @@ private:
   TetrahedronMesh PlacedPoints() const;
   double SineOf(std::uint32_t tetrahedron, const PatchTetrahedron& piece) const;
   std::uint8_t BestPatch(std::uint32_t tetrahedron) const;
+  void AddPieces(std::uint32_t tetrahedron, std::uint8_t patch, TetrahedronMesh& mesh) const;
   Goal NearestTo(std::uint32_t vertex) const;
   bool TryToMove(const Goal& goal);
   bool AreAllRound(std::uint32_t vertex) const;

@@ -104,7 +104,7 @@ BothMeshes CutLeaves(const Background& background, bool withPlain, const Paralle
   BothMeshes meshes;
   if (withPlain)
   {
-    meshes.Plain = vertices.Cut(parallelFor);
+    meshes.Plain = vertices.CutAsMeasured();
   }
   vertices.MoveAll(parallelFor);
   meshes.Stuffed = vertices.Cut(parallelFor);
