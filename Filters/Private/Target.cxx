@@ -120,8 +120,9 @@ constexpr double TargetStep = 4.0;
 CountedTolerance FirstWithFew(double& many, const CountedTolerance& last, std::int64_t target,
   const std::function<std::int64_t(double tolerance)>& cellsAt)
 {
-  for (double tolerance = TargetStep * many; tolerance < last.Tolerance; tolerance *= TargetStep)
+  while (TargetStep * many < last.Tolerance)
   {
+    const double tolerance = TargetStep * many;
     const CountedTolerance tried{ tolerance, cellsAt(tolerance) };
     if (tried.Cells <= target)
     {
