@@ -712,6 +712,24 @@ TEST(ConvexPolygon, IsSplitByPlanes)
   }
 }
 
+// By rounding, its corners may lie on either side in turn.
+TEST(ConvexPolygon, StaysWholeInThePlaneItself)
+{
+  for (const int count : { 5, 6, 7 })
+  {
+    ConvexPolygon ring;
+    for (int i = 0; i < count; ++i)
+    {
+      ring.Add({ std::cos(2.0 * M_PI * i / count), std::sin(2.0 * M_PI * i / count),
+        i % 2 == 0 ? 1e-16 : -1e-16 });
+    }
+    ConvexPolygon above;
+    KeepAbove(ring, {}, { 0.0, 0.0, 1.0 }, above);
+    EXPECT_LE(above.Count, ConvexPolygon::MostCorners);
+    EXPECT_NEAR(AreaOf(above), AreaOf(ring), AreaOf(ring) / 2.0);
+  }
+}
+
 TEST(ConvexPolygon, IsWholeOrEmptyBesidePlanes)
 {
   ConvexPolygon triangle;

@@ -261,7 +261,7 @@ CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden)
   CutMesh mesh;
   mesh.Tetrahedra.reserve(count);
   VertexNumbers numberOf;
-  for (const std::vector<FoundLeaf>& some : leaves)
+  for (std::vector<FoundLeaf>& some : leaves)
   {
     for (const FoundLeaf& leaf : some)
     {
@@ -277,6 +277,7 @@ CutMesh MakeCutMesh(const ExtractionPasses& passes, const HiddenCells* hidden)
         }
       }
     }
+    some = {}; // so that no more than the result is held twice
   }
   return mesh;
 }

@@ -68,6 +68,16 @@ inline void KeepAbove(
     above = whole; // keeping more is on the safe side
     return;
   }
+  // A polygon in the plane itself has corners on either side by rounding, and may get too many.
+  bool isTooMany = false;
+  const auto add = [&](const Vector& corner)
+  {
+    isTooMany = isTooMany || above.Count == ConvexPolygon::MostCorners;
+    if (!isTooMany)
+    {
+      above.Add(corner);
+    }
+  };
   const double offset = Dot(point, normal);
   double last = Dot(whole.Corners[whole.Count - 1], normal) - offset;
   for (int i = 0; i < whole.Count; ++i)
@@ -77,13 +87,17 @@ inline void KeepAbove(
     const double next = Dot(to, normal) - offset;
     if ((last > 0.0 && next < 0.0) || (last < 0.0 && next > 0.0))
     {
-      above.Add(from + (last / (last - next)) * (to - from));
+      add(from + (last / (last - next)) * (to - from));
     }
     if (next >= 0.0)
     {
-      above.Add(to);
+      add(to);
     }
     last = next;
+  }
+  if (isTooMany)
+  {
+    above = whole;
   }
 }
 
