@@ -25,11 +25,11 @@ constexpr std::int64_t TriesAtOnePlace(int pass)
 {
   return std::int64_t{ 1000 } << pass;
 }
-constexpr std::int64_t FirstTries = 4000;
+constexpr std::int64_t FirstTries = 10000;
 constexpr std::int64_t TriesForOneMore = 200;
 constexpr std::int64_t MostTries(std::size_t tetrahedra)
 {
-  return 4000 + static_cast<std::int64_t>(tetrahedra / 2);
+  return 10000 + static_cast<std::int64_t>(tetrahedra / 2);
 }
 ///@}
 /** Random changes at the beginning of an attempt: 1 to this many. */
