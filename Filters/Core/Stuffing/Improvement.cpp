@@ -4,9 +4,9 @@
 #include "Stuffing/BestChange.h"
 #include "Stuffing/ChangeNotes.h"
 #include "Stuffing/LocalMesh.h"
+#include "Stuffing/SearchAhead.h"
 #include "Stuffing/Shortfall.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -63,12 +63,7 @@ public:
         return;
       }
       triesLeft -= bad.size();
-      std::vector<std::uint32_t> changed;
-      for (std::size_t first = 0; first < bad.size(); first += TriesAtOnce)
-      {
-        const std::size_t count = std::min(TriesAtOnce, bad.size() - first);
-        this->Improve(bad.data() + first, count, parallelFor, changed);
-      }
+      const std::vector<std::uint32_t> changed = this->Improve(bad, parallelFor);
       if (changed.empty())
       {
         return;
@@ -81,46 +76,48 @@ public:
   TetrahedronMesh Take() { return this->Mesh.Take(); }
 
 private:
-  /** Finds the best changes for some tetrahedra at once, and does them one after the other. A
-   *  change found from what another one has changed since is searched for again: so all are as if
-   *  each had been found when its turn came. */
-  void Improve(const std::uint32_t* tetrahedra, std::size_t count, const ParallelFor& parallelFor,
-    std::vector<std::uint32_t>& changed)
+  bool IsToBeTried(std::uint32_t tetrahedron) const
   {
-    const auto isToBeTried = [&](std::size_t i)
-    {
-      return IsBad(this->Mesh, this->Wanted, tetrahedra[i]) &&
-        this->Notes.IsWorthATry(this->Mesh, tetrahedra[i]);
-    };
-    const int before = this->Notes.Count();
-    std::vector<Change> changes(count);
-    ForEachIndex(parallelFor, count, 1,
-      [&](std::int64_t i)
+    return IsBad(this->Mesh, this->Wanted, tetrahedron) &&
+      this->Notes.IsWorthATry(this->Mesh, tetrahedron);
+  }
+
+  /** Makes the best change for each of some tetrahedra.
+   *  @return what is not as it was, by tetrahedron */
+  std::vector<std::uint32_t> Improve(
+    const std::vector<std::uint32_t>& tetrahedra, const ParallelFor& parallelFor)
+  {
+    std::vector<std::uint32_t> changed;
+    SearchAhead(
+      parallelFor, tetrahedra.size(), TriesAtOnce, this->Notes.Touched(),
+      [&](std::size_t i)
       {
-        if (isToBeTried(i))
-        {
-          changes[i] = BestChange(this->Mesh, this->Options, tetrahedra[i]);
-        }
-      });
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (isToBeTried(i))
+        return this->IsToBeTried(tetrahedra[i])
+          ? BestChange(this->Mesh, this->Options, tetrahedra[i])
+          : Change();
+      },
+      [&](std::size_t i, const Change& /*best*/, int changes)
       {
-        if (this->Notes.IsTouchedAround(this->Mesh, tetrahedra[i], before))
+        return this->IsToBeTried(tetrahedra[i]) &&
+          this->Notes.IsTouchedAround(this->Mesh, tetrahedra[i], changes);
+      },
+      [&](std::size_t i, const Change& best)
+      {
+        if (!this->IsToBeTried(tetrahedra[i]))
         {
-          changes[i] = BestChange(this->Mesh, this->Options, tetrahedra[i]);
+          return;
         }
         this->Notes.NoteTry(tetrahedra[i]);
-        if (changes[i].Kind != Change::None)
+        if (best.Kind != Change::None)
         {
           if (this->Known != nullptr)
           {
-            this->Known->Note(changes[i], tetrahedra[i], this->Mesh);
+            this->Known->Note(best, tetrahedra[i], this->Mesh);
           }
-          this->Notes.Do(changes[i], this->Mesh, changed);
+          this->Notes.Do(best, this->Mesh, changed);
         }
-      }
-    }
+      });
+    return changed;
   }
 
   LocalMesh Mesh;

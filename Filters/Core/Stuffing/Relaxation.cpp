@@ -2,6 +2,7 @@
 #include "Stuffing/Relaxation.h"
 
 #include "Stuffing/BestPlace.h"
+#include "Stuffing/SearchAhead.h"
 
 #include <algorithm>
 #include <utility>
@@ -23,26 +24,18 @@ public:
   Relaxation(LocalMesh& mesh, const RelaxationOptions& options)
     : Mesh(mesh)
     , Options(options)
-    , MovedWith(mesh.Mesh().Positions.size(), 0)
   {
   }
 
   std::vector<std::uint32_t> Run(const ParallelFor& parallelFor)
   {
     const std::vector<std::uint32_t> points = this->PointsInside();
-    std::vector<Vector> best(PointsAtOnce);
-    for (std::size_t first = 0; first < points.size(); first += PointsAtOnce)
-    {
-      ++this->Batch;
-      const std::size_t count = std::min(PointsAtOnce, points.size() - first);
-      ForEachIndex(parallelFor, count, 1,
-        [&](std::int64_t i) { best[i] = this->BestPlaceOf(points[first + i]); });
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        const std::uint32_t point = points[first + i];
-        this->MoveTo(point, this->IsBesideMoved(point) ? this->BestPlaceOf(point) : best[i]);
-      }
-    }
+    SearchAhead(
+      parallelFor, points.size(), PointsAtOnce, this->Touched,
+      [&](std::size_t i) { return this->BestPlaceOf(points[i]); },
+      [&](std::size_t i, const Vector& /*best*/, int changes)
+      { return this->Touched.IsTouched(points[i], changes); },
+      [&](std::size_t i, const Vector& best) { this->MoveTo(points[i], best); });
     return std::move(this->Moved);
   }
 
@@ -51,7 +44,7 @@ private:
   std::vector<std::uint32_t> PointsInside() const
   {
     std::vector<std::uint32_t> points;
-    for (std::uint32_t point = 0; point < this->MovedWith.size(); ++point)
+    for (std::uint32_t point = 0; point < this->Mesh.Mesh().Positions.size(); ++point)
     {
       const LocalMesh::Star star = this->Mesh.StarOf(point);
       if (this->Mesh.Mesh().Surfaces[point] == 0 && star.begin() != star.end())
@@ -79,33 +72,20 @@ private:
     return best.Sine > worst + LeastGain ? best.Place : now;
   }
 
-  /** Whether anything around a point has moved since its best place was searched for. */
-  bool IsBesideMoved(std::uint32_t point) const
-  {
-    const LocalMesh::Star star = this->Mesh.StarOf(point);
-    return std::any_of(star.begin(), star.end(),
-      [&](std::uint32_t tetrahedron)
-      {
-        const Corners& corners = this->Mesh.CornersOf(tetrahedron);
-        return std::any_of(corners.begin(), corners.end(),
-          [&](std::uint32_t corner) { return this->MovedWith[corner] == this->Batch; });
-      });
-  }
-
   void MoveTo(std::uint32_t point, const Vector& place)
   {
     if (place != this->Mesh.At(point))
     {
       this->Mesh.Move(point, place);
-      this->MovedWith[point] = this->Batch;
+      this->Touched.BeginChange();
+      this->Touched.Touch(this->Mesh, this->Mesh.StarOf(point));
       this->Moved.push_back(point);
     }
   }
 
   LocalMesh& Mesh;
   const RelaxationOptions& Options;
-  std::uint32_t Batch = 0;
-  std::vector<std::uint32_t> MovedWith; ///< by point: the last batch with which it moved
+  TouchedPoints Touched;
   std::vector<std::uint32_t> Moved;
 };
 

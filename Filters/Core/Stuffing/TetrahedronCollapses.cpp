@@ -2,6 +2,7 @@
 #include "Stuffing/TetrahedronCollapses.h"
 
 #include "Stuffing/Relaxation.h"
+#include "Stuffing/SearchAhead.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,8 @@ constexpr double MostOfVolume = 0.005;
 /** A point stays where it is if all angles around it are at least this many degrees. */
 constexpr double RelaxedAngle = 30.0;
 
-/** Vertices between two looks at whether to go on. */
-constexpr std::size_t TriesOfStep = 64;
+/** Vertices whose edges are looked at at the same time: few of them are neighbours. */
+constexpr std::size_t TriesAtOnce = 64;
 
 }
 
@@ -170,6 +171,8 @@ void TetrahedronCollapses::Collapse(std::uint32_t vertex, std::uint32_t target)
 
 void TetrahedronCollapses::LookAgainAround(const LocalMesh::Star& changed)
 {
+  this->Touched.BeginChange();
+  this->Touched.Touch(this->Mesh, changed);
   for (const std::uint32_t tetrahedron : changed)
   {
     for (const std::uint32_t point : this->Mesh.CornersOf(tetrahedron))
@@ -186,27 +189,33 @@ void TetrahedronCollapses::NoteRefusal(std::uint32_t vertex)
   this->IsShortOfVolume[vertex] = false;
 }
 
-/** The other ends of a vertex's edges into which it could go, the best first. */
-void TetrahedronCollapses::FindTargets(std::uint32_t vertex, double needed)
+/** The best of the other ends of a vertex's edges, of those into which it can go; LocalMesh::None
+ * if there is none. */
+std::uint32_t TetrahedronCollapses::BestTarget(std::uint32_t vertex) const
 {
-  this->Targets.clear();
+  const double needed = this->SineNeeded(vertex);
+  std::vector<std::pair<double, std::uint32_t>> targets; // by sine, negated: the best comes first
   for (const std::uint32_t tetrahedron : this->Mesh.StarOf(vertex))
   {
     for (const std::uint32_t target : this->Mesh.CornersOf(tetrahedron))
     {
       if (target != vertex &&
-        std::none_of(this->Targets.begin(), this->Targets.end(),
+        std::none_of(targets.begin(), targets.end(),
           [&](const auto& known) { return known.second == target; }))
       {
-        this->Targets.emplace_back(0.0, target);
+        targets.emplace_back(0.0, target);
       }
     }
   }
-  for (auto& [sine, target] : this->Targets)
+  for (auto& [sine, target] : targets)
   {
     sine = -this->SineAfter(vertex, target, needed);
   }
-  std::sort(this->Targets.begin(), this->Targets.end());
+  std::sort(targets.begin(), targets.end());
+  const auto found = std::find_if(targets.begin(), targets.end(),
+    [&](const auto& target)
+    { return -target.first < needed || this->Mesh.CanCollapse(vertex, target.second); });
+  return found != targets.end() && -found->first >= needed ? found->second : LocalMesh::None;
 }
 
 void TetrahedronCollapses::CollapseInside(const ParallelFor& parallelFor)
@@ -222,19 +231,17 @@ void TetrahedronCollapses::CollapseInside(const ParallelFor& parallelFor)
     }
   }
   Scatter(order);
-  InSteps(parallelFor, order.size(), TriesOfStep,
-    [&](std::size_t i)
+  SearchAhead(
+    parallelFor, order.size(), TriesAtOnce, this->Touched,
+    [&](std::size_t i) { return this->BestTarget(order[i]); },
+    [&](std::size_t i, std::uint32_t /*target*/, int changes)
+    { return this->Touched.AnyIsTouched(this->Mesh, this->Mesh.StarOf(order[i]), changes); },
+    [&](std::size_t i, std::uint32_t target)
     {
-      const std::uint32_t vertex = order[i];
-      const double needed = this->SineNeeded(vertex);
-      this->FindTargets(vertex, needed);
-      this->IsTried[vertex] = true;
-      const auto found = std::find_if(this->Targets.begin(), this->Targets.end(),
-        [&](const auto& target)
-        { return -target.first < needed || this->Mesh.CanCollapse(vertex, target.second); });
-      if (found != this->Targets.end() && -found->first >= needed)
+      this->IsTried[order[i]] = true;
+      if (target != LocalMesh::None)
       {
-        this->Collapse(vertex, found->second);
+        this->Collapse(order[i], target);
       }
     });
 }

@@ -5,9 +5,9 @@
 #include "Field/Parallel.h"
 #include "Simplification/EdgeCollapses.h"
 #include "Stuffing/LocalMesh.h"
+#include "Stuffing/TouchedPoints.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace isodiamond
@@ -80,7 +80,7 @@ private:
   double MostLength(std::uint32_t a, std::uint32_t b, double mostTimes) const;
   bool KeepsEdgesShort(std::uint32_t point, const Vector& place) const;
   bool IsLong(std::uint32_t a, std::uint32_t b, double mostTimes) const;
-  void FindTargets(std::uint32_t vertex, double needed);
+  std::uint32_t BestTarget(std::uint32_t vertex) const;
   /** Changed tetrahedra make their points worth another try. */
   void LookAgainAround(const LocalMesh::Star& changed);
 
@@ -93,8 +93,7 @@ private:
   std::vector<Step> Steps;
   std::vector<bool> IsTried;         ///< by point: and nothing around it has changed since
   std::vector<bool> IsShortOfVolume; ///< by point: refused for volume that others may give back
-  /** Of one vertex: the smallest sine, negated, so that the best comes first. */
-  std::vector<std::pair<double, std::uint32_t>> Targets;
+  TouchedPoints Touched;
 };
 
 }
