@@ -470,6 +470,24 @@ TEST(DistanceError, DoesNotDependOnThreadsOrOnTheSource)
   }
 }
 
+// Powers of two change no digit, as long as nothing vanishes or gets infinite.
+TEST(DistanceError, IsTheSameInTheShortestAndTheLongestUnits)
+{
+  const test::Field field = test::NoiseField({ 17, 12, 9 }, 3);
+  const auto build = [&](double unit)
+  {
+    return BuildIsodiamonds(Model::Minimal, field.View(), field.Isovalue, SerialFor,
+      test::Distance(test::Spacing(unit, 0.75 * unit, 1.5 * unit)));
+  };
+  const Encoding usual = build(1.0);
+  for (const double unit : { std::ldexp(1.0, -115), std::ldexp(1.0, 115) })
+  {
+    const Encoding unusual = build(unit);
+    EXPECT_EQ(unusual.Header.ErrorScale, unit * usual.Header.ErrorScale);
+    EXPECT_EQ(unusual.Arrays.Records, usual.Arrays.Records) << unit;
+  }
+}
+
 // Integers on a cube of 2^N + 1 samples: many distances are equal, or equal to the value of a code.
 // With these of 3000 seeds, the order decided as long as codes were compared without a margin.
 TEST(DistanceError, DoesNotDependOnTheOrderOfRanges)
@@ -631,7 +649,15 @@ TEST(DistanceError, RefusesWorldsWithoutLengths)
   const Grid grid({ 5, 5, 5 });
   EXPECT_THROW(DistanceErrorScale(grid, test::Spacing(1.0, 0.0, 1.0)), std::invalid_argument);
   EXPECT_THROW(DistanceErrorScale(grid, test::Spacing(1.0, Infinity, 1.0)), std::invalid_argument);
-  EXPECT_GT(DistanceErrorScale(grid, test::Spacing(1e-110, 1e-110, 1e-110)), 0.0);
+  for (const double unusual : { 0.9e-35, 1.1e35, 1e-110, 1e-310, 1e200, std::nan("") })
+  {
+    EXPECT_THROW(DistanceErrorScale(grid, test::Spacing(1.0, unusual, 1.0)), std::invalid_argument);
+    EXPECT_THROW(
+      DistanceErrorScale(grid, test::Spacing(unusual, unusual, unusual)), std::invalid_argument);
+  }
+  AffineMap sheared;
+  sheared.Rows = { { { 1, 0, 0, 0 }, { 0, 1, 1e40, 0 }, { 0, 0, 1, 0 } } };
+  EXPECT_THROW(DistanceErrorScale(grid, sheared), std::invalid_argument);
   AffineMap flat; // y and z lie in one direction
   flat.Rows = { { { 1, 0, 0, 0 }, { 0, 1, 2, 0 }, { 0, 0, 0, 0 } } };
   EXPECT_THROW(DistanceErrorScale(grid, flat), std::invalid_argument);
@@ -642,9 +668,10 @@ TEST(DistanceError, RefusesAxesWithoutLengths)
   const Grid grid({ 4, 4, 4 });
   const std::vector<double> good = { 1.0, 2.0, 4.0, 8.0 };
   EXPECT_GT(DistanceErrorScale(grid, GridGeometry({ good, { 8, 4, 2, 1 }, good })), 0.0);
-  for (const std::vector<double>& bad : std::vector<std::vector<double>>{ { 1, 2, 2, 3 },
-         { 1, 3, 2, 4 }, { 4, 3, 2, 2 }, { 1, 1, 1, 1 }, { std::nan(""), 1, 2, 3 },
-         { 0, 1, std::nan(""), 3 }, { 0, 1, 2, Infinity }, { -Infinity, 1, 2, 3 } })
+  for (const std::vector<double>& bad :
+    std::vector<std::vector<double>>{ { 1, 2, 2, 3 }, { 1, 3, 2, 4 }, { 4, 3, 2, 2 },
+      { 1, 1, 1, 1 }, { std::nan(""), 1, 2, 3 }, { 0, 1, std::nan(""), 3 }, { 0, 1, 2, Infinity },
+      { -Infinity, 1, 2, 3 }, { 0, 1, 2, 1e36 }, { 0, 1e-36, 1, 2 } })
   {
     for (int axis = 0; axis < 3; ++axis)
     {

@@ -344,6 +344,7 @@ TEST(Encoding, ScalarsThatDoNotFitAreRefused)
   EXPECT_TRUE(isRefusedAfter([&](ScalarEncoding& e) { shorten(e.Minima); }));
   EXPECT_TRUE(isRefusedAfter([&](ScalarEncoding& e) { shorten(e.Maxima); }));
   const std::size_t count = std::get<std::vector<float>>(good.Minima).size();
+  EXPECT_TRUE(isRefusedAfter([](ScalarEncoding& e) { e.Codes.back() = ErrorCode::Always + 1; }));
   EXPECT_TRUE(isRefusedAfter([&](ScalarEncoding& e) { e.Minima = std::vector<double>(count); }));
   EXPECT_TRUE(isRefusedAfter([&](ScalarEncoding& e) { e.Maxima = std::vector<double>(count); }));
 }

@@ -127,6 +127,26 @@ TEST(OddMeshes, KeepSheetsTogetherThatMeetInAPoint)
   }
 }
 
+// Meshes of damaged hierarchies may have triangles with a point twice; around such a point there
+// may be no way back.
+TEST(OddMeshes, MayHaveTrianglesWithAPointTwice)
+{
+  for (const Triangle& bad : { Triangle{ 4, 0, 0 }, Triangle{ 0, 0, 4 }, Triangle{ 4, 4, 4 } })
+  {
+    AllowedMesh mesh;
+    mesh.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+    mesh.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, bad };
+    mesh.Allowances.assign(mesh.Mesh.Triangles.size(), 0.1);
+    const std::vector<std::uint32_t> faulty =
+      Connectivity(mesh.Mesh.Positions.size(), mesh.Mesh.Triangles).FaultyPoints();
+    for (const std::uint32_t point : bad)
+    {
+      EXPECT_NE(std::find(faulty.begin(), faulty.end(), point), faulty.end()) << point;
+    }
+    EXPECT_EQ(Simplify(mesh, SerialFor).Triangles.size(), mesh.Mesh.Triangles.size());
+  }
+}
+
 // Flat tetrahedra: three faces may be in one part, and the fourth in another.
 TEST(OddMeshes, KeepSpecksThatPartsShare)
 {

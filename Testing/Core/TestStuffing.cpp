@@ -280,6 +280,59 @@ TEST(Improvement, LeavesAThirdOfTheBadInAPlainMeshOfNoise)
   EXPECT_LT(countBad(Improve(plain, ImprovementOptions(), SerialFor)), countBad(plain) / 3);
 }
 
+// What is not found before the mesh is made leads beyond its arrays.
+TEST(Stuffing, RefusesLeavesWithAPointTwice)
+{
+  const test::Built built = test::BuildVolume(test::GyroidField(9, 1.0), { 0.1, HUGE_VAL });
+  const test::Leaves good(*built.Hierarchy, 0.0);
+  const auto isRefused = [&](const CutMesh& leaves)
+  {
+    const GridGeometry world = AffineMap();
+    const std::vector<Vector> vertices = VerticesInWorld(leaves, world);
+    StuffingInput input{ leaves, vertices, good.Points, world, good.SampleGrid, 0.25 };
+    input.Allowances.assign(leaves.Tetrahedra.size(), 0.5);
+    input.CanBeFiner.assign(leaves.Tetrahedra.size(), true);
+    int refusals = 0;
+    try
+    {
+      Stuff(input, SerialFor);
+    }
+    catch (const std::invalid_argument&)
+    {
+      ++refusals;
+    }
+    try
+    {
+      FarLeaves(input, SerialFor);
+    }
+    catch (const std::invalid_argument&)
+    {
+      ++refusals;
+    }
+    return refusals;
+  };
+  EXPECT_EQ(isRefused(good.Mesh), 0);
+  CutMesh bad = good.Mesh;
+  bad.Tetrahedra.back().Vertices[3] = bad.Tetrahedra.back().Vertices[0];
+  EXPECT_EQ(isRefused(bad), 2);
+  bad = good.Mesh;
+  const auto cutTwice = std::find_if(bad.Tetrahedra.begin(), bad.Tetrahedra.end(),
+    [](const CutMesh::Tetrahedron& leaf)
+    { return leaf.Cuts[0][0] != CutMesh::None && leaf.Cuts[1][0] != CutMesh::None; });
+  ASSERT_NE(cutTwice, bad.Tetrahedra.end());
+  cutTwice->Cuts[0] = cutTwice->Cuts[1];
+  EXPECT_EQ(isRefused(bad), 2);
+  bad = good.Mesh;
+  const CutMesh::Tetrahedron& leaf = *std::find_if(bad.Tetrahedra.begin(), bad.Tetrahedra.end(),
+    [&](const CutMesh::Tetrahedron& some)
+    {
+      return bad.Vertices[some.Vertices[0]].PointId != CutMesh::None &&
+        bad.Vertices[some.Vertices[1]].PointId != CutMesh::None;
+    });
+  bad.Vertices[leaf.Vertices[0]].PointId = bad.Vertices[leaf.Vertices[1]].PointId;
+  EXPECT_EQ(isRefused(bad), 2);
+}
+
 // Where the surface hugs a wall, the nearest isovertex may be off the wall, and another one on it.
 TEST(MovedVertices, TakeTheNearestIsovertexOnTheirWall)
 {

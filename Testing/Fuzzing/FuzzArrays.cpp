@@ -7,6 +7,8 @@
 #include "Mesh/IntervalExtraction.h"
 #include "Mesh/SurfaceExtraction.h"
 #include "Refinement/ScalarQuery.h"
+#include "Simplification/Simplification.h"
+#include "Stuffing/Stuffing.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -20,6 +22,8 @@ namespace
 
 /** No tolerance may take long: what is refined is in the arrays, and these are short. */
 constexpr std::int64_t MostPoints = 10'000'000;
+/** Larger meshes are not changed any more. */
+constexpr std::size_t MostCells = 2000;
 
 void Check(bool condition)
 {
@@ -34,6 +38,58 @@ void CheckIds(const Cells& connectivity, std::int64_t points)
 {
   Check(std::all_of(connectivity.begin(), connectivity.end(),
     [&](std::int32_t id) { return id >= 0 && id < points; }));
+}
+
+void StuffLeaves(const IntervalExtraction& extraction, const Grid& grid)
+{
+  const CutMesh leaves = extraction.Leaves(nullptr);
+  if (leaves.Tetrahedra.size() > MostCells)
+  {
+    return;
+  }
+  const GridGeometry world = AffineMap();
+  const std::vector<Vector> vertices = VerticesInWorld(leaves, world);
+  std::vector<Vector> points(extraction.PointCount());
+  extraction.ForEachPoint([&](const MeshPoint& point) { points[point.Id] = world(point.Index); });
+  StuffingInput input{ leaves, vertices, points, world, grid, 0.5 };
+  try
+  {
+    Stuff(input, SerialFor);
+    input.Allowances.assign(leaves.Tetrahedra.size(), 1.0);
+    input.CanBeFiner.assign(leaves.Tetrahedra.size(), true);
+    FarLeaves(input, SerialFor);
+    input.CanBeFiner.assign(leaves.Tetrahedra.size(), false);
+    Stuff(input, SerialFor);
+  }
+  catch (const std::invalid_argument&) // refused
+  {
+  }
+}
+
+void SimplifyTriangles(
+  const std::vector<float>& points, const std::vector<std::int32_t>& connectivity, const Grid& grid)
+{
+  if (connectivity.size() > 3 * MostCells)
+  {
+    return;
+  }
+  AllowedMesh mesh;
+  for (std::size_t i = 0; i < points.size(); i += 3)
+  {
+    mesh.Mesh.Positions.push_back({ points[i], points[i + 1], points[i + 2] });
+    mesh.OnWalls.push_back(Walls::At(mesh.Mesh.Positions.back(), grid));
+  }
+  for (std::size_t i = 0; i < connectivity.size(); i += 3)
+  {
+    Triangle& triangle = mesh.Mesh.Triangles.emplace_back();
+    std::copy_n(connectivity.begin() + static_cast<std::ptrdiff_t>(i), 3, triangle.begin());
+  }
+  mesh.Allowances.assign(mesh.Mesh.Triangles.size(), 1.0);
+  for (const Triangle& triangle : Simplify(mesh, SerialFor).Triangles)
+  {
+    Check(std::all_of(triangle.begin(), triangle.end(),
+      [&](std::uint32_t point) { return point < mesh.Mesh.Positions.size(); }));
+  }
 }
 
 void Extract(const IsodiamondHierarchy& hierarchy, const Query& query)
@@ -52,6 +108,7 @@ void Extract(const IsodiamondHierarchy& hierarchy, const Query& query)
     extraction.WriteValues(values.data(), surfaces.data());
     extraction.WriteTetrahedra(false, connectivity.data(), levels.data());
     CheckIds(connectivity, extraction.PointCount());
+    StuffLeaves(extraction, hierarchy.SampleGrid());
   }
   else
   {
@@ -63,6 +120,7 @@ void Extract(const IsodiamondHierarchy& hierarchy, const Query& query)
     extraction.WritePoints(AffineMap(), points.data());
     extraction.WriteTriangles(false, connectivity.data(), levels.data());
     CheckIds(connectivity, extraction.PointCount());
+    SimplifyTriangles(points, connectivity, hierarchy.SampleGrid());
   }
   ExtractDiamondMesh(refined);
 }

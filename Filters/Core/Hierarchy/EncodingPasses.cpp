@@ -83,6 +83,10 @@ void EncodingPasses::MakeRoom()
   {
     throw std::length_error("more than 2^32 - 1 isovertices");
   }
+  if (this->Next.back().InsideValues > std::numeric_limits<std::int32_t>::max())
+  {
+    throw std::length_error("more than 2^31 - 1 values inside the interval volume");
+  }
   this->Result.Arrays.Isovertices.resize(this->Next.back().Isovertices);
 }
 

@@ -174,6 +174,11 @@ ScalarHierarchy::ScalarHierarchy(const AnySamples& samples, double errorScale,
   {
     throw std::invalid_argument("the errors or ranges do not match the samples");
   }
+  if (std::any_of(
+        codes, codes + codeCount, [](ErrorCode::Type code) { return code > ErrorCode::Always; }))
+  {
+    throw std::invalid_argument("an error has more than 14 bits");
+  }
   std::int64_t next = 0;
   for (int scale = this->TheGrid.Depth() - 1; scale >= 0; --scale)
   {

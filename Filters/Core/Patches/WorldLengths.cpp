@@ -12,14 +12,21 @@ namespace isodiamond
 namespace
 {
 
-/** Whether coordinates are finite and rise, or fall, at every step. */
+///@{
+/** The eighth power of a length must neither vanish nor be infinite. */
+constexpr double ShortestStep = 1e-35;
+constexpr double LongestStep = 1e35;
+///@}
+
+/** Whether coordinates are finite and rise, or fall, at every step, by what can be measured. */
 bool AreStrictlyMonotone(const std::vector<double>& coordinates)
 {
   const bool rise = coordinates.back() > coordinates.front();
   for (std::size_t i = 1; i < coordinates.size(); ++i)
   {
-    const double step = coordinates[i] - coordinates[i - 1];
-    if (!std::isfinite(step) || !(rise ? step > 0.0 : step < 0.0))
+    const double step =
+      rise ? coordinates[i] - coordinates[i - 1] : coordinates[i - 1] - coordinates[i];
+    if (!(step >= ShortestStep && step <= LongestStep))
     {
       return false;
     }
@@ -57,9 +64,18 @@ AffineLengths::AffineLengths(const AffineMap& world)
 
 bool AffineLengths::IsValid() const
 {
+  const auto areBelow = [](const std::array<Vector, 3>& factor, double most)
+  {
+    return std::all_of(factor.begin(), factor.end(),
+      [=](const Vector& row)
+      {
+        return std::all_of(
+          row.begin(), row.end(), [=](double value) { return std::abs(value) <= most; });
+      });
+  };
   const auto& f = this->Triangular;
-  return f[0][0] > 0.0 && f[1][1] > 0.0 && f[2][2] > 0.0 &&
-    std::isfinite(f[0][0] + f[1][1] + f[2][2]);
+  return std::min({ f[0][0], f[1][1], f[2][2] }) >= ShortestStep && areBelow(f, LongestStep) &&
+    areBelow(this->Inverse, 1.0 / ShortestStep);
 }
 
 double AffineLengths::SquaredRadius(const FineBox& box, const FinePosition& middle) const
@@ -178,16 +194,14 @@ std::string FaultOfLengths(const GridGeometry& world)
 {
   if (const AffineMap* map = world.Affine())
   {
-    return AffineLengths(*map).IsValid()
-      ? ""
-      : "Distances need a spacing that is neither 0 nor infinite.";
+    return AffineLengths(*map).IsValid() ? "" : "Distances need a spacing between 1e-35 and 1e35.";
   }
   if (const AxisCoordinates* axes = world.Axes())
   {
     return AxesLengths(*axes, 0).IsValid()
       ? ""
       : "The distance metric needs coordinates that are finite and rise, or fall, at every sample "
-        "of an axis; on others use the field metric.";
+        "of an axis, by 1e-35 to 1e35; on others use the field metric.";
   }
   return "The distance metric needs an image or a rectilinear grid; on others use the field "
          "metric.";

@@ -46,9 +46,13 @@ Connectivity::Connectivity(std::size_t pointCount, std::vector<Triangle> triangl
           this->Links.Neighbours[i][k] = other;
         }
       }
-      if (along != 1 || against > 1 || from == to)
+      if (along != 1 || against > 1)
       {
         this->Faulty.push_back(from);
+      }
+      if (from == to)
+      {
+        this->Faulty.insert(this->Faulty.end(), triangle.begin(), triangle.end());
       }
     }
   }

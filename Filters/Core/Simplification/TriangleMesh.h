@@ -105,8 +105,8 @@ class Connectivity
 public:
   Connectivity(std::size_t pointCount, std::vector<Triangle> triangles);
 
-  /** Where edges begin that more than two triangles have, or two in the same direction. Neighbours
-   *  are meaningful only if there are none. */
+  /** Where edges begin that more than two triangles have, or two in the same direction, and the
+   *  points of triangles that have one twice. Neighbours are meaningful only if there are none. */
   const std::vector<std::uint32_t>& FaultyPoints() const { return this->Faulty; }
 
   /** The triangles at a point. */

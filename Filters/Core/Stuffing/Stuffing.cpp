@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace isodiamond
@@ -22,6 +23,49 @@ constexpr double WantedAngle = 15.5;
 
 /** This many tetrahedra are worth a thread. */
 constexpr std::int64_t LeastRange = 2048;
+
+/** Whether two corners of a leaf, or two points of its pieces, are the same. */
+bool HasPointTwice(const CutMesh& mesh, const CutMesh::Tetrahedron& leaf)
+{
+  std::array<std::uint32_t, 16> points{};
+  auto end = points.begin();
+  for (std::size_t i = 0; i < leaf.Vertices.size(); ++i)
+  {
+    const std::uint32_t vertex = leaf.Vertices[i];
+    if (std::count(leaf.Vertices.begin(), leaf.Vertices.end(), vertex) != 1)
+    {
+      return true;
+    }
+    *end++ = mesh.Vertices[vertex].PointId;
+  }
+  for (const std::array<std::uint32_t, 2>& cuts : leaf.Cuts)
+  {
+    end = std::copy(cuts.begin(), cuts.end(), end);
+  }
+  end = std::remove(points.begin(), end, CutMesh::None);
+  return std::any_of(points.begin(), end,
+    [&](std::uint32_t point) { return std::count(points.begin(), end, point) != 1; });
+}
+
+/** A hierarchy from a damaged file may have leaves of which there is nothing to be made.
+ *  @throws std::invalid_argument if it has */
+void CheckLeaves(const CutMesh& mesh, const ParallelFor& parallelFor)
+{
+  std::atomic<bool> isDamaged = false;
+  ForEachIndex(parallelFor, mesh.Tetrahedra.size(), LeastRange,
+    [&](std::int64_t i)
+    {
+      if (HasPointTwice(mesh, mesh.Tetrahedra[i]))
+      {
+        isDamaged = true;
+      }
+    });
+  if (isDamaged)
+  {
+    throw std::invalid_argument(
+      "The isodiamond hierarchy is damaged: tetrahedra have a point twice.");
+  }
+}
 
 Walls::Type WallsOf(const CutMesh::Vertex& vertex, const Grid& grid)
 {
@@ -139,6 +183,7 @@ bool HasFixedVertex(const CutMesh& leaves, std::uint32_t leaf)
 
 std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelFor& parallelFor)
 {
+  CheckLeaves(input.Leaves, parallelFor);
   const BothMeshes meshes = CutLeaves(BackgroundOf(input), true, parallelFor);
   std::vector<std::uint32_t> leaves =
     FarLeaves(meshes.Stuffed, { meshes.Plain, input.Allowances, input.CanBeFiner }, parallelFor);
@@ -150,6 +195,7 @@ std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelF
 
 StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, KnownChanges* known)
 {
+  CheckLeaves(input.Leaves, parallelFor);
   const Background background = BackgroundOf(input);
   const bool getsCoarser = !input.Allowances.empty();
   BothMeshes meshes = CutLeaves(background, getsCoarser, parallelFor);

@@ -54,7 +54,8 @@ struct StuffedMesh
   std::vector<std::uint32_t> FarLeaves;
 };
 /** @param parallelFor is given the work in successive steps: it can report progress, and abort
- *  @param known see Improve() */
+ *  @param known see Improve()
+ *  @throws std::invalid_argument if a leaf has a point twice, as those of a damaged hierarchy may */
 StuffedMesh Stuff(
   const StuffingInput& input, const ParallelFor& parallelFor, KnownChanges* known = nullptr);
 
@@ -64,6 +65,7 @@ StuffedMesh Stuff(
  * left to Stuff().
  *
  * @param input whose leaves may be some of a mesh's, see NewLeaves.h
+ * @throws std::invalid_argument as Stuff()
  */
 std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelFor& parallelFor);
 
