@@ -46,6 +46,9 @@ struct Mesh
   /** Of such tetrahedra: diamonds that have to be refined because surfaces are too far away. If
    *  there are any, the mesh is not done. */
   std::vector<isodiamond::Place> FarDiamonds;
+  /** The same where nothing can be refined: the vertices that have to be pinned, each once, as
+   *  PackedPoint(). */
+  std::vector<std::uint64_t> TightVertices;
 
   /** Hands the mesh to a data set. */
   void Give(vtkPolyData* triangles) const;
@@ -72,6 +75,8 @@ struct MeshOptions
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
   isodiamond::KnownChanges* Known = nullptr; ///< see StuffMesh()
   bool MayRefine = true;                     ///< whether FarDiamonds are looked for
+  bool MayPin = true;                        ///< whether TightVertices are looked for
+  std::vector<std::uint64_t> Pinned = {};    ///< see isodiamond::Pin()
   bool KeepsInside = false;                  ///< whether points on no surface stay
   /** The volume that a mesh not for simulations has at the whole tolerance; none if the mesh does
    *  not get coarser. */

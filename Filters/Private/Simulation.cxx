@@ -20,9 +20,12 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** How many meshes are made at most: two or three are usual, more in noise. Refinement before
- *  tetrahedra are improved does not count. */
-constexpr int MostRounds = 10;
+///@{
+/** How many meshes are made at most, after which none is refined, or pinned, any more: two or three
+ *  are usual, more in noise. Refinement before tetrahedra are improved does not count. */
+constexpr int LastRefinement = 10;
+constexpr int LastPinning = 20;
+///@}
 
 /** The volume of what a query gives if it is not for simulations. */
 double PlainVolume(const isodiamond::IsodiamondHierarchy& hierarchy, const isodiamond::Query& query,
@@ -87,13 +90,19 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
     {
       refine(far);
     }
-    asked.MayRefine = round < MostRounds;
+    asked.MayRefine = round < LastRefinement;
+    asked.MayPin = round < LastPinning;
     Mesh mesh = ExtractMesh(*leaves, asked, task);
-    if (mesh.FarDiamonds.empty())
+    if (mesh.FarDiamonds.empty() && mesh.TightVertices.empty())
     {
       return mesh;
     }
-    refine(mesh.FarDiamonds);
+    if (!mesh.FarDiamonds.empty())
+    {
+      refine(mesh.FarDiamonds);
+    }
+    asked.Pinned.insert(asked.Pinned.end(), mesh.TightVertices.begin(), mesh.TightVertices.end());
+    std::sort(asked.Pinned.begin(), asked.Pinned.end());
   }
 }
 

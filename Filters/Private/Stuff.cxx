@@ -34,6 +34,7 @@ isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
     move };
   input.KeepsInside = options.KeepsInside;
   input.VolumeAtTolerance = options.VolumeAtTolerance;
+  input.MayPin = options.MayPin;
   // Each leaf may use what is left of the tolerance: its diamond's error may already use some of
   // it. Leaves at full resolution cannot be made finer.
   for (std::size_t i = 0; options.ToleranceIn && i < input.Leaves.Tetrahedra.size(); ++i)
@@ -61,6 +62,22 @@ std::vector<isodiamond::Place> DiamondsOf(const isodiamond::CutMesh& leaves,
     diamonds.push_back(*isodiamond::DiamondOf(leaves, leaf, grid));
   }
   return diamonds;
+}
+
+std::vector<std::uint64_t> VerticesOf(
+  const isodiamond::CutMesh& mesh, const std::vector<std::uint32_t>& leaves)
+{
+  std::vector<std::uint64_t> positions;
+  for (const std::uint32_t leaf : leaves)
+  {
+    for (const std::uint32_t vertex : mesh.Tetrahedra[leaf].Vertices)
+    {
+      positions.push_back(isodiamond::PackedPoint(mesh.Vertices[vertex].Position));
+    }
+  }
+  std::sort(positions.begin(), positions.end());
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  return positions;
 }
 
 /** What to copy the attributes of a mesh's points from: the points before; for added ones, any
@@ -137,7 +154,8 @@ std::vector<isodiamond::Place> FarDiamondSearch::Find(const isodiamond::RefinedS
   std::vector<isodiamond::Vector> points(extraction.PointCount());
   extraction.ForEachPoint(
     [&](const isodiamond::MeshPoint& point) { points[point.Id] = options.World(point.Index); });
-  const isodiamond::CutMesh leaves = this->News.Find(extraction.Leaves(options.Hidden));
+  isodiamond::CutMesh leaves = this->News.Find(extraction.Leaves(options.Hidden));
+  Pin(leaves, options.Pinned);
   const std::vector<isodiamond::Vector> vertices = VerticesInWorld(leaves, options.World);
   return DiamondsOf(leaves,
     isodiamond::FarLeaves(InputOf(leaves, vertices, points, hierarchy, options), parallelFor),
@@ -148,15 +166,17 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,
   const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
 {
-  const isodiamond::CutMesh leaves = extraction.Leaves(options.Hidden);
+  isodiamond::CutMesh leaves = extraction.Leaves(options.Hidden);
+  Pin(leaves, options.Pinned);
   const std::vector<isodiamond::Vector> vertices = VerticesInWorld(leaves, options.World);
   const std::vector<isodiamond::Vector> positions = PositionsOf(mesh.Points);
   const isodiamond::StuffedMesh result = isodiamond::Stuff(
     InputOf(leaves, vertices, positions, hierarchy, options), parallelFor, options.Known);
   const isodiamond::TetrahedronMesh& stuffed = result.Mesh;
-  if (!result.FarLeaves.empty())
+  if (!result.FarLeaves.empty() || !result.TightLeaves.empty())
   {
     mesh.FarDiamonds = DiamondsOf(leaves, result.FarLeaves, hierarchy.SampleGrid());
+    mesh.TightVertices = VerticesOf(leaves, result.TightLeaves);
     return;
   }
 

@@ -333,6 +333,53 @@ TEST(Stuffing, RefusesLeavesWithAPointTwice)
   EXPECT_EQ(isRefused(bad), 2);
 }
 
+// Full resolution cannot be refined: where vertices have moved too far, they are pinned.
+TEST(Stuffing, KeepsTheToleranceAtFullResolutionWherePinned)
+{
+  const double allowance = 0.05;
+  const test::Built built = test::BuildVolume(test::GyroidField(25, 1.5), { 0.1, HUGE_VAL });
+  test::Leaves leaves(*built.Hierarchy, 0.0);
+  const GridGeometry world = AffineMap();
+  const std::vector<Vector> vertices = VerticesInWorld(leaves.Mesh, world);
+  StuffingInput input{ leaves.Mesh, vertices, leaves.Points, world, leaves.SampleGrid, 0.25 };
+  input.Allowances.assign(leaves.Mesh.Tetrahedra.size(), allowance);
+  input.CanBeFiner.assign(leaves.Mesh.Tetrahedra.size(), false);
+
+  test::Stuffed stuffed(*built.Hierarchy, Query{});
+  EXPECT_NE(test::FarByForce(stuffed.Plain, stuffed.AsVolume(), allowance), "");
+  std::vector<std::uint64_t> pinned;
+  std::vector<std::size_t> tight;
+  for (StuffedMesh result = Stuff(input, SerialFor); !result.TightLeaves.empty();
+       result = Stuff(input, SerialFor))
+  {
+    EXPECT_TRUE(result.FarLeaves.empty());
+    tight.push_back(result.TightLeaves.size());
+    ASSERT_LT(tight.size(), 10U);
+    std::set<std::uint64_t> positions;
+    for (const std::uint32_t leaf : result.TightLeaves)
+    {
+      for (const std::uint32_t vertex : leaves.Mesh.Tetrahedra[leaf].Vertices)
+      {
+        positions.insert(PackedPoint(leaves.Mesh.Vertices[vertex].Position));
+      }
+    }
+    pinned.insert(pinned.end(), positions.begin(), positions.end());
+    std::sort(pinned.begin(), pinned.end());
+    Pin(leaves.Mesh, pinned);
+    EXPECT_GT(PinsOf(leaves.Mesh, result.TightLeaves.front()), 0);
+  }
+  ASSERT_GT(tight.size(), 0U);
+  stuffed.Mesh = Stuff(input, SerialFor).Mesh;
+  EXPECT_EQ(test::FarByForce(stuffed.Plain, stuffed.AsVolume(), 1.0001 * allowance), "");
+  EXPECT_EQ(stuffed.CountBad(), 0U);
+
+  // Without pins, it is left where it is.
+  Pin(leaves.Mesh, {});
+  input.MayPin = false;
+  stuffed.Mesh = Stuff(input, SerialFor).Mesh;
+  EXPECT_NE(test::FarByForce(stuffed.Plain, stuffed.AsVolume(), 1.0001 * allowance), "");
+}
+
 // Where the surface hugs a wall, the nearest isovertex may be off the wall, and another one on it.
 TEST(MovedVertices, TakeTheNearestIsovertexOnTheirWall)
 {

@@ -187,6 +187,27 @@ private:
 
 }
 
+void Pin(CutMesh& mesh, const std::vector<std::uint64_t>& positions)
+{
+  for (CutMesh::Vertex& vertex : mesh.Vertices)
+  {
+    const auto [first, last] =
+      std::equal_range(positions.begin(), positions.end(), PackedPoint(vertex.Position));
+    vertex.Pins = static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(last - first, 255));
+  }
+}
+
+int PinsOf(const CutMesh& mesh, std::size_t leaf)
+{
+  const auto& vertices = mesh.Tetrahedra[leaf].Vertices;
+  int pins = 255;
+  for (const std::uint32_t vertex : vertices)
+  {
+    pins = std::min<int>(pins, mesh.Vertices[vertex].Pins);
+  }
+  return pins;
+}
+
 std::vector<Vector> VerticesInWorld(const CutMesh& mesh, const GridGeometry& world)
 {
   std::vector<Vector> positions;

@@ -30,6 +30,7 @@ struct CutMesh
     Point Position{};             ///< in index space
     std::uint8_t Sign = 0;        ///< 0, 1, 2: below, inside, above
     bool IsFixed = false;         ///< whether it has to stay: the corners of hidden cells do
+    std::uint8_t Pins = 0;        ///< see PinsOf()
     std::uint32_t PointId = None; ///< in the mesh; only for vertices inside
   };
 
@@ -52,6 +53,13 @@ inline constexpr int CutEdge(int younger, int older)
 {
   return EdgeByAge(younger, older) - EdgeByAge(0, 1);
 }
+
+/** Pins vertices. @param positions PackedPoint() of each, sorted, as often as it is pinned */
+void Pin(CutMesh& mesh, const std::vector<std::uint64_t>& positions);
+
+/** How often a leaf is pinned: as often as all of its vertices are. The more often, the less
+ *  surfaces may move there. */
+int PinsOf(const CutMesh& mesh, std::size_t leaf);
 
 /** The world positions of the vertices. */
 std::vector<Vector> VerticesInWorld(const CutMesh& mesh, const GridGeometry& world);

@@ -6,6 +6,8 @@
 #include "Simplification/CellsAtPoints.h"
 #include "Stuffing/TetrahedronMesh.h"
 
+#include <cmath>
+
 namespace isodiamond
 {
 
@@ -28,14 +30,18 @@ public:
    * @param walls by vertex
    * @param points of the interval volume's mesh, in the world; must outlive it
    * @param mirrored whether orientation is reversed from index space to the world
+   * @param mostMoves by vertex: how far it may move, and surfaces between it and others with a
+   *        limit; none if there are no limits
    */
   Background(const CutMesh& cut, const std::vector<Vector>& positions,
-    std::vector<Walls::Type> walls, const std::vector<Vector>& points, bool mirrored)
+    std::vector<Walls::Type> walls, const std::vector<Vector>& points, bool mirrored,
+    std::vector<double> mostMoves = {})
     : Cut(cut)
     , VertexPositions(positions)
     , VertexWalls(std::move(walls))
     , Points(points)
     , IsMirrored(mirrored)
+    , MostMoves(std::move(mostMoves))
     , Stars(cut.Vertices.size(), cut.Tetrahedra.size(),
         [&](std::size_t tetrahedron) { return cut.Tetrahedra[tetrahedron].Vertices; })
     , Crossings(FindCrossings(cut, points.size()))
@@ -64,6 +70,12 @@ public:
   const std::vector<Vector>& AllPoints() const { return this->Points; }
   Walls::Type WallsOf(std::uint32_t vertex) const { return this->VertexWalls[vertex]; }
 
+  /** How far a vertex may move. */
+  double MostMoveOf(std::uint32_t vertex) const
+  {
+    return this->MostMoves.empty() ? HUGE_VAL : this->MostMoves[vertex];
+  }
+
   /** The leaves at a vertex. */
   CellsAtPoints::Cells StarOf(std::uint32_t vertex) const { return this->Stars[vertex]; }
 
@@ -86,6 +98,7 @@ private:
   std::vector<Walls::Type> VertexWalls;
   const std::vector<Vector>& Points;
   bool IsMirrored;
+  std::vector<double> MostMoves;
   CellsAtPoints Stars;
   std::vector<Crossing> Crossings; ///< by point
   CellsAtPoints CrossingsOfStars;

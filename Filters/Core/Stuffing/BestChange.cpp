@@ -232,7 +232,7 @@ private:
       }
     }
     if (this->IsBetter(before, after) && this->Mesh.CanCollapse(from, to) &&
-      StaysNear(this->Mesh, from, to, this->Options.SurfaceMove))
+      StaysNear(this->Mesh, from, to, this->SurfaceMoveAt(from)))
     {
       Change& collapse = this->Take(Change::Collapse, before, after);
       collapse.Point = from;
@@ -267,7 +267,8 @@ private:
   bool CanRemoveEdge(std::uint32_t a, std::uint32_t b, const LocalMesh::Ring& ring) const
   {
     return ring.Points.size() >= 3 &&
-      (ring.IsClosed || CanTurn(this->Mesh, a, b, ring, this->Options.SurfaceMove));
+      (ring.IsClosed ||
+        CanTurn(this->Mesh, a, b, ring, std::max(this->SurfaceMoveAt(a), this->SurfaceMoveAt(b))));
   }
 
   /** Whether a change replaces exactly the tetrahedra around its edge. */
@@ -434,6 +435,15 @@ private:
 
   //--- Points on surfaces -----------------------------------------------------
 
+  /** How far a surface may get from where it was, at a point on it. */
+  double SurfaceMoveAt(std::uint32_t point) const
+  {
+    const std::uint32_t source = this->Mesh.SourceOf(point);
+    const double most =
+      source < this->Options.CutEdges.size() ? this->Options.CutEdges[source].MostMove : HUGE_VAL;
+    return std::min(this->Options.SurfaceMove, most);
+  }
+
   /** How far a point on a surface may move; 0 for not at all. */
   double MostShift(std::uint32_t point) const
   {
@@ -442,7 +452,7 @@ private:
     {
       return 0.0;
     }
-    return std::min(this->Options.SurfaceMove, MostOfEdge * this->Options.CutEdges[source].Length);
+    return std::min(this->SurfaceMoveAt(point), MostOfEdge * this->Options.CutEdges[source].Length);
   }
   bool MayShift(std::uint32_t point, const Vector& place) const
   {

@@ -25,7 +25,7 @@ constexpr int RelaxationRounds = 2;
 
 /** See FarLeaves(). @param distance of the surfaces' part, which is measured */
 std::vector<std::uint32_t> FarLeavesOf(const MeasuredSurfaces& surfaces, PartDistance& distance,
-  const std::vector<bool>& canBeFiner, const ParallelFor& parallelFor)
+  const std::vector<bool>& canBeNearer, const ParallelFor& parallelFor)
 {
   const PartDistance::Faults faults = distance.Find(surfaces.Part.Simple, surfaces.Homes(),
     std::vector<bool>(surfaces.Part.Simple.Triangles.size(), true), parallelFor);
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> FarLeavesOf(const MeasuredSurfaces& surfaces, PartDis
   std::sort(leaves.begin(), leaves.end());
   leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
   leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
-                 [&](std::uint32_t leaf) { return !canBeFiner[leaf]; }),
+                 [&](std::uint32_t leaf) { return !canBeNearer[leaf]; }),
     leaves.end());
   return leaves;
 }
@@ -54,7 +54,8 @@ std::vector<std::uint32_t> FarLeavesOf(const MeasuredSurfaces& surfaces, PartDis
 std::vector<std::uint32_t> FarLeaves(
   const TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor)
 {
-  if (std::find(input.CanBeFiner.begin(), input.CanBeFiner.end(), true) == input.CanBeFiner.end())
+  if (std::find(input.CanBeNearer.begin(), input.CanBeNearer.end(), true) ==
+    input.CanBeNearer.end())
   {
     return {};
   }
@@ -64,7 +65,7 @@ std::vector<std::uint32_t> FarLeaves(
     return {};
   }
   PartDistance distance(surfaces.Part);
-  return FarLeavesOf(surfaces, distance, input.CanBeFiner, parallelFor);
+  return FarLeavesOf(surfaces, distance, input.CanBeNearer, parallelFor);
 }
 
 std::vector<std::uint32_t> Coarsen(
@@ -78,7 +79,7 @@ std::vector<std::uint32_t> Coarsen(
   }
   PartDistance distance(part);
   if (std::vector<std::uint32_t> far =
-        FarLeavesOf(surfaces, distance, input.CanBeFiner, parallelFor);
+        FarLeavesOf(surfaces, distance, input.CanBeNearer, parallelFor);
       !far.empty())
   {
     return far;

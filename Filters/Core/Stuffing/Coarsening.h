@@ -16,8 +16,8 @@ struct CoarseningInput
   const TetrahedronMesh& Plain; ///< the volume's mesh, with its leaves as origins
   /** By leaf: how far from its part of the surfaces the result's surfaces may be. */
   const std::vector<double>& Allowances;
-  /** By leaf: whether it could be finer. */
-  const std::vector<bool>& CanBeFiner;
+  /** By leaf: whether its surfaces could be nearer, if it were finer, or pinned. */
+  const std::vector<bool>& CanBeNearer;
   bool KeepsInside = false; ///< whether points inside stay
   /** What part of allowances samples may use; what turns out to be too much is undone. */
   double UsedPart = 0.75;
@@ -28,7 +28,8 @@ struct CoarseningInput
   std::optional<double> VolumeAtTolerance = {};
 };
 
-/** The leaves that could be finer and where a surface of a stuffed mesh is too far away, sorted. */
+/** The leaves that could be nearer and where a surface of a stuffed mesh is too far away, sorted.
+ */
 std::vector<std::uint32_t> FarLeaves(
   const TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor);
 
@@ -40,7 +41,8 @@ std::vector<std::uint32_t> FarLeaves(
  * places (Relaxation.h), and more edges inside collapse.
  *
  * @return the FarLeaves() before any change. If there are any, the mesh stays as it is: the caller
- *         has to refine and begin again. What is too far away but cannot be finer is left as it is.
+ *         has to refine, or pin, and begin again. What is too far away but cannot be nearer is left
+ *         as it is.
  */
 std::vector<std::uint32_t> Coarsen(
   TetrahedronMesh& mesh, const CoarseningInput& input, const ParallelFor& parallelFor);

@@ -23,6 +23,9 @@ constexpr std::int64_t LeastRange = 2048;
 /** The least sine of a dihedral angle that a move may leave in a whole tetrahedron. */
 constexpr double LeastSine = 0.1;
 
+/** Of several ways to cut a leaf, the only one that IntervalPatches() knows. */
+constexpr std::uint8_t MeasuredPatch = 0;
+
 /** The walls that an edge lies in. */
 Walls::Type CommonWalls(Walls::Type a, Walls::Type b)
 {
@@ -90,6 +93,7 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
     return nearest;
   }
   const Vector& at = this->Mesh.PositionOf(vertex);
+  const double most = this->Mesh.MostMoveOf(vertex);
   for (const std::uint32_t point : this->Mesh.CrossingsAt(vertex))
   {
     const Crossing& crossing = this->Mesh.AllCrossings()[point];
@@ -105,6 +109,10 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
     const Vector edge = this->Mesh.PositionOf(other) - at;
     const Vector way = this->Mesh.PointAt(point) - at;
     const double distance = std::sqrt(Dot(way, way) / Dot(edge, edge));
+    if (Dot(way, way) > most * most)
+    {
+      continue;
+    }
     if (distance < nearest.Distance || (distance == nearest.Distance && point < nearest.Point))
     {
       nearest = { distance, vertex, point, crossing.Surface };
@@ -211,9 +219,14 @@ double MovedVertices::SineOf(std::uint32_t tetrahedron, const PatchTetrahedron& 
     this->Mesh.PointAt(points[2]), this->Mesh.PointAt(points[3]));
 }
 
-/** Of several ways to cut a leaf, the one whose worst piece is best. */
+/** Of several ways to cut a leaf, the one whose worst piece is best; where it is pinned, the one
+ *  that is measured. */
 std::uint8_t MovedVertices::BestPatch(std::uint32_t tetrahedron) const
 {
+  if (PinsOf(this->Mesh.Leaves(), tetrahedron) > 0)
+  {
+    return MeasuredPatch;
+  }
   const std::vector<std::vector<PatchTetrahedron>>& patches = this->PatchesOf(tetrahedron);
   double best = -HUGE_VAL;
   std::size_t found = 0;
@@ -295,7 +308,7 @@ TetrahedronMesh MovedVertices::CutAsMeasured() const
   const auto count = static_cast<std::uint32_t>(this->Mesh.Leaves().Tetrahedra.size());
   for (std::uint32_t i = 0; i < count; ++i)
   {
-    this->AddPieces(i, 0, mesh); // the first way is the only one that IntervalPatches() knows
+    this->AddPieces(i, MeasuredPatch, mesh);
   }
   return mesh;
 }

@@ -21,6 +21,17 @@ namespace
 /** In degrees; a little more than is promised to be tried for, as coordinates get rounded. */
 constexpr double WantedAngle = 15.5;
 
+/** How often a leaf can be pinned. More would bring surfaces nearer in noise, but leave bad angles
+ *  there. */
+constexpr int MostPins = 3;
+
+/** How far surfaces may move in one change where a leaf is pinned, as a part of what is allowed
+ *  there. */
+double PartForMoves(int pins)
+{
+  return 0.35 * std::pow(0.5, pins - 1);
+}
+
 /** This many tetrahedra are worth a thread. */
 constexpr std::int64_t LeastRange = 2048;
 
@@ -74,6 +85,26 @@ Walls::Type WallsOf(const CutMesh::Vertex& vertex, const Grid& grid)
   return static_cast<Walls::Type>(walls | (vertex.IsFixed ? Walls::Fixed : 0));
 }
 
+/** By vertex: how far it may move, if a leaf there is pinned; none if none is. */
+std::vector<double> MostMovesOf(const StuffingInput& input)
+{
+  std::vector<double> mostMoves;
+  for (std::size_t leaf = 0; leaf < input.Allowances.size(); ++leaf)
+  {
+    const int pins = PinsOf(input.Leaves, leaf);
+    if (pins > 0)
+    {
+      mostMoves.resize(input.Leaves.Vertices.size(), HUGE_VAL);
+      const double most = PartForMoves(pins) * input.Allowances[leaf];
+      for (const std::uint32_t vertex : input.Leaves.Tetrahedra[leaf].Vertices)
+      {
+        mostMoves[vertex] = std::min(mostMoves[vertex], most);
+      }
+    }
+  }
+  return mostMoves;
+}
+
 Background BackgroundOf(const StuffingInput& input)
 {
   std::vector<Walls::Type> walls;
@@ -82,7 +113,8 @@ Background BackgroundOf(const StuffingInput& input)
   {
     walls.push_back(WallsOf(vertex, input.SampleGrid));
   }
-  return { input.Leaves, input.Vertices, std::move(walls), input.Points, input.World.Mirrors() };
+  return { input.Leaves, input.Vertices, std::move(walls), input.Points, input.World.Mirrors(),
+    MostMovesOf(input) };
 }
 
 /** The directions of the grid's axes, where they are the same everywhere. */
@@ -130,7 +162,8 @@ std::vector<CutSide> CutEdgesOf(const Background& background, bool inIndexSpace)
       const bool isOlderInside = isRising == (crossing.Surface == 0);
       const Vector way = background.PositionOf(older) - background.PositionOf(younger);
       edges[point] = { placeOf(isOlderInside ? older : younger),
-        placeOf(isOlderInside ? younger : older), std::sqrt(Dot(way, way)) };
+        placeOf(isOlderInside ? younger : older), std::sqrt(Dot(way, way)),
+        std::max(background.MostMoveOf(younger), background.MostMoveOf(older)) };
     }
   }
   return edges;
@@ -172,6 +205,17 @@ bool HasBad(
   return hasBad;
 }
 
+/** By leaf: whether its surfaces get nearer if it is finer, or pinned. */
+std::vector<bool> CanBeNearer(const StuffingInput& input)
+{
+  std::vector<bool> canBeNearer = input.CanBeFiner;
+  for (std::size_t leaf = 0; leaf < canBeNearer.size() && input.MayPin; ++leaf)
+  {
+    canBeNearer[leaf] = canBeNearer[leaf] || PinsOf(input.Leaves, leaf) < MostPins;
+  }
+  return canBeNearer;
+}
+
 bool HasFixedVertex(const CutMesh& leaves, std::uint32_t leaf)
 {
   const auto& vertices = leaves.Tetrahedra[leaf].Vertices;
@@ -205,27 +249,32 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   options.Axes = AxesOf(input.World);
   options.World = HasAxes(input.World) ? &input.World : nullptr;
   options.CutEdges = CutEdgesOf(background, options.World != nullptr);
-  CoarseningInput coarsening{ meshes.Plain, input.Allowances, input.CanBeFiner, input.KeepsInside };
+  const std::vector<bool> canBeNearer = CanBeNearer(input);
+  CoarseningInput coarsening{ meshes.Plain, input.Allowances, canBeNearer, input.KeepsInside };
   coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
   coarsening.Axes = options.Axes;
   StuffedMesh result;
+  std::vector<std::uint32_t> far;
   result.Mesh = Improve(std::move(meshes.Stuffed), options, parallelFor, known);
   if (HasBad(result.Mesh, options, parallelFor))
   {
     // Detours are long: they wait until nothing else needs a finer mesh.
     if (getsCoarser)
     {
-      result.FarLeaves = FarLeaves(result.Mesh, coarsening, parallelFor);
+      far = FarLeaves(result.Mesh, coarsening, parallelFor);
     }
-    if (!result.FarLeaves.empty())
+    if (far.empty())
     {
-      return result;
+      result.Mesh = TakeDetours(std::move(result.Mesh), options, parallelFor);
     }
-    result.Mesh = TakeDetours(std::move(result.Mesh), options, parallelFor);
   }
-  if (getsCoarser)
+  if (getsCoarser && far.empty())
   {
-    result.FarLeaves = Coarsen(result.Mesh, coarsening, parallelFor);
+    far = Coarsen(result.Mesh, coarsening, parallelFor);
+  }
+  for (const std::uint32_t leaf : far)
+  {
+    (input.CanBeFiner[leaf] ? result.FarLeaves : result.TightLeaves).push_back(leaf);
   }
   return result;
 }

@@ -26,7 +26,8 @@ struct StuffingInput
   ///@{
   /** See CoarseningInput; without allowances nothing is measured or coarsened. */
   std::vector<double> Allowances = {};
-  std::vector<bool> CanBeFiner = {};
+  std::vector<bool> CanBeFiner = {}; ///< by leaf
+  bool MayPin = true;                ///< whether leaves that cannot be finer may be pinned
   bool KeepsInside = false;
   std::optional<double> VolumeAtTolerance = {};
   ///@}
@@ -43,19 +44,25 @@ struct StuffingInput
  * promise: where so much is bad that the search gives up, some that are worse are left.
  *
  * If there are allowances, the surfaces are measured; where they are too far away, the caller has
- * to refine. If they nowhere are, the mesh is made coarser, as far as allowed (Coarsening.h).
+ * to refine, or, where leaves cannot be finer, to pin their vertices: then surfaces move less
+ * there. If they nowhere are, the mesh is made coarser, as far as allowed (Coarsening.h). Where
+ * leaves have been pinned several times and still are too far away, they are left so: angles there
+ * would be bad.
  *
  * Angles are those in the world: if steps on the axes differ in length, there is more to improve.
  */
 struct StuffedMesh
 {
   TetrahedronMesh Mesh;
-  /** Those that have to be finer, see Coarsening.h. If there are any, the mesh is not finished. */
+  ///@{
+  /** Those that have to be finer, or pinned. If there are any, the mesh is not finished. */
   std::vector<std::uint32_t> FarLeaves;
+  std::vector<std::uint32_t> TightLeaves;
+  ///@}
 };
 /** @param parallelFor is given the work in successive steps: it can report progress, and abort
  *  @param known see Improve()
- *  @throws std::invalid_argument if a leaf has a point twice, as those of a damaged hierarchy may */
+ *  @throws std::invalid_argument if a leaf has a point twice, as in a damaged hierarchy */
 StuffedMesh Stuff(
   const StuffingInput& input, const ParallelFor& parallelFor, KnownChanges* known = nullptr);
 

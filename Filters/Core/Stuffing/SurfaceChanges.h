@@ -4,6 +4,8 @@
 
 #include "Stuffing/LocalMesh.h"
 
+#include <cmath>
+
 /**
  * @file SurfaceChanges.h
  * Whether a change of a mesh leaves its surfaces where they are, or near there.
@@ -24,7 +26,8 @@ struct CutSide
 {
   Vector Inside{}; ///< the end on the volume's side
   Vector Beyond{};
-  double Length = 0.0; ///< in the world
+  double Length = 0.0;        ///< in the world
+  double MostMove = HUGE_VAL; ///< how far the surface may move there, in one change
 };
 
 /** Whether an isovertex may be at a place beside its edge: in a spindle around the edge, which
