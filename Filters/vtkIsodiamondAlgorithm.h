@@ -69,9 +69,9 @@ public:
    * nearly touches itself, move by at most a quarter of their edge. Pieces, holes and tunnels stay,
    * and tetrahedra remain positive and conforming. With the distance metric the mesh starts at 0.65
    * of the tolerance and is then made as coarse as the full tolerance allows. The tolerance holds,
-   * measured both ways, except for cells at full resolution, which move their part of a surface by
-   * up to a voxel; with an interior tolerance, points inside stay. It takes longer if spacings
-   * differ greatly between the axes.
+   * measured both ways; in noise, at a voxel and less, it is exceeded in a few places, where cells
+   * at full resolution cannot get finer and keeping it would leave bad angles. With an interior
+   * tolerance, points inside stay. It takes longer if spacings differ greatly between the axes.
    *
    * Triangles of an isosurface: the mesh is simplified as by Simplify, with the same promise, but
    * no new triangle has an angle below 15 degrees, unless one that it replaces had a smaller one.
