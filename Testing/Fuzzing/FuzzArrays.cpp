@@ -8,6 +8,9 @@
 #include "Mesh/SurfaceExtraction.h"
 #include "Refinement/ScalarQuery.h"
 #include "Simplification/Simplification.h"
+#include "Stuffing/Coarsening.h"
+#include "Stuffing/Improvement.h"
+#include "Stuffing/MovedVertices.h"
 #include "Stuffing/Stuffing.h"
 
 #include <algorithm>
@@ -52,17 +55,35 @@ void StuffLeaves(const IntervalExtraction& extraction, const Grid& grid)
   std::vector<Vector> points(extraction.PointCount());
   extraction.ForEachPoint([&](const MeshPoint& point) { points[point.Id] = world(point.Index); });
   StuffingInput input{ leaves, vertices, points, world, grid, 0.5 };
+  input.Allowances.assign(leaves.Tetrahedra.size(), 1.0);
+  input.CanBeFiner.assign(leaves.Tetrahedra.size(), true);
   try
   {
-    Stuff(input, SerialFor);
-    input.Allowances.assign(leaves.Tetrahedra.size(), 1.0);
-    input.CanBeFiner.assign(leaves.Tetrahedra.size(), true);
     FarLeaves(input, SerialFor);
-    input.CanBeFiner.assign(leaves.Tetrahedra.size(), false);
-    Stuff(input, SerialFor);
   }
   catch (const std::invalid_argument&) // refused
   {
+    return;
+  }
+  // What Stuff() does, but for detours: where a mesh is hopeless, they take seconds.
+  std::vector<Walls::Type> walls;
+  for (const Vector& vertex : vertices)
+  {
+    walls.push_back(static_cast<Walls::Type>(Walls::At(vertex, grid)));
+  }
+  const Background background(leaves, vertices, std::move(walls), points, false);
+  MovedVertices moved(background);
+  const TetrahedronMesh plain = moved.CutAsMeasured();
+  moved.MoveAll(SerialFor);
+  ImprovementOptions options;
+  options.SurfaceMove = 0.5;
+  TetrahedronMesh mesh = Improve(moved.Cut(SerialFor), options, SerialFor);
+  const std::vector<bool> canBeNearer(leaves.Tetrahedra.size(), false);
+  Coarsen(mesh, { plain, input.Allowances, canBeNearer }, SerialFor);
+  for (const Corners& corners : mesh.Tetrahedra)
+  {
+    Check(std::all_of(corners.begin(), corners.end(),
+      [&](std::uint32_t point) { return point < mesh.Positions.size(); }));
   }
 }
 

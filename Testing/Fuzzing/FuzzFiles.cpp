@@ -53,9 +53,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Run(extractor, reader->GetOutput());
     extractor->SetSimplify(true);
     Run(extractor, reader->GetOutput());
-    extractor->SetSimplify(false);
-    extractor->SetSimulationQuality(true);
-    Run(extractor, reader->GetOutput());
     vtkNew<vtkDiamondMesh> mesh;
     mesh->SetErrorTolerance(tolerance);
     Run(mesh, reader->GetOutput());
