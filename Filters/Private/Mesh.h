@@ -49,6 +49,8 @@ struct Mesh
   /** The same where nothing can be refined: the vertices that have to be pinned, each once, as
    *  PackedPoint(). */
   std::vector<std::uint64_t> TightVertices;
+  /** Vertices around bad tetrahedra, if any vertices are pinned. */
+  std::vector<std::uint64_t> BadVertices;
 
   /** Hands the mesh to a data set. */
   void Give(vtkPolyData* triangles) const;

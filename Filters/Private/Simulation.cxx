@@ -49,6 +49,22 @@ double PlainVolume(const isodiamond::IsodiamondHierarchy& hierarchy, const isodi
   return VolumeOf(tetrahedra);
 }
 
+/** Takes pins away. @param all or only those of some vertices, sorted
+ *  @return whether there were any, if there are such vertices */
+bool Release(
+  bool all, const std::vector<std::uint64_t>& vertices, std::vector<std::uint64_t>& pinned)
+{
+  const std::size_t before = pinned.size();
+  pinned.erase(std::remove_if(pinned.begin(), pinned.end(),
+                 [&](std::uint64_t pin)
+                 {
+                   return !vertices.empty() &&
+                     (all || std::binary_search(vertices.begin(), vertices.end(), pin));
+                 }),
+    pinned.end());
+  return pinned.size() < before;
+}
+
 }
 
 Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuery& query,
@@ -83,6 +99,7 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   FarDiamondSearch search;
   isodiamond::KnownChanges known;
   asked.Known = &known;
+  bool isReleased = false;
   for (int round = 1;; ++round)
   {
     for (std::vector<isodiamond::Place> far;
@@ -91,15 +108,20 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
       refine(far);
     }
     asked.MayRefine = round < LastRefinement;
-    asked.MayPin = round < LastPinning;
+    asked.MayPin = !isReleased && round < LastPinning;
     Mesh mesh = ExtractMesh(*leaves, asked, task);
-    if (mesh.FarDiamonds.empty() && mesh.TightVertices.empty())
-    {
-      return mesh;
-    }
     if (!mesh.FarDiamonds.empty())
     {
       refine(mesh.FarDiamonds);
+    }
+    else if (mesh.TightVertices.empty())
+    {
+      // Angles come first: where some are bad, pins around them go, and if that does not help, all.
+      if (!Release(isReleased, mesh.BadVertices, asked.Pinned))
+      {
+        return mesh;
+      }
+      isReleased = true;
     }
     asked.Pinned.insert(asked.Pinned.end(), mesh.TightVertices.begin(), mesh.TightVertices.end());
     std::sort(asked.Pinned.begin(), asked.Pinned.end());

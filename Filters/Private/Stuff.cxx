@@ -180,6 +180,10 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
     return;
   }
 
+  if (!options.Pinned.empty())
+  {
+    mesh.BadVertices = VerticesOf(leaves, LeavesOfBad(leaves, stuffed));
+  }
   const UsedPoints used(stuffed.Tetrahedra, stuffed.Positions.size(), parallelFor);
   const std::vector<vtkIdType> sources = SourcesOf(stuffed, used.Ids(), positions.size());
   vtkNew<vtkPointData> before;

@@ -272,6 +272,23 @@ TEST(SimulationQuality, KeepsTheToleranceOfCellsAtFullResolution)
   }
 }
 
+// In such rough waves it could be kept only by bad angles.
+TEST(SimulationQuality, PutsAnglesBeforeTheTolerance)
+{
+  const auto volume = Ball(test::MakeImage({ 13, 13, 13 },
+                             [](double x, double y, double z)
+                             {
+                               return std::sin(1.7 * x + 1) * std::cos(1.3 * y + 2) +
+                                 std::sin(1.1 * y + 1) * std::cos(1.9 * z) +
+                                 std::sin(1.5 * z + 1) * std::cos(1.2 * x) - 0.1;
+                             }),
+    0.1);
+  volume->Update();
+  EXPECT_GT(volume->GetOutput()->GetNumberOfCells(), 1000);
+  EXPECT_GE(volume->GetSmallestDihedralAngle(), 15.0);
+  EXPECT_LE(volume->GetLargestDihedralAngle(), 165.0);
+}
+
 TEST(SimulationQuality, MakesFewerTetrahedra)
 {
   const auto volume = Ball(test::BallImage({ 33, 33, 33 }), 1.0);

@@ -18,8 +18,11 @@ namespace isodiamond
 namespace
 {
 
-/** In degrees; a little more than is promised to be tried for, as coordinates get rounded. */
+///@{
+/** In degrees: what is promised to be tried for, and a little more, as coordinates get rounded. */
+constexpr double PromisedAngle = 15.0;
 constexpr double WantedAngle = 15.5;
+///@}
 
 /** How often a leaf can be pinned. More would bring surfaces nearer in noise, but leave bad angles
  *  there. */
@@ -223,6 +226,33 @@ bool HasFixedVertex(const CutMesh& leaves, std::uint32_t leaf)
     [&](std::uint32_t vertex) { return leaves.Vertices[vertex].IsFixed; });
 }
 
+}
+
+std::vector<std::uint32_t> LeavesOfBad(const CutMesh& leaves, const TetrahedronMesh& mesh)
+{
+  const double least = std::sin(PromisedAngle / DegreesOfRadian);
+  std::vector<bool> isNear(leaves.Vertices.size());
+  for (std::size_t i = 0; i < mesh.Tetrahedra.size(); ++i)
+  {
+    if (SmallestSine(mesh, mesh.Tetrahedra[i]) < least)
+    {
+      for (const std::uint32_t vertex : leaves.Tetrahedra[mesh.Origins[i]].Vertices)
+      {
+        isNear[vertex] = true;
+      }
+    }
+  }
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t leaf = 0; leaf < leaves.Tetrahedra.size(); ++leaf)
+  {
+    const auto& vertices = leaves.Tetrahedra[leaf].Vertices;
+    if (std::any_of(
+          vertices.begin(), vertices.end(), [&](std::uint32_t vertex) { return isNear[vertex]; }))
+    {
+      near.push_back(leaf);
+    }
+  }
+  return near;
 }
 
 std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelFor& parallelFor)

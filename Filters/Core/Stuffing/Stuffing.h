@@ -66,6 +66,10 @@ struct StuffedMesh
 StuffedMesh Stuff(
   const StuffingInput& input, const ParallelFor& parallelFor, KnownChanges* known = nullptr);
 
+/** The leaves that tetrahedra with dihedral angles below 15 or above 165 degrees come from, and
+ * those that have a vertex in common with them. */
+std::vector<std::uint32_t> LeavesOfBad(const CutMesh& leaves, const TetrahedronMesh& mesh);
+
 /**
  * The leaves whose surfaces are too far away once vertices have moved, before tetrahedra are
  * improved: most of those that Stuff() would find, and much faster. Leaves with a fixed vertex are
