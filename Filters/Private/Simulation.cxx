@@ -21,8 +21,9 @@ namespace
 {
 
 ///@{
-/** How many meshes are made at most, after which none is refined, or pinned, any more: two or three
- *  are usual, more in noise. Refinement before tetrahedra are improved does not count. */
+/** The number of the mesh from which on nothing is refined, or pinned, any more: two or three
+ * meshes are usual, more in noise. Refinement before tetrahedra are improved does not count. Where
+ * angles are bad in the end, a few more meshes follow, with fewer pins. */
 constexpr int LastRefinement = 10;
 constexpr int LastPinning = 20;
 ///@}

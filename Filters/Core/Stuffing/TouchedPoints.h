@@ -24,7 +24,7 @@ public:
     return point < this->LastChanges.size() && this->LastChanges[point] > changes;
   }
 
-  /** Whether any corner of some tetrahedra has. @param mesh LocalMesh or Background */
+  /** Whether any corner of some tetrahedra has. @param mesh with CornersOf() */
   template <typename Mesh>
   bool AnyIsTouched(const Mesh& mesh, const CellsAtPoints::Cells& tetrahedra, int changes) const
   {
@@ -40,7 +40,7 @@ public:
   /** Another change begins. */
   void BeginChange() { ++this->Count; }
 
-  /** The change touches all corners of some tetrahedra. @param mesh LocalMesh or Background */
+  /** The change touches all corners of some tetrahedra. @param mesh with CornersOf() */
   template <typename Mesh>
   void Touch(const Mesh& mesh, const CellsAtPoints::Cells& tetrahedra)
   {
