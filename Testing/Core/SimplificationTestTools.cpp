@@ -40,6 +40,146 @@ AllowedMesh MeshOf(const Field& field, double tolerance, double allowed)
   return result;
 }
 
+namespace
+{
+
+WholePoint CrossOf(const WholePoint& a, const WholePoint& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+std::vector<WholePoint> SidesOf(const std::vector<WholePoint>& polygon)
+{
+  std::vector<WholePoint> sides;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const WholePoint& from = polygon[i];
+    const WholePoint& to = polygon[(i + 1) % polygon.size()];
+    sides.push_back({ to[0] - from[0], to[1] - from[1], to[2] - from[2] });
+  }
+  return sides;
+}
+
+std::pair<std::int64_t, std::int64_t> ShadowOf(
+  const std::vector<WholePoint>& polygon, const WholePoint& axis)
+{
+  std::vector<std::int64_t> shadow;
+  for (const WholePoint& point : polygon)
+  {
+    shadow.push_back(axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2]);
+  }
+  const auto [low, high] = std::minmax_element(shadow.begin(), shadow.end());
+  return { *low, *high };
+}
+
+bool HasFoldAt(const TriangleMesh& mesh, const std::vector<std::uint32_t>& edge, std::uint32_t a,
+  std::uint32_t b)
+{
+  const auto at = [&](std::uint32_t point) -> WholePoint
+  {
+    const Vector place = 256.0 * (mesh.Positions[point] - mesh.Positions[edge[0]]);
+    return { std::llround(place[0]), std::llround(place[1]), std::llround(place[2]) };
+  };
+  const WholePoint first = CrossOf(at(edge[1]), at(a));
+  const WholePoint second = CrossOf(at(edge[1]), at(b));
+  const std::int64_t along = first[0] * second[0] + first[1] * second[1] + first[2] * second[2];
+  return CrossOf(first, second) == WholePoint{} && along >= 0;
+}
+
+}
+
+bool AreApart(const std::vector<WholePoint>& a, const std::vector<WholePoint>& b)
+{
+  const std::vector<WholePoint> sidesOfA = SidesOf(a);
+  const std::vector<WholePoint> sidesOfB = SidesOf(b);
+  std::vector<WholePoint> axes;
+  for (const WholePoint& side : sidesOfA)
+  {
+    for (const WholePoint& other : sidesOfB)
+    {
+      axes.push_back(CrossOf(side, other));
+    }
+  }
+  for (const std::vector<WholePoint>& sides : { sidesOfA, sidesOfB })
+  {
+    const WholePoint normal = CrossOf(sides[0], sides[1]);
+    axes.push_back(normal);
+    for (const std::vector<WholePoint>& all : { sidesOfA, sidesOfB })
+    {
+      std::transform(all.begin(), all.end(), std::back_inserter(axes),
+        [&](const WholePoint& side) { return CrossOf(normal, side); });
+    }
+  }
+  return std::any_of(axes.begin(), axes.end(),
+    [&](const WholePoint& axis)
+    {
+      const auto [lowA, highA] = ShadowOf(a, axis);
+      const auto [lowB, highB] = ShadowOf(b, axis);
+      return highA < lowB || highB < lowA;
+    });
+}
+
+int CountIntersections(const TriangleMesh& mesh)
+{
+  std::vector<WholePoint> points;
+  for (const Vector& position : mesh.Positions)
+  {
+    const Vector fine = 256.0 * position;
+    points.push_back({ std::llround(fine[0]), std::llround(fine[1]), std::llround(fine[2]) });
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_EQ(fine[axis], static_cast<double>(points.back()[axis]));
+    }
+  }
+  const auto placesOf = [&](const std::vector<std::uint32_t>& ids)
+  {
+    std::vector<WholePoint> places;
+    std::transform(ids.begin(), ids.end(), std::back_inserter(places),
+      [&](std::uint32_t id) { return points[id]; });
+    return places;
+  };
+  // Those that share a corner have more in common if the side opposite to it meets the other one.
+  const auto doIntersect = [&](const Triangle& a, const Triangle& b)
+  {
+    const std::vector<std::uint32_t> allOfA(a.begin(), a.end());
+    const std::vector<std::uint32_t> allOfB(b.begin(), b.end());
+    std::vector<std::uint32_t> common;
+    std::vector<std::uint32_t> onlyA;
+    std::vector<std::uint32_t> onlyB;
+    for (const std::uint32_t id : a)
+    {
+      (std::find(b.begin(), b.end(), id) == b.end() ? onlyA : common).push_back(id);
+    }
+    std::copy_if(b.begin(), b.end(), std::back_inserter(onlyB),
+      [&](std::uint32_t id) { return std::find(a.begin(), a.end(), id) == a.end(); });
+    if (common.size() > 1)
+    {
+      return common.size() == 3 || HasFoldAt(mesh, common, onlyA[0], onlyB[0]);
+    }
+    return !AreApart(placesOf(onlyA), placesOf(allOfB)) ||
+      !AreApart(placesOf(onlyB), placesOf(allOfA));
+  };
+  int count = 0;
+  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
+  {
+    for (std::size_t k = 0; k < i; ++k)
+    {
+      bool areNear = true;
+      for (int axis = 0; axis < 3 && areNear; ++axis)
+      {
+        const auto rangeOf = [&](const Triangle& t) {
+          return std::minmax({ points[t[0]][axis], points[t[1]][axis], points[t[2]][axis] });
+        };
+        const auto [low, high] = rangeOf(mesh.Triangles[i]);
+        const auto [otherLow, otherHigh] = rangeOf(mesh.Triangles[k]);
+        areNear = low <= otherHigh && otherLow <= high;
+      }
+      count += areNear && doIntersect(mesh.Triangles[i], mesh.Triangles[k]) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
 SurfaceTriangles TrianglesOf(const TriangleMesh& mesh)
 {
   SurfaceTriangles triangles;

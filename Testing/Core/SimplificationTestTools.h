@@ -34,6 +34,17 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> BorderOf(const isodiamond::
 /** Whether two triangles have the same points. */
 bool HasTwins(const isodiamond::TriangleMesh& mesh);
 
+/** A corner of polygons in whole numbers, at most 2^14. */
+using WholePoint = std::array<std::int64_t, 3>;
+
+/** Whether two convex flat polygons have no point in common, by lines along which their shadows are
+ *  apart: exact. */
+bool AreApart(const std::vector<WholePoint>& a, const std::vector<WholePoint>& b);
+
+/** How many pairs of triangles have a point in common but for corners and edges that they share.
+ *  Positions have to be multiples of 1/256 below 64. */
+int CountIntersections(const isodiamond::TriangleMesh& mesh);
+
 /** Expects that each border edge lies on a wall, or was one before. */
 void ExpectBorder(const isodiamond::AllowedMesh& before, const isodiamond::TriangleMesh& after);
 

@@ -85,11 +85,12 @@ AllowedMesh Blade(std::uint32_t steps, double thickness, double bend, double all
       mesh.Mesh.Triangles.push_back({ a, b + count, a + count });
     }
   }
-  for (std::uint32_t i = 2; i < count; ++i)
+  const std::uint32_t end = steps * count;
+  for (const auto& [a, b, c] : { Triangle{ 0, 6, 1 }, Triangle{ 1, 6, 2 }, Triangle{ 2, 6, 5 },
+         Triangle{ 2, 5, 3 }, Triangle{ 3, 5, 4 } })
   {
-    const std::uint32_t end = steps * count;
-    mesh.Mesh.Triangles.push_back({ 0, i, i - 1 });
-    mesh.Mesh.Triangles.push_back({ end, end + i - 1, end + i });
+    mesh.Mesh.Triangles.push_back({ a, b, c });
+    mesh.Mesh.Triangles.push_back({ end + a, end + c, end + b });
   }
   mesh.Allowances.assign(mesh.Mesh.Triangles.size(), allowed);
   return mesh;

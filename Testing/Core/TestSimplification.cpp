@@ -52,6 +52,7 @@ void ExpectPromise(const AllowedMesh& before, const TriangleMesh& after, double 
   EXPECT_EQ(test::TopologyOf(test::IdsOf(after)), test::TopologyOf(test::IdsOf(before.Mesh)));
   test::ExpectBorder(before, after);
   EXPECT_FALSE(test::HasTwins(after));
+  EXPECT_EQ(test::CountIntersections(after), 0);
   EXPECT_TRUE(after.Positions == before.Mesh.Positions);
 }
 
@@ -139,6 +140,22 @@ TEST(Simplification, KeepsThePromiseInNoise)
       }
     });
   EXPECT_GT(cases, 0);
+}
+
+// Parts are simplified at the same time: here what two of them make would intersect.
+TEST(Simplification, LetsNoPartsThroughEachOther)
+{
+  for (const std::uint32_t seed : { 3U, 4U, 27U, 39U, 42U })
+  {
+    SCOPED_TRACE(seed);
+    const AllowedMesh before = test::MeshOf(test::NoiseField({ 10, 10, 10 }, seed), 0.0, 2.0);
+    SimplifiedMesh simplified(before);
+    for (const double cut : { 0.5, 0.35 })
+    {
+      simplified.Simplify(300, cut, 0.85, SerialFor);
+      EXPECT_EQ(test::CountIntersections({ before.Mesh.Positions, simplified.Triangles() }), 0);
+    }
+  }
 }
 
 // Where samples allow much too much, everything depends on measuring and undoing.

@@ -77,6 +77,14 @@ public:
   /** By sample: the number of the triangle that it lies over now; None for points in use. */
   const std::vector<std::uint32_t>& SampleHomes() const { return this->Homes; }
 
+  /** The one of two triangles that was changed last; either of them may be None. */
+  std::uint32_t LastChangedOf(std::uint32_t a, std::uint32_t b) const
+  {
+    const auto steps = [&](std::uint32_t triangle)
+    { return triangle == None ? 0 : this->LastStep[triangle] + 1; }; // None + 1 is 0
+    return steps(b) > steps(a) ? b : a;
+  }
+
   /** Undoes the last collapse or flip that made each triangle what it is, and those that removed
    * points, with all later ones that built on them. @return by number: which triangles this
    * changed */

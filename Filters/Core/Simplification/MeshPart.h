@@ -33,6 +33,7 @@ struct MeshPart
   std::vector<SurfaceSample> Samples; ///< first the points, then the original's middles
   NearLists Near{ 0 };                ///< by triangle of the original
   double LeastSine = 0.0;             ///< of the angles of new triangles
+  std::vector<Triangle> Others{};     ///< of other parts, that new ones might meet
 };
 
 }

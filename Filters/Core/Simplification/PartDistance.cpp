@@ -78,10 +78,8 @@ private:
   /** Whether a triangle is what it was at the start. */
   bool IsAsAtStart(std::uint32_t number) const
   {
-    const Triangle& start = this->All.Part.Simple.Triangles[number];
-    Triangle now = this->Simple.Triangles[number];
-    std::rotate(now.begin(), now.begin() + PlaceOf(now, start[0]), now.end());
-    return this->Simple.IsThere(number) && now == start;
+    return this->Simple.IsThere(number) &&
+      AreSame(this->All.Part.Simple.Triangles[number], this->Simple.Triangles[number]);
   }
 
   PartDistance& All;

@@ -4,11 +4,15 @@
 #include "Simplification/CellsAtPoints.h"
 #include "Simplification/EdgeCollapses.h"
 #include "Simplification/MeshBlocks.h"
+#include "Simplification/PartBorders.h"
 #include "Simplification/PartDistance.h"
+#include "Simplification/SelfIntersections.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -27,28 +31,65 @@ std::size_t CountThere(const LinkedTriangles& mesh)
     [](const Triangle& triangle) { return triangle[0] != None; });
 }
 
-/** Makes a part simpler: collapses edges, measures, and undoes what leads too far, until nothing
- *  does. The part's triangles, near lists and samples become those of the result.
+/** Undoes what made some triangles what they are, and removed some points.
+ *  @return by number: which triangles this changed; at least one */
+std::vector<bool> Undo(EdgeCollapses& collapses, const std::vector<std::uint32_t>& triangles,
+  const std::vector<std::uint32_t>& points)
+{
+  std::vector<bool> isTouched = collapses.Undo(triangles, points);
+  if (std::find(isTouched.begin(), isTouched.end(), true) == isTouched.end())
+  {
+    throw std::logic_error("What is wrong of a simpler mesh is as it was.");
+  }
+  return isTouched;
+}
+
+/** Undoes what makes triangles intersect, until none do.
+ *  @param isTouched by number: whether a triangle has changed, or gone; set, too, where that
+ * changes
+ */
+void UndoIntersections(
+  const SelfIntersections& intersections, EdgeCollapses& collapses, std::vector<bool>& isTouched)
+{
+  std::vector<bool> isNew = isTouched;
+  for (;;)
+  {
+    std::vector<std::uint32_t> faulty;
+    for (const auto& [a, b] : intersections.Find(collapses.Mesh(), isNew))
+    {
+      faulty.push_back(collapses.LastChangedOf(a, b));
+    }
+    if (faulty.empty())
+    {
+      return;
+    }
+    isNew = Undo(collapses, faulty, {});
+    std::transform(
+      isTouched.begin(), isTouched.end(), isNew.begin(), isTouched.begin(), std::logical_or<>());
+  }
+}
+
+/** Makes a part simpler: collapses edges, measures, and undoes what leads too far or through
+ *  something else, until nothing does. The part's triangles, near lists and samples become those of
+ * the result.
  *  @return whether much had to be undone: with a collapse goes all that builds on it */
 bool CollapseOnce(MeshPart& part, double usedPart)
 {
   PartDistance distance(part, true);
+  const SelfIntersections intersections(part);
   EdgeCollapses collapses(part, usedPart);
   std::vector<bool> isTouched = collapses.Run();
   const std::size_t tried = CountThere(collapses.Mesh());
   for (;;)
   {
+    UndoIntersections(intersections, collapses, isTouched);
     const PartDistance::Faults faults =
       distance.Find(collapses.Mesh(), collapses.SampleHomes(), isTouched);
     if (!faults.Any())
     {
       break;
     }
-    isTouched = collapses.Undo(faults.Triangles, faults.Points);
-    if (std::find(isTouched.begin(), isTouched.end(), true) == isTouched.end())
-    {
-      throw std::logic_error("What is wrong of a simpler mesh is as it was.");
-    }
+    isTouched = Undo(collapses, faults.Triangles, faults.Points);
   }
   for (std::size_t i = 0; i < part.Samples.size(); ++i)
   {
@@ -221,8 +262,8 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
     std::move(originals), std::move(ownerOf), std::move(originalNumbers), std::move(samples) };
 }
 
-MeshPart SimplifiedMesh::Take(
-  const Division& division, std::uint32_t number, std::vector<std::uint32_t>& ids) const
+MeshPart SimplifiedMesh::Take(const Division& division, std::uint32_t number,
+  const std::vector<Triangle>& others, std::vector<std::uint32_t>& ids) const
 {
   const IdRange triangles = division.Triangles[number];
   const IdRange originals = division.Originals[number];
@@ -237,6 +278,7 @@ MeshPart SimplifiedMesh::Take(
       {
         visit(this->Original.Mesh.Triangles[original]);
       }
+      std::for_each(others.begin(), others.end(), visit);
     });
   MeshPart part;
   part.Simple = Linked(this->Simple, triangles, division.Number, numbers,
@@ -255,6 +297,10 @@ MeshPart SimplifiedMesh::Take(
     }
   }
   part.LeastSine = std::sin(this->Original.LeastAngle / DegreesOfRadian);
+  for (const Triangle& other : others)
+  {
+    part.Others.push_back(numbers.Of(other));
+  }
   this->AddPoints(division, number, numbers, ids, part);
   return part;
 }
@@ -333,11 +379,11 @@ struct SimplifiedMesh::Made
   std::vector<std::pair<std::uint32_t, std::uint32_t>> Homes; ///< samples, and numbers
 };
 
-SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(
-  const Division& division, std::uint32_t number, double usedPart) const
+SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const Division& division, std::uint32_t number,
+  const std::vector<Triangle>& others, double usedPart) const
 {
   std::vector<std::uint32_t> ids;
-  MeshPart part = this->Take(division, number, ids);
+  MeshPart part = this->Take(division, number, others, ids);
   const bool isSound =
     std::none_of(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(part.Positions.size()),
       [&](std::uint32_t point) { return this->IsFaulty[point]; });
@@ -368,9 +414,29 @@ void SimplifiedMesh::Simplify(
 {
   const Division division = this->Divide(most, cut);
   std::vector<Made> made(division.Triangles.Count());
-  ForEachIndex(parallelFor, made.size(), 1,
-    [&](std::int64_t number)
-    { made[number] = this->SimplifyPart(division, static_cast<std::uint32_t>(number), usedPart); });
+  std::vector<std::vector<Triangle>> triangles(made.size());
+  for (std::size_t number = 0; number < made.size(); ++number)
+  {
+    for (const std::uint32_t triangle : division.Triangles[number])
+    {
+      triangles[number].push_back(this->Triangles()[triangle]);
+    }
+  }
+  PartBorders borders(this->Original.Mesh.Positions, std::move(triangles));
+  std::vector<std::uint32_t> parts(made.size());
+  std::iota(parts.begin(), parts.end(), 0U);
+  do
+  {
+    const std::vector<std::vector<Triangle>> others = borders.Others(parts);
+    ForEachIndex(parallelFor, parts.size(), 1,
+      [&](std::int64_t i)
+      { made[parts[i]] = this->SimplifyPart(division, parts[i], others[i], usedPart); });
+    for (const std::uint32_t part : parts)
+    {
+      borders.Set(part, made[part].Triangles);
+    }
+    parts = borders.Meeting(parts);
+  } while (!parts.empty());
   this->PutTogether(division, made);
 }
 

@@ -18,7 +18,7 @@ namespace isodiamond
  *
  * A part has triangles of the simpler mesh, and those of the original that are near to these alone.
  * Where an original triangle is near to triangles of several parts, these all stay as they are in
- * that pass. So parts need not know of each other.
+ * that pass. Parts need to know of each other only so as not to intersect (PartBorders.h).
  */
 class SimplifiedMesh
 {
@@ -45,14 +45,16 @@ private:
 
   SurfaceSample SampleOf(std::size_t id) const;
   Division Divide(std::size_t most, double cut) const;
-  /** @param ids receives the part's samples, the points first, by their ids in the whole mesh */
-  MeshPart Take(
-    const Division& division, std::uint32_t number, std::vector<std::uint32_t>& ids) const;
+  /** @param others triangles of other parts @param ids receives the part's samples, the points
+   * first, by their ids in the whole mesh */
+  MeshPart Take(const Division& division, std::uint32_t number, const std::vector<Triangle>& others,
+    std::vector<std::uint32_t>& ids) const;
   void AddPoints(const Division& division, std::uint32_t number, const PointNumbers& numbers,
     std::vector<std::uint32_t>& ids, MeshPart& part) const;
   std::vector<bool> FixedPoints(const Division& division, std::uint32_t number,
     const std::vector<std::uint32_t>& ids, const MeshPart& part) const;
-  Made SimplifyPart(const Division& division, std::uint32_t number, double usedPart) const;
+  Made SimplifyPart(const Division& division, std::uint32_t number,
+    const std::vector<Triangle>& others, double usedPart) const;
   void PutTogether(const Division& division, const std::vector<Made>& made);
 
   const AllowedMesh& Original;

@@ -23,6 +23,13 @@ inline int PlaceOf(const Triangle& triangle, std::uint32_t point)
   return triangle[0] == point ? 0 : triangle[1] == point ? 1 : 2;
 }
 
+/** Whether two triangles have the same points in the same direction. */
+inline bool AreSame(const Triangle& a, Triangle b)
+{
+  std::rotate(b.begin(), b.begin() + PlaceOf(b, a[0]), b.end());
+  return a == b;
+}
+
 /** Normal of a triangle; its length is twice the area. */
 inline Vector Across(const std::vector<Vector>& positions, const Triangle& triangle)
 {

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef isodiamond_BoundsTree_h
+#define isodiamond_BoundsTree_h
+
+#include "Simplification/TriangleMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace isodiamond
+{
+
+/** What something lies in: a closed box along the axes. */
+struct Bounds
+{
+  Vector Low = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
+  Vector High = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+
+  void Add(const Vector& point)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Low[axis] = std::min(this->Low[axis], point[axis]);
+      this->High[axis] = std::max(this->High[axis], point[axis]);
+    }
+  }
+  void Add(const Bounds& other)
+  {
+    this->Add(other.Low);
+    this->Add(other.High);
+  }
+  bool Meets(const Bounds& other) const
+  {
+    bool doesMeet = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      doesMeet =
+        doesMeet && this->Low[axis] <= other.High[axis] && other.Low[axis] <= this->High[axis];
+    }
+    return doesMeet;
+  }
+};
+
+inline Bounds BoundsOf(const std::vector<Vector>& positions, const Triangle& triangle)
+{
+  Bounds bounds;
+  for (const std::uint32_t point : triangle)
+  {
+    bounds.Add(positions[point]);
+  }
+  return bounds;
+}
+
+/** Bounds of many things, by where they are: a binary tree of bounds around them. */
+class BoundsTree
+{
+public:
+  explicit BoundsTree(std::vector<Bounds> all)
+    : All(std::move(all))
+    , Order(this->All.size())
+  {
+    std::iota(this->Order.begin(), this->Order.end(), 0U);
+    if (!this->All.empty())
+    {
+      this->Divide(0, static_cast<std::uint32_t>(this->All.size()));
+    }
+  }
+
+  /** Calls visit(number) for all that meet given ones. */
+  template <typename Visit>
+  void ForEachAt(const Bounds& given, Visit&& visit) const
+  {
+    for (std::uint32_t at = 0; at < this->Nodes.size();)
+    {
+      const Node& node = this->Nodes[at];
+      const bool doesMeet = node.Around.Meets(given);
+      for (std::uint32_t i = node.First; doesMeet && i < node.Last; ++i)
+      {
+        if (this->All[this->Order[i]].Meets(given))
+        {
+          visit(this->Order[i]);
+        }
+      }
+      at = doesMeet ? at + 1 : node.Next;
+    }
+  }
+
+private:
+  static constexpr std::uint32_t MostOfLeaf = 4;
+
+  /** The two parts of a node follow it. */
+  struct Node
+  {
+    Bounds Around{};
+    std::uint32_t First = 0; ///< of a leaf, in the order
+    std::uint32_t Last = 0;
+    std::uint32_t Next = 0; ///< the first node after it and all below it
+  };
+
+  /** Twice as far from the origin. */
+  Vector Middle(std::uint32_t number) const
+  {
+    return this->All[number].Low + this->All[number].High;
+  }
+
+  void Divide(std::uint32_t first, std::uint32_t last)
+  {
+    const std::size_t number = this->Nodes.size();
+    Node& node = this->Nodes.emplace_back();
+    Bounds middles;
+    for (std::uint32_t i = first; i < last; ++i)
+    {
+      node.Around.Add(this->All[this->Order[i]]);
+      middles.Add(this->Middle(this->Order[i]));
+    }
+    if (last - first <= MostOfLeaf)
+    {
+      node.First = first;
+      node.Last = last;
+    }
+    else
+    {
+      const std::uint32_t second = this->Cut(first, last, middles);
+      this->Divide(first, second);
+      this->Divide(second, last);
+    }
+    this->Nodes[number].Next = static_cast<std::uint32_t>(this->Nodes.size());
+  }
+
+  /** Puts what lies in the lower half first. @return where the rest begins; half way if all is in
+   *  one half */
+  std::uint32_t Cut(std::uint32_t first, std::uint32_t last, const Bounds& middles)
+  {
+    const Vector extent = middles.High - middles.Low;
+    const std::size_t axis = std::max_element(extent.begin(), extent.end()) - extent.begin();
+    const double at = middles.Low[axis] + 0.5 * extent[axis];
+    const auto begin = this->Order.begin();
+    const auto cut = std::partition(begin + first, begin + last,
+      [&](std::uint32_t each) { return this->Middle(each)[axis] < at; });
+    const auto second = static_cast<std::uint32_t>(cut - begin);
+    return second > first && second < last ? second : first + (last - first) / 2;
+  }
+
+  std::vector<Bounds> All;
+  std::vector<std::uint32_t> Order;
+  std::vector<Node> Nodes;
+};
+
+}
+
+#endif
