@@ -5,6 +5,7 @@
 
 #include "Mesh/IntervalExtraction.h"
 #include "Simplification/PartDistance.h"
+#include "Simplification/TriangleIntersection.h"
 #include "Stuffing/Background.h"
 #include "Stuffing/MovedVertices.h"
 
@@ -214,6 +215,20 @@ std::multiset<std::set<Vector>> PlacesOf(const LocalMesh& mesh)
     }
   }
   return all;
+}
+
+std::size_t CountIntersections(const TetrahedronMesh& mesh)
+{
+  const std::vector<Triangle> triangles = SurfacesOf(mesh).Triangles;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    for (std::size_t k = 0; k < i; ++k)
+    {
+      count += Intersect(mesh.Positions, triangles[i], triangles[k]) ? 1 : 0;
+    }
+  }
+  return count;
 }
 
 Topology TopologyOf(const Volume& volume, AnyMesh mesh)

@@ -54,6 +54,9 @@ struct Stuffed
   std::size_t CountBad() const;
 };
 
+/** How many pairs of triangles of a mesh's surfaces intersect. */
+std::size_t CountIntersections(const isodiamond::TetrahedronMesh& mesh);
+
 /** The leaves of an interval volume at a tolerance, in index space, and the points of its mesh. */
 struct Leaves
 {

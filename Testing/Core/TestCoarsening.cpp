@@ -197,6 +197,25 @@ TEST(Coarsening, SavesMostOfSmoothSurfaces)
 }
 
 // Two surfaces that may move farther than they are apart: gained and lost volume has to balance.
+// Sheets in noise are less than what is allowed apart.
+TEST(Coarsening, LetsNoSheetsThroughEachOther)
+{
+  int seen = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    const test::Field field = test::NoiseField({ 9, 9, 9 }, seed);
+    const test::Stuffed stuffed(*test::BuildVolume(field, { 3.7, HUGE_VAL }).Hierarchy, Query{});
+    if (test::CountIntersections(stuffed.Mesh) == 0)
+    {
+      const Coarsened coarser(stuffed, 2.0, false);
+      EXPECT_LT(coarser.Result.Mesh.Tetrahedra.size(), stuffed.Mesh.Tetrahedra.size());
+      EXPECT_EQ(test::CountIntersections(coarser.Result.Mesh), 0U) << seed;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 3);
+}
+
 TEST(Coarsening, KeepsTheVolumeOfWhatIsThin)
 {
   const test::Stuffed stuffed = Gyroid(0.3, { -0.2, 0.2 });

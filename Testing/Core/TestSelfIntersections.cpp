@@ -267,7 +267,7 @@ TEST(SelfIntersections, AreFoundWhereAPartHasChanged)
   {
     std::swap(turned.Triangles[i][0], turned.Triangles[i][1]);
   }
-  std::vector<SelfIntersections::Pair> expected;
+  std::vector<IntersectingPair> expected;
   for (std::uint32_t i = 0; i < count; ++i)
   {
     for (std::uint32_t k = 0; k < i; ++k)
@@ -279,9 +279,8 @@ TEST(SelfIntersections, AreFoundWhereAPartHasChanged)
     }
   }
   EXPECT_GT(expected.size(), 4U);
-  std::vector<SelfIntersections::Pair> found =
-    intersections.Find(turned, std::vector<bool>(count, true));
-  const auto sort = [](std::vector<SelfIntersections::Pair>& pairs)
+  std::vector<IntersectingPair> found = intersections.Find(turned, std::vector<bool>(count, true));
+  const auto sort = [](std::vector<IntersectingPair>& pairs)
   {
     for (auto& [a, b] : pairs)
     {
@@ -301,7 +300,7 @@ TEST(SelfIntersections, AreFoundWhereAPartHasChanged)
     {
       std::vector<bool> isTouched(count);
       isTouched[one] = true;
-      std::vector<SelfIntersections::Pair> of = intersections.Find(turned, isTouched);
+      std::vector<IntersectingPair> of = intersections.Find(turned, isTouched);
       sort(of);
       EXPECT_EQ(std::count(of.begin(), of.end(), pair), 1);
       LinkedTriangles without = turned;
@@ -327,7 +326,7 @@ TEST(SelfIntersections, AreFoundWithOtherParts)
   std::swap(turned.Triangles[4][0], turned.Triangles[4][1]); // from x = 2
   const auto found = intersections.Find(turned, std::vector<bool>(ofSheet, true));
   ASSERT_FALSE(found.empty());
-  EXPECT_EQ(found[0], SelfIntersections::Pair(4, None));
+  EXPECT_EQ(found[0], IntersectingPair(4, None));
 }
 
 // Three parts whose new triangles meet in turn: the second and the third have to be made again, and

@@ -3,6 +3,10 @@
 
 #include "Simplification/TriangleIntersection.h"
 
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+
 namespace isodiamond
 {
 namespace
@@ -21,13 +25,47 @@ BoundsTree TreeOf(const std::vector<Vector>& positions, const std::vector<Triang
 
 }
 
+std::vector<IntersectingPair> IntersectionsOf(const std::vector<Vector>& positions,
+  const std::vector<Triangle>& triangles, const ParallelFor& parallelFor)
+{
+  const BoundsTree tree = TreeOf(positions, triangles);
+  constexpr std::size_t groupSize = 4096; // is worth a thread
+  std::vector<std::vector<IntersectingPair>> found(triangles.size() / groupSize + 1);
+  const auto look = [&](std::uint32_t i)
+  {
+    tree.ForEachAt(BoundsOf(positions, triangles[i]),
+      [&](std::uint32_t other)
+      {
+        if (other < i && Intersect(positions, triangles[i], triangles[other]))
+        {
+          found[i / groupSize].emplace_back(i, other);
+        }
+      });
+  };
+  ForEachIndex(parallelFor, found.size(), 1,
+    [&](std::size_t group)
+    {
+      const std::size_t end = std::min(triangles.size(), (group + 1) * groupSize);
+      for (std::size_t i = group * groupSize; i < end; ++i)
+      {
+        look(static_cast<std::uint32_t>(i));
+      }
+    });
+  std::vector<IntersectingPair> all;
+  for (const std::vector<IntersectingPair>& some : found)
+  {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
 SelfIntersections::SelfIntersections(const MeshPart& part)
   : Part(part)
   , Others(TreeOf(part.Positions, part.Others))
 {
 }
 
-std::vector<SelfIntersections::Pair> SelfIntersections::Find(
+std::vector<IntersectingPair> SelfIntersections::Find(
   const LinkedTriangles& simple, const std::vector<bool>& isTouched) const
 {
   const std::vector<Vector>& positions = this->Part.Positions;
@@ -46,7 +84,7 @@ std::vector<SelfIntersections::Pair> SelfIntersections::Find(
     }
   }
   const BoundsTree tree = TreeOf(positions, triangles);
-  std::vector<Pair> found;
+  std::vector<IntersectingPair> found;
   for (std::uint32_t number = 0; number < simple.Triangles.size() && !touched.empty(); ++number)
   {
     if (!simple.IsThere(number))
@@ -79,6 +117,30 @@ std::vector<SelfIntersections::Pair> SelfIntersections::Find(
     }
   }
   return found;
+}
+
+void SelfIntersections::Undo(EdgeCollapses& collapses, std::vector<bool>& isTouched) const
+{
+  std::vector<bool> isNew = isTouched;
+  for (;;)
+  {
+    std::vector<std::uint32_t> lastChanged;
+    for (const auto& [a, b] : this->Find(collapses.Mesh(), isNew))
+    {
+      lastChanged.push_back(collapses.LastChangedOf(a, b));
+    }
+    if (lastChanged.empty())
+    {
+      return;
+    }
+    isNew = collapses.Undo(lastChanged, {});
+    if (std::find(isNew.begin(), isNew.end(), true) == isNew.end())
+    {
+      throw std::logic_error("Triangles intersect, but are as they were.");
+    }
+    std::transform(
+      isTouched.begin(), isTouched.end(), isNew.begin(), isTouched.begin(), std::logical_or<>());
+  }
 }
 
 }

@@ -2,7 +2,9 @@
 #ifndef isodiamond_SelfIntersections_h
 #define isodiamond_SelfIntersections_h
 
+#include "Field/Parallel.h"
 #include "Simplification/BoundsTree.h"
+#include "Simplification/EdgeCollapses.h"
 #include "Simplification/MeshPart.h"
 
 #include <cstdint>
@@ -11,6 +13,13 @@
 
 namespace isodiamond
 {
+
+/** Numbers of two triangles that intersect (TriangleIntersection.h). */
+using IntersectingPair = std::pair<std::uint32_t, std::uint32_t>;
+
+/** All triangles of a mesh that intersect. */
+std::vector<IntersectingPair> IntersectionsOf(const std::vector<Vector>& positions,
+  const std::vector<Triangle>& triangles, const ParallelFor& parallelFor);
 
 /**
  * Finds where a part of a simpler mesh cuts or touches itself, or what other parts have.
@@ -25,18 +34,21 @@ public:
   /** @param part must outlive it */
   explicit SelfIntersections(const MeshPart& part);
 
-  /** Two triangles that intersect (TriangleIntersection.h); the second is None if it is another
-   *  part's. */
-  using Pair = std::pair<std::uint32_t, std::uint32_t>;
-
   /**
    * Compares what has changed with all that is there.
    *
    * @param simple the mesh to look at in place of the part's simpler one, with the same numbers
    * @param isTouched by number: whether a triangle has changed, or gone, since the last time
-   * @return pairs of which at least one triangle is not what it was at the start
+   * @return pairs of which at least one triangle is not what it was at the start; the second one is
+   *         None if it is another part's
    */
-  std::vector<Pair> Find(const LinkedTriangles& simple, const std::vector<bool>& isTouched) const;
+  std::vector<IntersectingPair> Find(
+    const LinkedTriangles& simple, const std::vector<bool>& isTouched) const;
+
+  /** Undoes the last collapses and flips that led to intersections, until there are none.
+   *  @param collapses of the part's simpler mesh
+   *  @param isTouched see Find(); also receives what this changes */
+  void Undo(EdgeCollapses& collapses, std::vector<bool>& isTouched) const;
 
 private:
   const MeshPart& Part;

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
@@ -31,44 +30,6 @@ std::size_t CountThere(const LinkedTriangles& mesh)
     [](const Triangle& triangle) { return triangle[0] != None; });
 }
 
-/** Undoes what made some triangles what they are, and removed some points.
- *  @return by number: which triangles this changed; at least one */
-std::vector<bool> Undo(EdgeCollapses& collapses, const std::vector<std::uint32_t>& triangles,
-  const std::vector<std::uint32_t>& points)
-{
-  std::vector<bool> isTouched = collapses.Undo(triangles, points);
-  if (std::find(isTouched.begin(), isTouched.end(), true) == isTouched.end())
-  {
-    throw std::logic_error("What is wrong of a simpler mesh is as it was.");
-  }
-  return isTouched;
-}
-
-/** Undoes what makes triangles intersect, until none do.
- *  @param isTouched by number: whether a triangle has changed, or gone; set, too, where that
- * changes
- */
-void UndoIntersections(
-  const SelfIntersections& intersections, EdgeCollapses& collapses, std::vector<bool>& isTouched)
-{
-  std::vector<bool> isNew = isTouched;
-  for (;;)
-  {
-    std::vector<std::uint32_t> faulty;
-    for (const auto& [a, b] : intersections.Find(collapses.Mesh(), isNew))
-    {
-      faulty.push_back(collapses.LastChangedOf(a, b));
-    }
-    if (faulty.empty())
-    {
-      return;
-    }
-    isNew = Undo(collapses, faulty, {});
-    std::transform(
-      isTouched.begin(), isTouched.end(), isNew.begin(), isTouched.begin(), std::logical_or<>());
-  }
-}
-
 /** Makes a part simpler: collapses edges, measures, and undoes what leads too far or through
  *  something else, until nothing does. The part's triangles, near lists and samples become those of
  * the result.
@@ -82,14 +43,18 @@ bool CollapseOnce(MeshPart& part, double usedPart)
   const std::size_t tried = CountThere(collapses.Mesh());
   for (;;)
   {
-    UndoIntersections(intersections, collapses, isTouched);
+    intersections.Undo(collapses, isTouched);
     const PartDistance::Faults faults =
       distance.Find(collapses.Mesh(), collapses.SampleHomes(), isTouched);
     if (!faults.Any())
     {
       break;
     }
-    isTouched = Undo(collapses, faults.Triangles, faults.Points);
+    isTouched = collapses.Undo(faults.Triangles, faults.Points);
+    if (std::find(isTouched.begin(), isTouched.end(), true) == isTouched.end())
+    {
+      throw std::logic_error("What is wrong of a simpler mesh is as it was.");
+    }
   }
   for (std::size_t i = 0; i < part.Samples.size(); ++i)
   {

@@ -2,6 +2,7 @@
 #include "Stuffing/Coarsening.h"
 
 #include "Simplification/PartDistance.h"
+#include "Simplification/SelfIntersections.h"
 #include "Stuffing/MeasuredSurfaces.h"
 #include "Stuffing/TetrahedronCollapses.h"
 
@@ -89,6 +90,7 @@ std::vector<std::uint32_t> Coarsen(
   const double other = input.VolumeAtTolerance.value_or(plain);
   TetrahedronCollapses tetrahedra(
     std::move(mesh), LeastAngle, { std::min(other, plain), std::max(other, plain) });
+  const SelfIntersections intersections(part);
   EdgeCollapses edges(part, input.UsedPart, &tetrahedra);
   std::vector<bool> isTouched;
   std::size_t before = 0;
@@ -104,6 +106,7 @@ std::vector<std::uint32_t> Coarsen(
   }
   do
   {
+    intersections.Undo(edges, isTouched);
     const PartDistance::Faults faults =
       distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched, parallelFor);
     isTouched = faults.Any() ? edges.Undo(faults.Triangles, faults.Points) : std::vector<bool>();

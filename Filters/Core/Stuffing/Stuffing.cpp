@@ -2,15 +2,15 @@
 #include "Stuffing/Stuffing.h"
 
 #include "Stuffing/Background.h"
+#include "Stuffing/BestAttempt.h"
 #include "Stuffing/Coarsening.h"
-#include "Stuffing/Detours.h"
 #include "Stuffing/Improvement.h"
+#include "Stuffing/LeafChecks.h"
 #include "Stuffing/MovedVertices.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace isodiamond
@@ -37,49 +37,6 @@ double PartForMoves(int pins)
 
 /** This many tetrahedra are worth a thread. */
 constexpr std::int64_t LeastRange = 2048;
-
-/** Whether two corners of a leaf, or two points of its pieces, are the same. */
-bool HasPointTwice(const CutMesh& mesh, const CutMesh::Tetrahedron& leaf)
-{
-  std::array<std::uint32_t, 16> points{};
-  auto end = points.begin();
-  for (std::size_t i = 0; i < leaf.Vertices.size(); ++i)
-  {
-    const std::uint32_t vertex = leaf.Vertices[i];
-    if (std::count(leaf.Vertices.begin(), leaf.Vertices.end(), vertex) != 1)
-    {
-      return true;
-    }
-    *end++ = mesh.Vertices[vertex].PointId;
-  }
-  for (const std::array<std::uint32_t, 2>& cuts : leaf.Cuts)
-  {
-    end = std::copy(cuts.begin(), cuts.end(), end);
-  }
-  end = std::remove(points.begin(), end, CutMesh::None);
-  return std::any_of(points.begin(), end,
-    [&](std::uint32_t point) { return std::count(points.begin(), end, point) != 1; });
-}
-
-/** A hierarchy from a damaged file may have leaves of which there is nothing to be made.
- *  @throws std::invalid_argument if it has */
-void CheckLeaves(const CutMesh& mesh, const ParallelFor& parallelFor)
-{
-  std::atomic<bool> isDamaged = false;
-  ForEachIndex(parallelFor, mesh.Tetrahedra.size(), LeastRange,
-    [&](std::int64_t i)
-    {
-      if (HasPointTwice(mesh, mesh.Tetrahedra[i]))
-      {
-        isDamaged = true;
-      }
-    });
-  if (isDamaged)
-  {
-    throw std::invalid_argument(
-      "The isodiamond hierarchy is damaged: tetrahedra have a point twice.");
-  }
-}
 
 Walls::Type WallsOf(const CutMesh::Vertex& vertex, const Grid& grid)
 {
@@ -191,23 +148,6 @@ BothMeshes CutLeaves(const Background& background, bool withPlain, const Paralle
   return meshes;
 }
 
-/** Whether a mesh has angles that are not as wanted. */
-bool HasBad(
-  const TetrahedronMesh& mesh, const ImprovementOptions& options, const ParallelFor& parallelFor)
-{
-  std::atomic<bool> hasBad = false;
-  const double wanted = WantedSine(options);
-  ForEachIndex(parallelFor, mesh.Tetrahedra.size(), LeastRange,
-    [&](std::int64_t i)
-    {
-      if (SmallestSine(mesh, mesh.Tetrahedra[i]) < wanted)
-      {
-        hasBad = true;
-      }
-    });
-  return hasBad;
-}
-
 /** By leaf: whether its surfaces get nearer if it is finer, or pinned. */
 std::vector<bool> CanBeNearer(const StuffingInput& input)
 {
@@ -272,7 +212,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   CheckLeaves(input.Leaves, parallelFor);
   const Background background = BackgroundOf(input);
   const bool getsCoarser = !input.Allowances.empty();
-  BothMeshes meshes = CutLeaves(background, getsCoarser, parallelFor);
+  const BothMeshes meshes = CutLeaves(background, getsCoarser, parallelFor);
   ImprovementOptions options;
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;
@@ -283,25 +223,17 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   CoarseningInput coarsening{ meshes.Plain, input.Allowances, canBeNearer, input.KeepsInside };
   coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
   coarsening.Axes = options.Axes;
-  StuffedMesh result;
-  std::vector<std::uint32_t> far;
-  result.Mesh = Improve(std::move(meshes.Stuffed), options, parallelFor, known);
-  if (HasBad(result.Mesh, options, parallelFor))
+  BestAttempt attempts(background, meshes.Stuffed, options, parallelFor, known);
+  if (getsCoarser)
   {
-    // Detours are long: they wait until nothing else needs a finer mesh.
-    if (getsCoarser)
-    {
-      far = FarLeaves(result.Mesh, coarsening, parallelFor);
-    }
-    if (far.empty())
-    {
-      result.Mesh = TakeDetours(std::move(result.Mesh), options, parallelFor);
-    }
+    attempts.Measure(coarsening);
   }
+  auto [mesh, far] = attempts.Find();
   if (getsCoarser && far.empty())
   {
-    far = Coarsen(result.Mesh, coarsening, parallelFor);
+    far = Coarsen(mesh, coarsening, parallelFor);
   }
+  StuffedMesh result{ std::move(mesh), {}, {} };
   for (const std::uint32_t leaf : far)
   {
     (input.CanBeFiner[leaf] ? result.FarLeaves : result.TightLeaves).push_back(leaf);
