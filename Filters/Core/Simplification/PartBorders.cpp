@@ -103,6 +103,7 @@ std::vector<std::uint32_t> PartBorders::Meeting(const std::vector<std::uint32_t>
 {
   const std::vector<Stray> strays = this->Strays(parts);
   std::vector<Bounds> bounds;
+  bounds.reserve(strays.size());
   for (const Stray& stray : strays)
   {
     bounds.push_back(BoundsOf(this->Positions, stray.Points));

@@ -11,7 +11,7 @@ namespace isodiamond
 namespace
 {
 
-using Corners = std::array<Vector, 3>;
+using Places = std::array<Vector, 3>;
 using Signs = std::array<int, 3>;
 
 bool AreAll(const Signs& signs, int sign)
@@ -24,7 +24,7 @@ class View
 {
 public:
   /** Along the first axis along which a triangle has an area, if there is one. */
-  explicit View(const Corners& triangle)
+  explicit View(const Places& triangle)
   {
     while (this->Axis < 3 && this->Turn(triangle[0], triangle[1], triangle[2]) == 0)
     {
@@ -50,7 +50,7 @@ private:
 
 /** Whether an edge in the plane of a triangle meets it: no line along a side of the triangle, or
  * along the edge, separates them. */
-bool MeetsInPlane(const Vector& from, const Vector& to, const Corners& triangle)
+bool MeetsInPlane(const Vector& from, const Vector& to, const Places& triangle)
 {
   const View view(triangle);
   if (!view.IsThere())
@@ -76,7 +76,7 @@ bool MeetsInPlane(const Vector& from, const Vector& to, const Corners& triangle)
 class Pair
 {
 public:
-  Pair(const Corners& a, const Corners& b)
+  Pair(const Places& a, const Places& b)
     : A(a)
     , B(b)
     , SidesOfA(SidesOf(a, b))
@@ -89,7 +89,7 @@ public:
   bool DoesEdgeOfBMeet(int i) const { return DoesEdgeMeet(this->B, this->SidesOfB, i, this->A); }
 
 private:
-  static Signs SidesOf(const Corners& corners, const Corners& plane)
+  static Signs SidesOf(const Places& corners, const Places& plane)
   {
     Signs sides{};
     for (int i = 0; i < 3; ++i)
@@ -99,8 +99,7 @@ private:
     return sides;
   }
 
-  static bool DoesEdgeMeet(
-    const Corners& corners, const Signs& sides, int i, const Corners& triangle)
+  static bool DoesEdgeMeet(const Places& corners, const Signs& sides, int i, const Places& triangle)
   {
     const int next = (i + 1) % 3;
     if (sides[i] * sides[next] > 0)
@@ -121,8 +120,8 @@ private:
       std::count(turns.begin(), turns.end(), -1) == 0;
   }
 
-  const Corners& A;
-  const Corners& B;
+  const Places& A;
+  const Places& B;
   Signs SidesOfA;
   Signs SidesOfB;
 };
@@ -143,11 +142,11 @@ bool AreFolded(const Vector& a, const Vector& b, const Vector& c, const Vector& 
 
 bool Intersect(const std::vector<Vector>& positions, const Triangle& a, const Triangle& b)
 {
-  const auto cornersOf = [&](const Triangle& triangle) -> Corners {
+  const auto placesOf = [&](const Triangle& triangle) -> Places {
     return { positions[triangle[0]], positions[triangle[1]], positions[triangle[2]] };
   };
-  const Corners cornersOfA = cornersOf(a);
-  const Corners cornersOfB = cornersOf(b);
+  const Places placesOfA = placesOf(a);
+  const Places placesOfB = placesOf(b);
   // Corners in common, and the last place in each that is not, or is.
   int common = 0;
   std::array<int, 2> same{};
@@ -169,10 +168,10 @@ bool Intersect(const std::vector<Vector>& positions, const Triangle& a, const Tr
   if (common == 2)
   {
     const int place = other[0];
-    return AreFolded(cornersOfA[(place + 1) % 3], cornersOfA[(place + 2) % 3], cornersOfA[place],
-      cornersOfB[other[1]]);
+    return AreFolded(placesOfA[(place + 1) % 3], placesOfA[(place + 2) % 3], placesOfA[place],
+      placesOfB[other[1]]);
   }
-  const Pair pair(cornersOfA, cornersOfB);
+  const Pair pair(placesOfA, placesOfB);
   if (common == 1)
   {
     // What else they have in common reaches an edge opposite to that corner.

@@ -12,7 +12,7 @@ namespace
 {
 
 /** This many leaves are worth a thread. */
-constexpr std::int64_t LeastRange = 2048;
+constexpr std::int64_t LeavesOfThread = 2048;
 
 /** Whether two corners of a leaf, or two points of its pieces, are the same. */
 bool HasPointTwice(const CutMesh& mesh, const CutMesh::Tetrahedron& leaf)
@@ -42,7 +42,7 @@ bool HasPointTwice(const CutMesh& mesh, const CutMesh::Tetrahedron& leaf)
 void CheckLeaves(const CutMesh& mesh, const ParallelFor& parallelFor)
 {
   std::atomic<bool> isDamaged = false;
-  ForEachIndex(parallelFor, mesh.Tetrahedra.size(), LeastRange,
+  ForEachIndex(parallelFor, mesh.Tetrahedra.size(), LeavesOfThread,
     [&](std::int64_t i)
     {
       if (HasPointTwice(mesh, mesh.Tetrahedra[i]))

@@ -35,9 +35,6 @@ double PartForMoves(int pins)
   return 0.35 * std::pow(0.5, pins - 1);
 }
 
-/** This many tetrahedra are worth a thread. */
-constexpr std::int64_t LeastRange = 2048;
-
 Walls::Type WallsOf(const CutMesh::Vertex& vertex, const Grid& grid)
 {
   const auto [x, y, z] = vertex.Position;
