@@ -168,8 +168,9 @@ public:
   /**
    * Simplify the mesh: a part of the tolerance (three tenths; less if it is below 3/4 voxel) goes
    * to the hierarchy, the rest to collapsing and flipping edges; the result is measured, both ways
-   * and over all of every triangle, and undone where it is too far away. So the tolerance still
-   * holds, and the topology is kept, with a fraction of the triangles, which take longer to make.
+   * and over all of every triangle, and undone where it is too far away or passes through something
+   * else. So the tolerance still holds, the topology is kept and no two triangles of an isosurface
+   * intersect, with a fraction of the triangles, which take longer to make.
    * Points are some of those that the surface would have had, with their data, except for normals,
    * which are means over what a point stands for. What ends at the grid's boundary still does,
    * along the same face. The cell array `Level` is left out. Needs the distance metric, and an

@@ -18,11 +18,12 @@ constexpr std::size_t MostOfPart = 32000;
  * Makes fewer triangles of a mesh, on some of its points, with a promise: every point of the result
  * is within some mesh triangle's allowance of that triangle, and every point of a mesh triangle is
  * within that triangle's allowance of the result; both are homeomorphic; border edges on a wall
- * stay on it, others stay as they are, and nothing is turned over.
+ * stay on it, others stay as they are, and nothing is turned over. No two triangles of the result
+ * intersect (TriangleIntersection.h), unless both are still what they were in the mesh.
  *
  * Edges collapse in parts of the mesh (SimplifiedMesh.h), as long as samples of the original are
  * near enough (EdgeCollapses.h). Then whole triangles are compared, both ways (PartDistance.h), and
- * what is wrong is undone.
+ * with each other (SelfIntersections.h), and what is wrong is undone.
  *
  * Parts are cut by position and simplified independently: the result does not depend on threads.
  *

@@ -40,7 +40,8 @@ struct StuffingInput
  * then the few tetrahedra that are still bad are improved one by one (Improvement.h). Points are
  * some of those that the volume's mesh would otherwise have; a few inside are moved or added, and
  * fewer still move off their surface, by a quarter of their edge at most. Tetrahedra are positive
- * and conforming; surfaces keep their topology. The wanted angles, 15 to 165 degrees, are no
+ * and conforming; surfaces keep their topology, and do not intersect unless there is no room for
+ * the wanted angles otherwise (BestAttempt.h). The wanted angles, 15 to 165 degrees, are no
  * promise: where so much is bad that the search gives up, some that are worse are left.
  *
  * If there are allowances, the surfaces are measured; where they are too far away, the caller has
