@@ -9,7 +9,6 @@
 #include "Stuffing/MovedVertices.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
