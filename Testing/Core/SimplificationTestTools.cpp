@@ -72,13 +72,14 @@ std::pair<std::int64_t, std::int64_t> ShadowOf(
   return { *low, *high };
 }
 
-bool HasFoldAt(const TriangleMesh& mesh, const std::vector<std::uint32_t>& edge, std::uint32_t a,
-  std::uint32_t b)
+bool HasFoldAt(const std::vector<WholePoint>& points, const std::vector<std::uint32_t>& edge,
+  std::uint32_t a, std::uint32_t b)
 {
+  const WholePoint& from = points[edge[0]];
   const auto at = [&](std::uint32_t point) -> WholePoint
   {
-    const Vector place = 256.0 * (mesh.Positions[point] - mesh.Positions[edge[0]]);
-    return { std::llround(place[0]), std::llround(place[1]), std::llround(place[2]) };
+    const WholePoint& to = points[point];
+    return { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
   };
   const WholePoint first = CrossOf(at(edge[1]), at(a));
   const WholePoint second = CrossOf(at(edge[1]), at(b));
@@ -154,7 +155,7 @@ int CountIntersections(const TriangleMesh& mesh)
       [&](std::uint32_t id) { return std::find(a.begin(), a.end(), id) == a.end(); });
     if (common.size() > 1)
     {
-      return common.size() == 3 || HasFoldAt(mesh, common, onlyA[0], onlyB[0]);
+      return common.size() == 3 || HasFoldAt(points, common, onlyA[0], onlyB[0]);
     }
     return !AreApart(placesOf(onlyA), placesOf(allOfB)) ||
       !AreApart(placesOf(onlyB), placesOf(allOfA));

@@ -21,8 +21,8 @@ using test::WholePoint;
 
 Vector ToVector(const WholePoint& point)
 {
-  return { 1.0 * static_cast<double>(point[0]), 1.0 * static_cast<double>(point[1]),
-    1.0 * static_cast<double>(point[2]) };
+  return { static_cast<double>(point[0]), static_cast<double>(point[1]),
+    static_cast<double>(point[2]) };
 }
 
 WholePoint RandomPoint(test::Random& random, int size)
@@ -250,7 +250,7 @@ TEST(SelfIntersections, AreFoldsInOnePlane)
   EXPECT_TRUE(Intersect(folded, flat, { 1, 0, 3 })); // on it, and beyond
 }
 
-// The upper of two sheets is pulled through the lower one, and what is new is to be found.
+// Two sheets cross; that counts only where a triangle is not what it was.
 TEST(SelfIntersections, AreFoundWhereAPartHasChanged)
 {
   TriangleMesh mesh;

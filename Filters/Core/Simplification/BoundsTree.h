@@ -33,6 +33,12 @@ struct Bounds
     this->Add(other.Low);
     this->Add(other.High);
   }
+  /** The axis along which it is longest. */
+  std::size_t LongestAxis() const
+  {
+    const Vector extent = this->High - this->Low;
+    return std::max_element(extent.begin(), extent.end()) - extent.begin();
+  }
   bool Meets(const Bounds& other) const
   {
     // Without branches: which axis tells two apart cannot be foreseen.
@@ -136,9 +142,8 @@ private:
    *  one half */
   std::uint32_t Cut(std::uint32_t first, std::uint32_t last, const Bounds& middles)
   {
-    const Vector extent = middles.High - middles.Low;
-    const std::size_t axis = std::max_element(extent.begin(), extent.end()) - extent.begin();
-    const double at = middles.Low[axis] + 0.5 * extent[axis];
+    const std::size_t axis = middles.LongestAxis();
+    const double at = middles.Low[axis] + 0.5 * (middles.High[axis] - middles.Low[axis]);
     const auto begin = this->Order.begin();
     const auto cut = std::partition(begin + first, begin + last,
       [&](std::uint32_t each) { return this->Middle(each)[axis] < at; });

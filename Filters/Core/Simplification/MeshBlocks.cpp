@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Simplification/MeshBlocks.h"
 
+#include "Simplification/BoundsTree.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -55,18 +57,9 @@ private:
   template <typename Iterator>
   std::size_t LongestAxis(Iterator begin, Iterator end) const
   {
-    Vector low = this->Middles[*begin];
-    Vector high = low;
-    for (Iterator i = begin; i != end; ++i)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        low[axis] = std::min(low[axis], this->Middles[*i][axis]);
-        high[axis] = std::max(high[axis], this->Middles[*i][axis]);
-      }
-    }
-    const Vector extent = high - low;
-    return std::max_element(extent.begin(), extent.end()) - extent.begin();
+    Bounds bounds;
+    std::for_each(begin, end, [&](std::uint32_t triangle) { bounds.Add(this->Middles[triangle]); });
+    return bounds.LongestAxis();
   }
 
   const std::vector<Vector>& Middles;

@@ -121,11 +121,11 @@ std::vector<IntersectingPair> SelfIntersections::Find(
 
 void SelfIntersections::Undo(EdgeCollapses& collapses, std::vector<bool>& isTouched) const
 {
-  std::vector<bool> isNew = isTouched;
+  std::vector<bool> isTouchedLast = isTouched;
   for (;;)
   {
     std::vector<std::uint32_t> lastChanged;
-    for (const auto& [a, b] : this->Find(collapses.Mesh(), isNew))
+    for (const auto& [a, b] : this->Find(collapses.Mesh(), isTouchedLast))
     {
       lastChanged.push_back(collapses.LastChangedOf(a, b));
     }
@@ -133,13 +133,13 @@ void SelfIntersections::Undo(EdgeCollapses& collapses, std::vector<bool>& isTouc
     {
       return;
     }
-    isNew = collapses.Undo(lastChanged, {});
-    if (std::find(isNew.begin(), isNew.end(), true) == isNew.end())
+    isTouchedLast = collapses.Undo(lastChanged, {});
+    if (std::find(isTouchedLast.begin(), isTouchedLast.end(), true) == isTouchedLast.end())
     {
       throw std::logic_error("Triangles intersect, but are as they were.");
     }
-    std::transform(
-      isTouched.begin(), isTouched.end(), isNew.begin(), isTouched.begin(), std::logical_or<>());
+    std::transform(isTouched.begin(), isTouched.end(), isTouchedLast.begin(), isTouched.begin(),
+      std::logical_or<>());
   }
 }
 

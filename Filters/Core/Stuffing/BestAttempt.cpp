@@ -5,17 +5,26 @@
 #include "Stuffing/Detours.h"
 #include "Stuffing/MeasuredSurfaces.h"
 
-#include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace isodiamond
 {
+namespace
+{
+
+/** This many tetrahedra are worth a thread. */
+constexpr std::int64_t TetrahedraOfThread = 2048;
+
+}
 
 BestAttempt::BestAttempt(const Background& background, const TetrahedronMesh& start,
-  const ImprovementOptions& options, const ParallelFor& parallelFor, KnownChanges* known)
+  const ImprovementOptions& options, const CoarseningInput* measured,
+  const ParallelFor& parallelFor, KnownChanges* known)
   : Leaves(background)
   , Start(start)
   , Options(options)
+  , Measured(measured)
   , ForAll(parallelFor)
   , Known(known)
 {
@@ -59,9 +68,17 @@ BestAttempt::Attempt BestAttempt::Try()
 /** The tetrahedra whose angles are not as wanted. */
 std::size_t BestAttempt::CountBad(const TetrahedronMesh& mesh) const
 {
+  std::atomic<std::size_t> count = 0;
   const double wanted = WantedSine(this->Options);
-  return std::count_if(mesh.Tetrahedra.begin(), mesh.Tetrahedra.end(),
-    [&](const Corners& corners) { return SmallestSine(mesh, corners) < wanted; });
+  ForEachIndex(this->ForAll, mesh.Tetrahedra.size(), TetrahedraOfThread,
+    [&](std::int64_t i)
+    {
+      if (SmallestSine(mesh, mesh.Tetrahedra[i]) < wanted)
+      {
+        ++count;
+      }
+    });
+  return count;
 }
 
 /** Holds surfaces where they intersect. @return whether that is new for some of them */

@@ -25,12 +25,14 @@ namespace isodiamond
 class BestAttempt
 {
 public:
-  /** All of these must outlive it. @param start improved each time @param known see Improve() */
+  /** All of these must outlive it, except for the options.
+   *  @param start improved each time
+   *  @param measured what surfaces are measured by, before anything that is long is done; null if
+   *         they are not
+   *  @param known see Improve() */
   BestAttempt(const Background& background, const TetrahedronMesh& start,
-    const ImprovementOptions& options, const ParallelFor& parallelFor, KnownChanges* known);
-
-  /** Has surfaces measured before anything that is long is done. @param input must outlive it */
-  void Measure(const CoarseningInput& input) { this->Measured = &input; }
+    const ImprovementOptions& options, const CoarseningInput* measured,
+    const ParallelFor& parallelFor, KnownChanges* known);
 
   struct Attempt
   {
@@ -49,9 +51,9 @@ private:
   const Background& Leaves;
   const TetrahedronMesh& Start;
   ImprovementOptions Options;
+  const CoarseningInput* Measured;
   const ParallelFor& ForAll;
   KnownChanges* Known;
-  const CoarseningInput* Measured = nullptr;
 };
 
 }

@@ -219,12 +219,9 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   CoarseningInput coarsening{ meshes.Plain, input.Allowances, canBeNearer, input.KeepsInside };
   coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
   coarsening.Axes = options.Axes;
-  BestAttempt attempts(background, meshes.Stuffed, options, parallelFor, known);
-  if (getsCoarser)
-  {
-    attempts.Measure(coarsening);
-  }
-  auto [mesh, far] = attempts.Find();
+  auto [mesh, far] = BestAttempt(
+    background, meshes.Stuffed, options, getsCoarser ? &coarsening : nullptr, parallelFor, known)
+                       .Find();
   if (getsCoarser && far.empty())
   {
     far = Coarsen(mesh, coarsening, parallelFor);
