@@ -162,8 +162,10 @@ public:
   ///@{
   /**
    * The precision of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
-   * DEFAULT_PRECISION, which is single for triangles and double for tetrahedra, as rounding to
-   * single precision could turn the thinnest over. Default: DEFAULT_PRECISION.
+   * DEFAULT_PRECISION: double for tetrahedra, as rounding to single precision could turn the
+   * thinnest over; single for triangles, unless that could not tell places apart that are a 256th
+   * of a voxel from each other, as at coordinates of 65,536 voxels and more; on a curvilinear
+   * grid, that of its points. Default: DEFAULT_PRECISION.
    */
   vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
   vtkGetMacro(OutputPointsPrecision, int);

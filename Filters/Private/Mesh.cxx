@@ -115,13 +115,21 @@ void AddCells(Extraction& extraction, std::int64_t counted, int size, const Mesh
   }
 }
 
-template <typename Extraction>
-void AddPoints(const Extraction& extraction, const MeshOptions& options, bool isDouble, Mesh& mesh)
+/** Whether points are doubles. */
+bool AreDoubles(const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options)
 {
   if (options.PointsPrecision != vtkAlgorithm::DEFAULT_PRECISION)
   {
-    isDouble = options.PointsPrecision == vtkAlgorithm::DOUBLE_PRECISION;
+    return options.PointsPrecision == vtkAlgorithm::DOUBLE_PRECISION;
   }
+  const isodiamond::Grid& grid = hierarchy.SampleGrid();
+  return hierarchy.Region().IsVolume() ||
+    !options.World.FitsFloats({ grid.Last(0), grid.Last(1), grid.Last(2) });
+}
+
+template <typename Extraction>
+void AddPoints(const Extraction& extraction, const MeshOptions& options, bool isDouble, Mesh& mesh)
+{
   mesh.Points = isDouble ? WritePoints<vtkDoubleArray>(extraction, options.World)
                          : WritePoints<vtkFloatArray>(extraction, options.World);
 }
@@ -247,7 +255,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
   AddCells(extraction, extraction.TetrahedronCount(), 4, options, parallelFor, mesh,
     [&](const isodiamond::CellRange& cells, auto* connectivity, std::int16_t* levels)
     { extraction.WriteTetrahedra(cells, options.World.Mirrors(), connectivity, levels); });
-  AddPoints(extraction, options, true, mesh);
+  AddPoints(extraction, options, AreDoubles(refined.Hierarchy(), options), mesh);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
   {
     AddValues<vtkDoubleArray>(extraction, options, mesh);
@@ -272,7 +280,7 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& op
   AddCells(extraction, extraction.TriangleCount(), 3, options, parallelFor, mesh,
     [&](const isodiamond::CellRange& cells, auto* connectivity, std::int16_t* levels)
     { extraction.WriteTriangles(cells, options.World.Mirrors(), connectivity, levels); });
-  AddPoints(extraction, options, false, mesh);
+  AddPoints(extraction, options, AreDoubles(refined.Hierarchy(), options), mesh);
   if (options.WithThresholds)
   {
     const auto codes = NewArray<vtkUnsignedShortArray>(ThresholdsArray, extraction.TriangleCount());

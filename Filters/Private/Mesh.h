@@ -64,8 +64,9 @@ struct MeshOptions
   std::string ArrayName;        ///< the name that the field's values get; Scalars if empty
   bool WithValues = true;       ///< whether a surface's points get them
   bool ValuesAreScalars = true; ///< whether these are then the active scalars
-  /** A vtkAlgorithm::DesiredOutputPrecision; by default floats for triangles, doubles for
-   *  tetrahedra: rounded to floats, the thinnest would be inverted. */
+  /** A vtkAlgorithm::DesiredOutputPrecision; by default doubles for tetrahedra, the thinnest of
+   *  which would be inverted if rounded to floats, and for triangles where these do not fit floats.
+   */
   int PointsPrecision = vtkAlgorithm::DEFAULT_PRECISION;
   PointDataMaker MorePointData = nullptr;
   const isodiamond::HiddenCells* Hidden = nullptr; ///< what lies in them is left out

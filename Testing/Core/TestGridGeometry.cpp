@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -152,6 +153,38 @@ TEST(GridGeometry, SmallestStepIsTheLeastOfAnyAxis)
   EXPECT_EQ(GridGeometry({ rising, wide, wide }).SmallestStep(), 1.25);
   const std::vector<double> positions = BentPositions();
   EXPECT_EQ(GridGeometry(SamplePositions{ positions.data(), Size }).SmallestStep(), 0.0);
+}
+
+TEST(GridGeometry, FitsFloatsWhereTheseTellIsoverticesApart)
+{
+  // Floats from 2^15 to 2^16 are a 256th apart.
+  AffineMap map;
+  const auto fits = [&](double step, double origin, int last)
+  {
+    map.Rows = { { { step, 0.0, 0.0, 0.0 }, { 0.0, -step, 0.0, origin },
+      { 0.0, 0.0, step, 0.0 } } };
+    return GridGeometry(map).FitsFloats({ 1, last, 1 });
+  };
+  EXPECT_TRUE(fits(1.0, 0.0, 10000));
+  EXPECT_TRUE(fits(1.0, 0.0, 65535));
+  EXPECT_FALSE(fits(1.0, 0.0, 65536));
+  EXPECT_FALSE(fits(1.0, -5400000.0, 9));
+  EXPECT_TRUE(fits(128.0, -5400000.0, 9)); // these are a half apart
+  EXPECT_TRUE(fits(1e-30, 2e-26, 9));
+  EXPECT_FALSE(fits(1e38, 0.0, 4));
+  const std::vector<double> near = { 0.0, 1.0, 2.0 };
+  const std::vector<double> far = { -70000.0, -69999.0, -69998.0 };
+  EXPECT_TRUE(GridGeometry({ near, near, near }).FitsFloats({ 2, 2, 2 }));
+  EXPECT_FALSE(GridGeometry({ near, far, near }).FitsFloats({ 2, 2, 2 }));
+  // Where steps are small, everything near has to be told apart, too.
+  const std::vector<double> close = { 0.0, 1.0, 1.000001 };
+  EXPECT_FALSE(GridGeometry({ close, near, near }).FitsFloats({ 2, 2, 2 }));
+  // A bent grid's are what its own are.
+  const std::vector<double> positions = BentPositions();
+  const std::vector<float> rounded(positions.begin(), positions.end());
+  const Point last = { Size[0] - 1, Size[1] - 1, Size[2] - 1 };
+  EXPECT_FALSE(GridGeometry(SamplePositions{ positions.data(), Size }).FitsFloats(last));
+  EXPECT_TRUE(GridGeometry(SamplePositions{ rounded.data(), Size }).FitsFloats(last));
 }
 
 TEST(AffineMap, HasItsDeterminantAndInverse)

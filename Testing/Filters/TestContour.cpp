@@ -118,6 +118,46 @@ TEST(Contour, HonoursOriginSpacingExtentAndDirection)
   ExpectSameSurfaceAsFlyingEdges(image, 1.25);
 }
 
+// At coordinates of maps: floats that are 5 million are half a voxel apart.
+TEST(Contour, IsTheSameFarFromTheOrigin)
+{
+  const auto image = test::BallImage({ 30, 37, 25 });
+  image->SetOrigin(0.0, 0.0, 0.0);
+  image->SetSpacing(1.0, 1.0, 1.0);
+  const double far[3] = { 500000.0, -5400000.0, 250.0 };
+  for (const bool simplify : { false, true })
+  {
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputData(image);
+    contour->SetValue(0, 0.0);
+    contour->SetErrorTolerance(simplify ? 1.0 : 0.0);
+    contour->SetSimplify(simplify);
+    image->SetOrigin(0.0, 0.0, 0.0);
+    contour->Update();
+    vtkNew<vtkPolyData> near;
+    near->DeepCopy(contour->GetOutput());
+    ASSERT_EQ(near->GetPoints()->GetDataType(), VTK_FLOAT);
+    image->SetOrigin(far);
+    contour->Update();
+    vtkPolyData* moved = contour->GetOutput();
+    ASSERT_EQ(moved->GetPoints()->GetDataType(), VTK_DOUBLE);
+    ASSERT_GT(moved->GetNumberOfPoints(), 10);
+    ASSERT_EQ(moved->GetNumberOfPoints(), near->GetNumberOfPoints());
+    ASSERT_EQ(moved->GetNumberOfPolys(), near->GetNumberOfPolys());
+    for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
+    {
+      double a[3];
+      double b[3];
+      moved->GetPoint(i, a);
+      near->GetPoint(i, b);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        ASSERT_NEAR(a[axis] - far[axis], b[axis], 1e-5) << i;
+      }
+    }
+  }
+}
+
 TEST(Contour, MirroredImagesKeepNormalsTowardLowerValues)
 {
   const vtkSmartPointer<vtkImageData> image = test::BallImage({ 17, 17, 17 });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace isodiamond
 {
@@ -157,6 +158,35 @@ double GridGeometry::SmallestStep() const
     }
   }
   return std::isfinite(least) ? least : 0.0;
+}
+
+bool GridGeometry::FitsFloats(const Point& last) const
+{
+  if (const auto* positions = std::get_if<SamplePositions>(&this->Map))
+  {
+    return std::holds_alternative<const float*>(positions->Coordinates);
+  }
+  double largest = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Vector index{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      index[axis] = ((corner >> axis) & 1) != 0 ? last[axis] : 0.0;
+    }
+    const Vector place = (*this)(index);
+    for (const double coordinate : place)
+    {
+      largest = std::max(largest, std::abs(coordinate));
+    }
+  }
+  if (!(largest < std::numeric_limits<float>::max()))
+  {
+    return false;
+  }
+  const auto nearest = static_cast<float>(largest);
+  const double spacing = std::nextafter(nearest, HUGE_VALF) - nearest;
+  return 256.0 * spacing <= this->SmallestStep();
 }
 
 bool GridGeometry::Mirrors() const

@@ -80,6 +80,11 @@ public:
    *  it is not needed. */
   double SmallestStep() const;
 
+  /** Whether floats tell places apart that are a 256th of the smallest step from each other, as
+   *  isovertices on an edge are; for a curvilinear grid, whether its own positions are floats.
+   *  @param last the index of the last sample, padding included */
+  bool FitsFloats(const Point& last) const;
+
   /** Whether orientation is reversed from index space to the world; for a curvilinear grid, at its
    *  middle. */
   bool Mirrors() const;
