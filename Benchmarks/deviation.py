@@ -31,6 +31,8 @@ than three points are dropped. The table has, with the smallest side of a voxel 
 - pieces: connected components, by common points; Euler number: points - edges + triangles; loops:
   connected sets of boundary edges, those with one triangle, as around a hole or where the volume
   ends; branching: edges with more than two triangles;
+- intersections: pairs of triangles that have more in common than corners and an edge, if
+  IsodiamondCGALIntersections was built (Debian's libcgal-dev);
 - full's vertices beyond: how many of full resolution are farther from the mesh than the tolerance.
 
 Pictures show the meshes close up, inner sides in red; those of a raw volume need --camera.
@@ -42,7 +44,7 @@ import os
 
 from isodiamonds import vtkIsodiamondContour
 from meshmeasures import Mesh, NearestTriangle, deviation_of_mesh, deviation_of_points
-from meshmeasures import slivers, topology
+from meshmeasures import intersections, slivers, topology
 from meshpictures import View, save_picture
 from simplifiers import Contest
 from volumes import HEAD, HEAD_ISOVALUE, cropped, head, phantom, raw_volume
@@ -50,6 +52,7 @@ from volumes import HEAD, HEAD_ISOVALUE, cropped, head, phantom, raw_volume
 TOLERANCES = (2, 1, 0.5, 0.25, 0.1)  # voxels
 PICTURED = (1,)
 DECIMATION_LIMIT = 1_000_000  # triangles
+INTERSECTIONS = "build/bin/IsodiamondCGALIntersections"
 
 # For pictures: a part of the volume, or None for all, and from where to look at it. Here the bone
 # of the forehead, cut open.
@@ -57,7 +60,8 @@ HEAD_VIEW = ((50, 130, 150, 216, 70, 150), View((99, 200, 100.5), (0.3, 1, 0.3),
 
 Volume = collections.namedtuple("Volume", "name image isovalue crop view", defaults=(None, None))
 Result = collections.namedtuple(
-    "Result", "triangles there beyond back angle folded slivers topology milliseconds"
+    "Result",
+    "triangles there beyond back angle folded slivers topology intersections milliseconds",
 )
 
 
@@ -78,6 +82,7 @@ def assess(full, nearest, polydata, milliseconds, tolerance, voxel):
         *deviation_of_mesh(mesh, nearest),
         slivers(mesh),
         topology(mesh),
+        intersections(mesh, INTERSECTIONS),
         milliseconds,
     )
 
@@ -95,6 +100,7 @@ FIGURES = {
         f"{r.angle:.1f} / {100 * r.folded:.3f} / {100 * r.slivers:.1f}"
     ),
     "pieces / Euler / loops / branching": lambda r: slashed(r.topology, ","),
+    "intersections": lambda r: "-" if r.intersections is None else f"{r.intersections:,}",
     "full's vertices beyond": lambda r: f"{r.beyond:,}",
 }
 

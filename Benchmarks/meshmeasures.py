@@ -5,12 +5,15 @@ Distances from points to triangles are exact. To sample a mesh, its triangles ar
 parts; samples are the parts' centres, those of neighbours at most half a voxel apart. Each centre
 stands for the area of its part.
 
-Needs scipy, Debian's python3-scipy.
+Needs scipy, Debian's python3-scipy; to count intersections, IsodiamondCGALIntersections, which is
+built if CGAL is found (Debian's libcgal-dev).
 """
 import collections
 import concurrent.futures
 import functools
 import os
+import subprocess
+import tempfile
 
 import numpy
 from scipy.sparse import coo_matrix
@@ -258,6 +261,20 @@ def slivers(mesh):
         angles = numpy.degrees(numpy.arctan2(2 * mesh.areas, dot(b - a, c - a)))
         smallest = numpy.minimum(smallest, angles)
     return (smallest < SLIVER).mean()
+
+
+def intersections(mesh, program):
+    """How many pairs of triangles have more in common than corners and an edge, by CGAL's exact
+    predicates. None if the program that counts them is not there."""
+    if not os.path.exists(program):
+        return None
+    with tempfile.NamedTemporaryFile() as file:
+        numpy.array([len(mesh.points), len(mesh.triangles)], dtype=numpy.int64).tofile(file)
+        mesh.points.astype(numpy.float64).tofile(file)
+        mesh.triangles.astype(numpy.int64).tofile(file)
+        file.flush()
+        command = [program, file.name]
+        return int(subprocess.run(command, check=True, capture_output=True).stdout)
 
 
 def count_pieces(first, second):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The measures of deviation.py on shapes whose figures are known: pvpython test_meshmeasures.py
+"""The measures of deviation.py on shapes whose figures are known.
+
+    pvpython test_meshmeasures.py [IsodiamondCGALIntersections]
 
 Exits with 77 without scipy.
 """
@@ -10,7 +12,7 @@ import numpy
 try:
     import meshmeasures
     from meshmeasures import Mesh, NearestTriangle, Topology, deviation_of_mesh
-    from meshmeasures import deviation_of_points, slivers, topology
+    from meshmeasures import deviation_of_points, intersections, slivers, topology
 except ModuleNotFoundError as error:
     print(error)
     sys.exit(77)
@@ -60,6 +62,28 @@ def test_slivers():
     less_flat = [[(0, 0, 0), (10, 0, 0), (5, 1, 0)]]  # 11.3
     near(slivers(mesh_of(SQUARE, less_flat)), 0)
     near(slivers(mesh_of(SQUARE, flat)), 1 / 3)
+
+
+def test_intersections():
+    program = sys.argv[1] if len(sys.argv) > 1 else ""
+    if not program:
+        print("not built: IsodiamondCGALIntersections")
+        return
+    assert intersections(mesh_of(cube(4)), program) == 0
+    assert intersections(mesh_of(cube(4), cube(4) + [9, 0, 0]), program) == 0
+    # Through both triangles of a square; with a corner in the middle, on their edge; beside them.
+    through = numpy.array([[(0.3, 0.2, -1), (0.6, 0.7, 1), (0.7, 0.6, 1)]])
+    touching = numpy.array([[(0.5, 0.5, 0), (0, 0, 1), (1, 0, 1)]])
+    assert intersections(mesh_of(SQUARE, through), program) == 2
+    assert intersections(mesh_of(SQUARE, touching), program) == 2
+    assert intersections(mesh_of(SQUARE, touching + [0, 0, 1e-12]), program) == 0
+    # With a common corner, and with a common edge: through the square, away from it, and folded.
+    corner = numpy.array([[(0, 0, 0), (0.9, 0.2, -1), (0.9, 0.2, 1)]])
+    edge = numpy.array([[(0, 0, 0), (1, 0, 0), (0.6, 0.4, 0)]])
+    assert intersections(mesh_of(SQUARE, corner), program) == 1
+    assert intersections(mesh_of(SQUARE, -corner), program) == 0
+    assert intersections(mesh_of(SQUARE[:1], edge), program) == 1
+    assert intersections(mesh_of(SQUARE[:1], edge * [1, -1, 1]), program) == 0
 
 
 def test_shifted_cube():
