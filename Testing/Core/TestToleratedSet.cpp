@@ -70,7 +70,7 @@ struct AllErrors
         relevant, Finiteness(samples), options.World, options.PreserveFeatures, SerialFor))
     , Both(this->Forth)
   {
-    RaiseByWayBack(relevant, options.World, { options.Hidden, nullptr, {} }, this->Both, SerialFor);
+    RaiseByWayBack(relevant, options.World, { options.Hidden }, this->Both, SerialFor);
   }
 };
 

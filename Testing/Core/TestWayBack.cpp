@@ -171,13 +171,13 @@ public:
     MapBounds bounds(this->Hierarchy.Diamonds(), this->Hierarchy.Region().SurfaceCount());
     const std::vector<ErrorCode::Type> before = DistanceErrors(
       this->Hierarchy, Finiteness(this->Samples), world, preserve, SerialFor, {}, &bounds);
-    const BeforeWayBack known{ hidden, seen.Compared % 3 != 0 ? &bounds : nullptr, {} };
+    const BeforeWayBack known{ hidden, seen.Compared % 3 != 0 ? &bounds : nullptr };
     std::vector<ErrorCode::Type> raised = before;
     RaiseByWayBack(this->Hierarchy, world, known, raised, SerialFor);
     std::vector<ErrorCode::Type> threaded = before;
     RaiseByWayBack(this->Hierarchy, world, known, threaded, test::ThreadedFor(3));
     EXPECT_TRUE(raised == threaded);
-    this->CheckThresholds(before, raised, { hidden, &bounds, {} }, world);
+    this->CheckThresholds(before, raised, { hidden, &bounds }, world);
 
     std::vector<test::NearestTriangle> nearest;
     for (const test::SurfaceTriangles& full : this->Full)
@@ -205,7 +205,7 @@ public:
 private:
   /** The work that thresholds spare the way back changes none of them by more than its rounding. */
   void CheckThresholds(const std::vector<ErrorCode::Type>& before,
-    const std::vector<ErrorCode::Type>& raised, BeforeWayBack known,
+    const std::vector<ErrorCode::Type>& raised, const BeforeWayBack& known,
     const GridGeometry& world) const
   {
     const auto thresholds = [&](const std::vector<ErrorCode::Type>& codes)
@@ -213,8 +213,10 @@ private:
       return ActivationThresholds(
         this->Hierarchy.SampleGrid(), this->Hierarchy.Diamonds(), codes, SerialFor);
     };
-    known.Thresholds = thresholds(before);
     std::vector<ErrorCode::Type> spared = before;
+    RaiseToThresholds(this->Hierarchy.SampleGrid(), this->Hierarchy.Diamonds(), spared, SerialFor);
+    EXPECT_EQ(thresholds(spared), thresholds(before));
+    EXPECT_EQ(FindFollowers(spared, thresholds(spared)), FindFollowers(before, thresholds(before)));
     RaiseByWayBack(this->Hierarchy, world, known, spared, SerialFor);
     const std::vector<ErrorCode::Type> expected = thresholds(raised);
     const std::vector<ErrorCode::Type> found = thresholds(spared);

@@ -398,6 +398,19 @@ std::vector<std::uint32_t> FindFollowers(
   return followers;
 }
 
+void RaiseToThresholds(const Grid& grid, const DiamondSet& members,
+  std::vector<ErrorCode::Type>& own, const ParallelFor& parallelFor, const PeerPortion* portion)
+{
+  std::vector<ErrorCode::Type> thresholds;
+  const auto copy = [&] { thresholds = own; };
+  InStep(portion != nullptr ? &portion->Others() : nullptr, copy);
+  thresholds = ActivationThresholds(grid, members, std::move(thresholds), parallelFor, portion);
+  for (std::size_t rank = 0; rank < own.size(); ++rank)
+  {
+    own[rank] = own[rank] != 0 ? std::max(own[rank], thresholds[rank]) : own[rank];
+  }
+}
+
 std::vector<ErrorCode::Type> SaturateUpward(const Grid& grid, const DiamondSet& members,
   const std::vector<ErrorCode::Type>& codes, const std::vector<std::uint32_t>& followers,
   const ParallelFor& parallelFor, const PeerPortion* portion)

@@ -50,6 +50,18 @@ std::vector<std::uint32_t> FindFollowers(
   const std::vector<ErrorCode::Type>& own, const std::vector<ErrorCode::Type>& thresholds);
 
 /**
+ * Raises errors, where there are any, to the thresholds due to them. Neither these nor the
+ * followers change: a threshold is never above the greatest of the parents', so what it is due to
+ * itself stays the least of that and the error.
+ *
+ * @param own by rank, a diamond's own error; 0 for none, which stays so
+ * @param grid, members, portion as above
+ */
+void RaiseToThresholds(const Grid& grid, const DiamondSet& members,
+  std::vector<ErrorCode::Type>& own, const ParallelFor& parallelFor,
+  const PeerPortion* portion = nullptr);
+
+/**
  * Raises codes to the greatest of their descendants', and those of followers to the greatest of
  * their parents': each diamond is subdivided where any of these is. The least solution, as above.
  *

@@ -30,7 +30,7 @@ namespace
  * @param portion that the members make up; null for all
  * @param haveFollowers if not, diamonds reached other than by a threshold may have any error
  */
-void RaiseToThresholds(const Grid& grid, const DiamondSet& members, const PeerPortion* portion,
+void TurnIntoThresholds(const Grid& grid, const DiamondSet& members, const PeerPortion* portion,
   bool haveFollowers, const ParallelFor& parallelFor, DiamondCodes& codes)
 {
   Peers* const others = portion != nullptr ? &portion->Others() : nullptr;
@@ -242,13 +242,11 @@ DiamondCodes BuildSteps::MeasureDistances(
   this->Do("Measuring errors", 0.5, 0.8,
     [&]
     {
-      std::vector<ErrorCode::Type> forth;
-      InStep(this->Portion ? peers : nullptr, [&] { forth = own.Surface; });
-      const BeforeWayBack known{ this->Options.Hidden, &bounds,
-        ActivationThresholds(this->Origin.SampleGrid, this->Members, std::move(forth), this->For,
-          this->PortionOfPeers()),
-        this->PortionOfPeers() };
-      RaiseByWayBack(relevant, this->Options.World, known, own.Surface, Loops(this->For, peers));
+      RaiseToThresholds(
+        this->Origin.SampleGrid, this->Members, own.Surface, this->For, this->PortionOfPeers());
+      RaiseByWayBack(relevant, this->Options.World,
+        { this->Options.Hidden, &bounds, this->PortionOfPeers() }, own.Surface,
+        Loops(this->For, peers));
     });
   this->Merge(own.Surface);
   return own;
@@ -306,7 +304,7 @@ void BuildSteps::FindThresholds(DiamondCodes& codes) const
   this->Do("Finding thresholds", 0.8, 0.9,
     [&]
     {
-      RaiseToThresholds(this->Origin.SampleGrid, this->Members, this->PortionOfPeers(),
+      TurnIntoThresholds(this->Origin.SampleGrid, this->Members, this->PortionOfPeers(),
         this->Header.Metric == ErrorMetric::Distance, this->For, codes);
     });
 }

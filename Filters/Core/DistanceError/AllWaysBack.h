@@ -172,10 +172,8 @@ private:
   void Measure(int surface, const Member& member, WayBack<Lengths>& wayBack)
   {
     const std::uint32_t rank = member.Rank;
-    const std::vector<ErrorCode::Type>& thresholds = this->Known.Thresholds;
-    const ErrorCode::Type before =
-      thresholds.empty() ? this->Codes[rank] : std::max(this->Codes[rank], thresholds[rank]);
-    if (this->Codes[rank] == 0 || before == ErrorCode::Always)
+    const ErrorCode::Type before = this->Codes[rank];
+    if (before == 0 || before == ErrorCode::Always)
     {
       return;
     }

@@ -65,9 +65,6 @@ struct BeforeWayBack
 {
   const HiddenCells* Hidden = nullptr; ///< cells without any surface; null for none
   const MapBounds* Bounds = nullptr;   ///< of DistanceErrors(); null for none
-  /** Codes by rank up to which the way back does not matter: activation thresholds of the errors so
-   *  far. What is less than a threshold changes none. Empty for none. */
-  std::vector<ErrorCode::Type> Thresholds;
   /** The portion that the diamonds are of: its own are measured, by all peers together, in steps of
    * its own. Null if all are here. */
   const PeerPortion* Portion = nullptr;
@@ -85,7 +82,8 @@ struct BeforeWayBack
  * less than 1/64 of a lattice step. See WayBack.h.
  *
  * @param relevant, world as above
- * @param codes of DistanceErrors()
+ * @param codes of DistanceErrors(). What is below an activation threshold of these changes none:
+ * the work for it can be spared by RaiseToThresholds()
  */
 void RaiseByWayBack(const IsodiamondHierarchy& relevant, const GridGeometry& world,
   const BeforeWayBack& known, std::vector<ErrorCode::Type>& codes, const Loops& loops);
