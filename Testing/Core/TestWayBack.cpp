@@ -223,6 +223,7 @@ private:
     const ErrorCode code(DistanceErrorScale(this->Hierarchy.SampleGrid(), world));
     for (std::size_t rank = 0; rank < found.size(); ++rank)
     {
+      ASSERT_EQ(spared[rank] == 0, before[rank] == 0) << "rank " << rank; // there is nothing
       const double least = LeastError(world);
       const double ratio =
         std::max(code.Decode(found[rank]), least) / std::max(code.Decode(expected[rank]), least);
