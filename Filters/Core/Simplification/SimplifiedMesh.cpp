@@ -2,78 +2,20 @@
 #include "Simplification/SimplifiedMesh.h"
 
 #include "Simplification/CellsAtPoints.h"
-#include "Simplification/EdgeCollapses.h"
 #include "Simplification/MeshBlocks.h"
 #include "Simplification/PartBorders.h"
-#include "Simplification/PartDistance.h"
-#include "Simplification/SelfIntersections.h"
+#include "Simplification/SimplerPart.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 namespace isodiamond
 {
 namespace
 {
-
-/** Where more than this part of what collapses have saved had to be undone, less is tried. */
-constexpr double MuchUndone = 0.05;
-constexpr double LessOfUsedPart = 0.85;
-
-std::size_t CountThere(const LinkedTriangles& mesh)
-{
-  return std::count_if(mesh.Triangles.begin(), mesh.Triangles.end(),
-    [](const Triangle& triangle) { return triangle[0] != None; });
-}
-
-/** Makes a part simpler: collapses edges, measures, and undoes what leads too far or through
- *  something else, until nothing does. The part's triangles, near lists and samples become those of
- * the result.
- *  @return whether much had to be undone: with a collapse goes all that builds on it */
-bool CollapseOnce(MeshPart& part, double usedPart)
-{
-  PartDistance distance(part, true);
-  const SelfIntersections intersections(part);
-  EdgeCollapses collapses(part, usedPart);
-  std::vector<bool> isTouched = collapses.Run();
-  const std::size_t tried = CountThere(collapses.Mesh());
-  for (;;)
-  {
-    intersections.Undo(collapses, isTouched);
-    const PartDistance::Faults faults =
-      distance.Find(collapses.Mesh(), collapses.SampleHomes(), isTouched);
-    if (!faults.Any())
-    {
-      break;
-    }
-    isTouched = collapses.Undo(faults.Triangles, faults.Points);
-    if (std::find(isTouched.begin(), isTouched.end(), true) == isTouched.end())
-    {
-      throw std::logic_error("What is wrong of a simpler mesh is as it was.");
-    }
-  }
-  for (std::size_t i = 0; i < part.Samples.size(); ++i)
-  {
-    part.Samples[i].Home = collapses.SampleHomes()[i];
-  }
-  const std::size_t before = CountThere(part.Simple);
-  part.Simple = collapses.Mesh();
-  const std::size_t undone = CountThere(part.Simple) - tried;
-  return static_cast<double>(undone) > MuchUndone * static_cast<double>(before - tried);
-}
-
-/** The same, and once more with less of what is allowed if much had to be undone. */
-void CollapseEdges(MeshPart& part, double usedPart)
-{
-  if (CollapseOnce(part, usedPart))
-  {
-    CollapseOnce(part, LessOfUsedPart * usedPart);
-  }
-}
 
 /** The numbers that belong to each part. @param partOf (number) -> part, or None */
 template <typename PartOf>
@@ -354,7 +296,7 @@ SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const Division& division, std:
       [&](std::uint32_t point) { return this->IsFaulty[point]; });
   if (isSound)
   {
-    CollapseEdges(part, usedPart);
+    isodiamond::Simplify(part, usedPart);
   }
   Made made{ std::move(part.Simple.Triangles), std::move(part.Near), {} };
   for (Triangle& triangle : made.Triangles)

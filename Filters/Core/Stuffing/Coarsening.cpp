@@ -3,6 +3,7 @@
 
 #include "Simplification/PartDistance.h"
 #include "Simplification/SelfIntersections.h"
+#include "Simplification/SimplerPart.h"
 #include "Stuffing/MeasuredSurfaces.h"
 #include "Stuffing/TetrahedronCollapses.h"
 
@@ -104,13 +105,8 @@ std::vector<std::uint32_t> Coarsen(
     }
     parallelFor(1, 1, [&](std::int64_t, std::int64_t) { isTouched = edges.Run(); });
   }
-  do
-  {
-    intersections.Undo(edges, isTouched);
-    const PartDistance::Faults faults =
-      distance.Find(edges.Mesh(), edges.SampleHomes(), isTouched, parallelFor);
-    isTouched = faults.Any() ? edges.Undo(faults.Triangles, faults.Points) : std::vector<bool>();
-  } while (std::find(isTouched.begin(), isTouched.end(), true) != isTouched.end());
+  // What cannot be nearer may be too far away as it was.
+  UndoWhatIsWrong(intersections, distance, std::move(isTouched), edges, parallelFor);
   // All that is left to do changes only the inside, and nothing has to be undone any more.
   if (!input.KeepsInside)
   {
