@@ -255,6 +255,7 @@ MeshPart WholePart(const AllowedMesh& mesh)
   part.Allowances = mesh.Allowances;
   part.Simple = part.Original;
   part.IsFixed.resize(part.Positions.size());
+  part.IsSettled.resize(part.Positions.size());
   part.OnWalls = mesh.OnWalls;
   part.OnWalls.resize(part.Positions.size());
   for (const Vector& position : part.Positions)

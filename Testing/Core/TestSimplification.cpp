@@ -104,6 +104,40 @@ std::vector<Triangle> WithoutPieceOf(std::vector<Triangle> triangles, const Tria
 
 }
 
+// Where parts were cut, there are not many more triangles than elsewhere. Two passes alone leave
+// three times as many as one part has, and 1.75 times.
+TEST(Simplification, LeavesNoSeams)
+{
+  const AllowedMesh before = test::MeshOf(test::SphereField({ 33, 33, 33 }), 0.0, 0.5);
+  const std::size_t inOne = Simplify(before, SerialFor, MostOfPart).Triangles.size();
+  const TriangleMesh inManySmall = Simplify(before, SerialFor, 500);
+  EXPECT_LT(inManySmall.Triangles.size(), 2 * inOne);
+  EXPECT_LT(Simplify(before, SerialFor, 1000).Triangles.size(), inOne + inOne / 2);
+  ExpectPromise(before, inManySmall, 0.5);
+}
+
+TEST(Simplification, KnowsWhereThereIsAnythingToTry)
+{
+  const AllowedMesh before = test::MeshOf(test::SphereField({ 33, 33, 33 }), 0.0, 0.5);
+  SimplifiedMesh whole(before);
+  EXPECT_EQ(whole.PartToTry(), 1.0);
+  whole.Simplify(MostOfPart, 0.5, 0.85, SerialFor);
+  EXPECT_EQ(whole.PartToTry(), 0.0); // nothing was held
+  whole.TryAllAgain();
+  EXPECT_EQ(whole.PartToTry(), 1.0);
+
+  SimplifiedMesh parts(before);
+  parts.Simplify(1000, 0.5, 0.85, SerialFor);
+  const double left = parts.PartToTry();
+  EXPECT_GT(left, 0.05);
+  EXPECT_LT(left, 0.95);
+  const std::size_t count = parts.Triangles().size();
+  parts.Simplify(MostOfPart, 0.5, 0.75, SerialFor);
+  EXPECT_LT(parts.Triangles().size(), count);
+  EXPECT_LT(parts.PartToTry(), left);
+  test::ExpectLinks(Connectivity(before.Mesh.Positions.size(), parts.Triangles()).Linked());
+}
+
 TEST(Simplification, KeepsThePromise)
 {
   for (const test::Field& field : test::SurfacesToSimplify())

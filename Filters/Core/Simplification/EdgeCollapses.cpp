@@ -20,6 +20,7 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuar
   , Homes(part.Samples.size(), None)
   , AnyTriangle(this->Positions.size(), None)
   , IsFixed(part.IsFixed)
+  , IsSettled(part.IsSettled)
   , IsAtBorder(this->Positions.size())
   , OnWalls(part.OnWalls)
   , IsLeftAlone(this->Positions.size())
@@ -315,11 +316,16 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
   }
 }
 
+bool EdgeCollapses::IsWorthATry(std::uint32_t vertex) const
+{
+  return !this->IsSettled[vertex] && (this->Guard == nullptr || this->Guard->IsWorthATry(vertex));
+}
+
 std::vector<bool> EdgeCollapses::Run()
 {
   for (std::uint32_t point = 0; point < this->Positions.size(); ++point)
   {
-    if (this->MayGo(point) && (this->Guard == nullptr || this->Guard->IsWorthATry(point)))
+    if (this->MayGo(point) && this->IsWorthATry(point))
     {
       this->Offer(point, -HUGE_VAL, 0);
     }

@@ -66,9 +66,9 @@ public:
   EdgeCollapses(const EdgeCollapses&) = delete;
   EdgeCollapses& operator=(const EdgeCollapses&) = delete;
 
-  /** Collapses all that it can, except what the guard knows to be futile. Flips edges only if
-   * there is no guard. @return by number: whether a triangle has changed, or is gone
-   */
+  /** Collapses all that it can, except what the guard knows to be futile, or what is settled and
+   * has nothing change around it. Flips edges only if there is no guard. @return by number: whether
+   * a triangle has changed, or is gone */
   std::vector<bool> Run();
 
   /** The mesh as it is now; triangles that remain keep their numbers. */
@@ -164,6 +164,7 @@ private:
     }
   };
 
+  bool IsWorthATry(std::uint32_t vertex) const;
   bool FindHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
   bool KeepsTopology(const Hole& hole);
   bool KeepsShape(std::uint32_t vertex, const Hole& hole) const;
@@ -231,6 +232,7 @@ private:
 
   std::vector<std::uint32_t> AnyTriangle;  ///< by vertex
   std::vector<bool> IsFixed;               ///< stays
+  const std::vector<bool>& IsSettled;      ///< by vertex: need not be tried unless things change
   std::vector<bool> IsAtBorder;            ///< by vertex
   const std::vector<Walls::Type>& OnWalls; ///< by vertex
   std::vector<bool> IsLeftAlone;           ///< more than one fan of triangles

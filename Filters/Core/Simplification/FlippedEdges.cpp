@@ -34,13 +34,18 @@ std::uint64_t KeyOf(std::uint32_t a, std::uint32_t b)
 
 }
 
-/** Sweeps over all edges, and then over those of what has changed. */
+/** Sweeps over the edges of all triangles that have changed or have a corner that is not settled,
+ *  and then over those of what has changed. */
 void EdgeCollapses::FlipEdges()
 {
   std::vector<std::uint32_t> sweep;
   for (std::uint32_t i = 0; i < this->Triangles.size(); ++i)
   {
-    if (this->Links.IsThere(i))
+    const Triangle& points = this->Triangles[i];
+    if (this->Links.IsThere(i) &&
+      (this->LastStep[i] != None ||
+        std::any_of(points.begin(), points.end(),
+          [&](std::uint32_t point) { return !this->IsSettled[point]; })))
     {
       sweep.push_back(i);
     }

@@ -29,6 +29,7 @@ struct MeshPart
   std::vector<double> Allowances;     ///< by triangle of the original
   LinkedTriangles Simple;             ///< on some of the points
   std::vector<bool> IsFixed;          ///< by point: stays
+  std::vector<bool> IsSettled;        ///< by point: has been tried, and nothing has changed since
   std::vector<Walls::Type> OnWalls;   ///< by point
   std::vector<SurfaceSample> Samples; ///< first the points, then the original's middles
   NearLists Near{ 0 };                ///< by triangle of the original

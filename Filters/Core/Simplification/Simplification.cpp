@@ -37,6 +37,13 @@ struct Pass
 
 constexpr std::array<Pass, 2> Passes = { { { 0.5, 0.85 }, { 0.35, 0.75 } } };
 
+/** In these, only what was held so far, or has something new around it, is tried. */
+constexpr std::array<Pass, 4> PassesOverSeams = { { { 0.62, 0.75 }, { 0.45, 0.75 }, { 0.7, 0.75 },
+  { 0.3, 0.75 } } };
+
+/** If it is less than this part of the triangles, that is not worth a pass. */
+constexpr double LeastPartToTry = 0.005;
+
 }
 
 SimplerMesh Simplify(
@@ -52,7 +59,16 @@ SimplerMesh Simplify(
   SimplifiedMesh simplified(mesh);
   for (const Pass& pass : Passes)
   {
+    simplified.TryAllAgain();
     simplified.Simplify(mostOfPart, pass.Cut, pass.UsedPart, parallelFor);
+  }
+  for (const Pass& pass : PassesOverSeams)
+  {
+    if (simplified.PartToTry() < LeastPartToTry)
+    {
+      break;
+    }
+    simplified.Simplify(4 * mostOfPart, pass.Cut, pass.UsedPart, parallelFor);
   }
   return { { mesh.Mesh.Positions, simplified.Triangles() }, simplified.PointHomes() };
 }

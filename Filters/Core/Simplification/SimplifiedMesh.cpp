@@ -17,6 +17,9 @@ namespace isodiamond
 namespace
 {
 
+/** How many rings of triangles around those with something to try are taken along. */
+constexpr int RingsAround = 4;
+
 /** The numbers that belong to each part. @param partOf (number) -> part, or None */
 template <typename PartOf>
 CellsAtPoints ByPart(std::size_t parts, std::size_t count, PartOf&& partOf)
@@ -58,7 +61,7 @@ LinkedTriangles Linked(const LinkedTriangles& all, IdRange triangles,
 struct SimplifiedMesh::Division
 {
   MeshBlocks Triangles;                      ///< of the simpler mesh, by part
-  std::vector<std::uint32_t> PartOf;         ///< by triangle of the simpler mesh
+  std::vector<std::uint32_t> PartOf;         ///< by triangle of the simpler mesh; None: in no part
   std::vector<std::uint32_t> Number;         ///< in its part
   std::vector<bool> IsHeld;                  ///< by triangle of the simpler mesh
   CellsAtPoints Originals;                   ///< by part
@@ -85,6 +88,7 @@ SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
   {
     this->IsPinched[point] = !this->IsFaulty[point] && links.IsPinched(point);
   }
+  this->TryAllAgain();
   this->OriginalLinks = std::move(links).Linked();
   this->Simple = this->OriginalLinks;
   this->Homes.resize(points + original.Mesh.Triangles.size());
@@ -101,6 +105,23 @@ SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
   }
 }
 
+bool SimplifiedMesh::HasSettled(std::uint32_t triangle) const
+{
+  const Triangle& points = this->Triangles()[triangle];
+  return std::all_of(
+    points.begin(), points.end(), [&](std::uint32_t point) { return this->IsSettled[point]; });
+}
+
+double SimplifiedMesh::PartToTry() const
+{
+  std::size_t count = 0;
+  for (std::uint32_t triangle = 0; triangle < this->Triangles().size(); ++triangle)
+  {
+    count += this->HasSettled(triangle) ? 0 : 1;
+  }
+  return static_cast<double>(count) / static_cast<double>(this->Triangles().size());
+}
+
 SurfaceSample SimplifiedMesh::SampleOf(std::size_t id) const
 {
   const TriangleMesh& mesh = this->Original.Mesh;
@@ -111,18 +132,54 @@ SurfaceSample SimplifiedMesh::SampleOf(std::size_t id) const
         this->Homes[id] };
 }
 
+/** The triangles where there is anything to try, and some rings around these. */
+std::vector<std::uint32_t> SimplifiedMesh::TrianglesToTry() const
+{
+  const std::vector<Triangle>& simple = this->Triangles();
+  std::vector<bool> isIn(this->IsSettled);
+  isIn.flip();
+  for (int ring = 0; ring < RingsAround; ++ring)
+  {
+    std::vector<bool> isNext = isIn;
+    for (const Triangle& triangle : simple)
+    {
+      if (std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t p) { return isIn[p]; }))
+      {
+        std::for_each(triangle.begin(), triangle.end(), [&](std::uint32_t p) { isNext[p] = true; });
+      }
+    }
+    isIn = std::move(isNext);
+  }
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t i = 0; i < simple.size(); ++i)
+  {
+    const Triangle& points = simple[i];
+    if (std::all_of(points.begin(), points.end(), [&](std::uint32_t p) { return isIn[p]; }))
+    {
+      triangles.push_back(i);
+    }
+  }
+  return triangles;
+}
+
 SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) const
 {
   const std::vector<Triangle>& simple = this->Triangles();
+  const std::vector<std::uint32_t> toTry = this->TrianglesToTry();
   std::vector<Vector> middles;
-  middles.reserve(simple.size());
-  for (const auto& [a, b, c] : simple)
+  middles.reserve(toTry.size());
+  for (const std::uint32_t triangle : toTry)
   {
+    const auto [a, b, c] = simple[triangle];
     const std::vector<Vector>& positions = this->Original.Mesh.Positions;
     middles.push_back((1.0 / 3.0) * (positions[a] + positions[b] + positions[c]));
   }
   MeshBlocks blocks = CutIntoBlocks(middles, most, cut);
-  std::vector<std::uint32_t> partOf(simple.size());
+  for (std::uint32_t& triangle : blocks.Order)
+  {
+    triangle = toTry[triangle]; // still ascending
+  }
+  std::vector<std::uint32_t> partOf(simple.size(), None);
   std::vector<std::uint32_t> numbers(simple.size());
   for (std::uint32_t part = 0; part < blocks.Count(); ++part)
   {
@@ -133,7 +190,8 @@ SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) co
       numbers[triangles[i]] = i;
     }
   }
-  // Original triangles that belong to more than one part hold all that they are near to.
+  // Original triangles that belong to more than one part, or partly to none, hold all that they are
+  // near to.
   std::vector<bool> isHeld(simple.size());
   std::vector<std::uint32_t> ownerOf(this->Original.Mesh.Triangles.size());
   for (std::size_t i = 0; i < ownerOf.size(); ++i)
@@ -247,6 +305,11 @@ void SimplifiedMesh::AddPoints(const Division& division, std::uint32_t number,
     part.OnWalls[i] = this->Original.OnWalls.empty() ? 0 : this->Original.OnWalls[ids[i]];
   }
   part.IsFixed = this->FixedPoints(division, number, ids, part);
+  part.IsSettled.reserve(points);
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    part.IsSettled.push_back(this->IsSettled[ids[i]]);
+  }
 }
 
 /** What is held stays, and so does what other parts also have: where sheets meet at a point, a part
@@ -284,6 +347,7 @@ struct SimplifiedMesh::Made
   std::vector<Triangle> Triangles; ///< by number; the first point is None if one is gone
   NearLists Near{ 0 };
   std::vector<std::pair<std::uint32_t, std::uint32_t>> Homes; ///< samples, and numbers
+  std::vector<std::uint32_t> Tried;                           ///< points that could have gone
 };
 
 SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const Division& division, std::uint32_t number,
@@ -298,7 +362,14 @@ SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const Division& division, std:
   {
     isodiamond::Simplify(part, usedPart);
   }
-  Made made{ std::move(part.Simple.Triangles), std::move(part.Near), {} };
+  Made made{ std::move(part.Simple.Triangles), std::move(part.Near), {}, {} };
+  for (std::size_t point = 0; point < part.Positions.size(); ++point)
+  {
+    if (!part.IsFixed[point])
+    {
+      made.Tried.push_back(ids[point]);
+    }
+  }
   for (Triangle& triangle : made.Triangles)
   {
     for (std::uint32_t& point : triangle)
@@ -320,19 +391,21 @@ void SimplifiedMesh::Simplify(
   std::size_t most, double cut, double usedPart, const ParallelFor& parallelFor)
 {
   const Division division = this->Divide(most, cut);
-  std::vector<Made> made(division.Triangles.Count());
-  std::vector<std::vector<Triangle>> triangles(made.size());
-  for (std::size_t number = 0; number < made.size(); ++number)
+  if (division.Triangles.Order.empty())
   {
-    for (const std::uint32_t triangle : division.Triangles[number])
-    {
-      triangles[number].push_back(this->Triangles()[triangle]);
-    }
+    return;
   }
-  PartBorders borders(this->Original.Mesh.Positions, std::move(triangles));
+  std::vector<Made> made(division.Triangles.Count());
   std::vector<std::uint32_t> parts(made.size());
   std::iota(parts.begin(), parts.end(), 0U);
-  do
+  std::vector<std::vector<Triangle>> triangles(made.size() + 1); // the last ones are in no part
+  for (std::size_t i = 0; i < division.PartOf.size(); ++i)
+  {
+    const std::uint32_t part = division.PartOf[i];
+    triangles[part == None ? made.size() : part].push_back(this->Triangles()[i]);
+  }
+  PartBorders borders(this->Original.Mesh.Positions, std::move(triangles));
+  while (!parts.empty())
   {
     const std::vector<std::vector<Triangle>> others = borders.Others(parts);
     ForEachIndex(parallelFor, parts.size(), 1,
@@ -343,7 +416,7 @@ void SimplifiedMesh::Simplify(
       borders.Set(part, made[part].Triangles);
     }
     parts = borders.Meeting(parts);
-  } while (!parts.empty());
+  }
   this->PutTogether(division, made);
 }
 
@@ -356,11 +429,38 @@ void SimplifiedMesh::PutTogether(const Division& division, const std::vector<Mad
   {
     for (std::size_t i = 0; i < made[number].Triangles.size(); ++i)
     {
+      const Triangle& before = this->Triangles()[division.Triangles[number][i]];
+      if (!AreSame(before, made[number].Triangles[i]))
+      {
+        for (const std::uint32_t point : before)
+        {
+          this->IsSettled[point] = this->IsPinched[point];
+        }
+      }
       if (made[number].Triangles[i][0] != None)
       {
         renamed[division.Triangles[number][i]] = static_cast<std::uint32_t>(simple.size());
         simple.push_back(made[number].Triangles[i]);
       }
+    }
+  }
+  for (std::size_t i = 0; i < renamed.size(); ++i)
+  {
+    if (division.PartOf[i] == None)
+    {
+      renamed[i] = static_cast<std::uint32_t>(simple.size());
+      simple.push_back(this->Triangles()[i]);
+    }
+  }
+  for (std::uint32_t& home : this->Homes)
+  {
+    home = home != None && division.PartOf[home] == None ? renamed[home] : home;
+  }
+  for (const Made& part : made)
+  {
+    for (const std::uint32_t point : part.Tried)
+    {
+      this->IsSettled[point] = true;
     }
   }
   this->Simple = Connectivity(this->Original.Mesh.Positions.size(), std::move(simple)).Linked();

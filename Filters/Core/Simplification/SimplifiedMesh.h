@@ -39,6 +39,13 @@ public:
    *  @param usedPart see EdgeCollapses */
   void Simplify(std::size_t most, double cut, double usedPart, const ParallelFor& parallelFor);
 
+  /** Forgets what has been tried: the next pass tries all again. */
+  void TryAllAgain() { this->IsSettled = this->IsPinched; }
+
+  /** The part of the triangles at which the next pass has anything to try: a corner was held so
+   *  far, or something has changed around it since. */
+  double PartToTry() const;
+
 private:
   struct Division;
   struct Made;
@@ -53,6 +60,8 @@ private:
     std::vector<std::uint32_t>& ids, MeshPart& part) const;
   std::vector<bool> FixedPoints(const Division& division, std::uint32_t number,
     const std::vector<std::uint32_t>& ids, const MeshPart& part) const;
+  bool HasSettled(std::uint32_t triangle) const;
+  std::vector<std::uint32_t> TrianglesToTry() const;
   Made SimplifyPart(const Division& division, std::uint32_t number,
     const std::vector<Triangle>& others, double usedPart) const;
   void PutTogether(const Division& division, const std::vector<Made>& made);
@@ -61,6 +70,7 @@ private:
   LinkedTriangles OriginalLinks;
   std::vector<bool> IsFaulty;  ///< by point: neighbours there are meaningless
   std::vector<bool> IsPinched; ///< by point: sheets meet there, so it stays
+  std::vector<bool> IsSettled; ///< by point: as in MeshPart
   LinkedTriangles Simple;
   std::vector<std::uint32_t> Homes;    ///< by sample: the points, then the middles of triangles
   std::vector<double> PointAllowances; ///< by point: the least of the triangles there

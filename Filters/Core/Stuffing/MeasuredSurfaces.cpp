@@ -269,6 +269,7 @@ MeasuredSurfaces::MeasuredSurfaces(const TetrahedronMesh& plain, const Tetrahedr
   part.Simple = simple.Linked();
   part.OnWalls = stuffed.OnWalls;
   part.IsFixed.resize(points);
+  part.IsSettled.resize(points);
   part.Near = NearLists(part.Original.Triangles.size());
   for (const std::uint32_t origin : this->Origins)
   {
