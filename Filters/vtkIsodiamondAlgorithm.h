@@ -164,7 +164,7 @@ public:
    * The precision of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
    * DEFAULT_PRECISION: double for tetrahedra, as rounding to single precision could turn the
    * thinnest over; single for triangles, unless that could not tell places apart that are a 256th
-   * of a voxel from each other, as at coordinates of 65,536 voxels and more; on a curvilinear
+   * of a voxel from each other, as at coordinates of 16,384 voxels and more; on a curvilinear
    * grid, that of its points. Default: DEFAULT_PRECISION.
    */
   vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);

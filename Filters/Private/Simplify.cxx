@@ -131,7 +131,7 @@ void CheckSimplify(const WorldQuery& query, isodiamond::ErrorMetric metric, bool
     throw std::invalid_argument(query.AreTrianglesShaped
         ? "SimulationQuality of isosurfaces needs the distance metric, of images and rectilinear "
           "grids."
-        : "Simplify needs the distance metric.");
+        : "Simplify needs the distance metric, of images and rectilinear grids.");
   }
 }
 

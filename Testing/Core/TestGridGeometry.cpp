@@ -157,7 +157,7 @@ TEST(GridGeometry, SmallestStepIsTheLeastOfAnyAxis)
 
 TEST(GridGeometry, FitsFloatsWhereTheseTellIsoverticesApart)
 {
-  // Floats from 2^15 to 2^16 are a 256th apart.
+  // Floats from 2^13 to 2^14 are a 1024th apart.
   AffineMap map;
   const auto fits = [&](double step, double origin, int last)
   {
@@ -166,12 +166,26 @@ TEST(GridGeometry, FitsFloatsWhereTheseTellIsoverticesApart)
     return GridGeometry(map).FitsFloats({ 1, last, 1 });
   };
   EXPECT_TRUE(fits(1.0, 0.0, 10000));
-  EXPECT_TRUE(fits(1.0, 0.0, 65535));
-  EXPECT_FALSE(fits(1.0, 0.0, 65536));
+  EXPECT_TRUE(fits(1.0, 0.0, 16383));
+  EXPECT_FALSE(fits(1.0, 0.0, 16384));
   EXPECT_FALSE(fits(1.0, -5400000.0, 9));
-  EXPECT_TRUE(fits(128.0, -5400000.0, 9)); // these are a half apart
-  EXPECT_TRUE(fits(1e-30, 2e-26, 9));
+  EXPECT_TRUE(fits(512.0, -5400000.0, 9)); // these are a half apart
+  EXPECT_TRUE(fits(1e-30, 1e-26, 9));
   EXPECT_FALSE(fits(1e38, 0.0, 4));
+  // Turned by 45 degrees, two places at coordinates of 10,000 and more.
+  const double c = std::sqrt(0.5);
+  map.Rows = { { { c, -c, 0.0, 10000.0 }, { c, c, 0.0, 10000.0 }, { 0.0, 0.0, 1.0, 0.0 } } };
+  ASSERT_TRUE(GridGeometry(map).FitsFloats({ 9, 9, 9 }));
+  for (int x = 0; x < 255; ++x)
+  {
+    const auto at = [&](int a, int b)
+    {
+      const Vector place = map(a / 256.0, b / 256.0, 0.0);
+      return std::make_pair(static_cast<float>(place[0]), static_cast<float>(place[1]));
+    };
+    EXPECT_NE(at(x, 0), at(x + 1, 0));
+    EXPECT_NE(at(x, 1), at(x + 1, 0));
+  }
   const std::vector<double> near = { 0.0, 1.0, 2.0 };
   const std::vector<double> far = { -70000.0, -69999.0, -69998.0 };
   EXPECT_TRUE(GridGeometry({ near, near, near }).FitsFloats({ 2, 2, 2 }));

@@ -251,6 +251,24 @@ TEST(SelfIntersections, AreFoldsInOnePlane)
 }
 
 // Two sheets cross; that counts only where a triangle is not what it was.
+TEST(SelfIntersections, AreThoseOfItsEdgesWhereATriangleHasNoArea)
+{
+  const std::vector<Vector> positions = { { 0, 0, 0 }, { 8, 0, 0 }, { 0, 8, 8 }, // oblique
+    { 5, 1, 0 }, { 6, 1, 0 }, { 7, 1, 0 },                                       // below it
+    { 2, 2, 0 }, { 2, 2, 1 }, { 2, 2, 3 },                                       // through it
+    { 1, 1, 1 }, { 2, 2, 2 }, { 3, 3, 3 },                                       // in its plane
+    { 9, 1, 1 }, { 9, 2, 2 }, { 9, 3, 3 } };                                     // and beside it
+  const Triangle oblique = { 0, 1, 2 };
+  for (const auto& [flat, doMeet] :
+    { std::pair(Triangle{ 3, 4, 5 }, false), std::pair(Triangle{ 6, 7, 8 }, true),
+      std::pair(Triangle{ 9, 10, 11 }, true), std::pair(Triangle{ 12, 13, 14 }, false),
+      std::pair(Triangle{ 3, 3, 3 }, false), std::pair(Triangle{ 9, 9, 9 }, true) })
+  {
+    EXPECT_EQ(Intersect(positions, oblique, flat), doMeet) << flat[0];
+    EXPECT_EQ(Intersect(positions, flat, oblique), doMeet) << flat[0];
+  }
+}
+
 TEST(SelfIntersections, AreFoundWhereAPartHasChanged)
 {
   TriangleMesh mesh;

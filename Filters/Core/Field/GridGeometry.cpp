@@ -186,7 +186,7 @@ bool GridGeometry::FitsFloats(const Point& last) const
   }
   const auto nearest = static_cast<float>(largest);
   const double spacing = std::nextafter(nearest, HUGE_VALF) - nearest;
-  return 256.0 * spacing <= this->SmallestStep();
+  return 1024.0 * spacing <= this->SmallestStep();
 }
 
 bool GridGeometry::Mirrors() const

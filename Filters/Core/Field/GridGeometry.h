@@ -81,7 +81,8 @@ public:
   double SmallestStep() const;
 
   /** Whether floats tell places apart that are a 256th of the smallest step from each other, as
-   *  isovertices on an edge are; for a curvilinear grid, whether its own positions are floats.
+   *  isovertices can be: floats have to be closer, as in a turned grid no coordinate may differ by
+   *  as much. For a curvilinear grid, whether its own positions are floats.
    *  @param last the index of the last sample, padding included */
   bool FitsFloats(const Point& last) const;
 

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Simplification/Orientation.h"
 
+#include <cfloat>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "Orientations are exact only if sums are rounded as they are written: no -ffast-math here."
+#endif
+static_assert(FLT_EVAL_METHOD == 0, "and only if they are rounded to doubles: -mfpmath=sse");
 
 namespace isodiamond
 {

@@ -355,10 +355,13 @@ SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const Division& division, std:
 {
   std::vector<std::uint32_t> ids;
   MeshPart part = this->Take(division, number, others, ids);
-  const bool isSound =
-    std::none_of(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(part.Positions.size()),
-      [&](std::uint32_t point) { return this->IsFaulty[point]; });
-  if (isSound)
+  const auto isSound = [&](const Triangle& triangle)
+  {
+    return std::none_of(triangle.begin(), triangle.end(),
+      [&](std::uint32_t point) { return this->IsFaulty[ids[point]]; });
+  };
+  if (std::all_of(part.Simple.Triangles.begin(), part.Simple.Triangles.end(), isSound) &&
+    std::all_of(part.Original.Triangles.begin(), part.Original.Triangles.end(), isSound))
   {
     isodiamond::Simplify(part, usedPart);
   }

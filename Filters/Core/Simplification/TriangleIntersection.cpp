@@ -55,7 +55,7 @@ bool MeetsInPlane(const Vector& from, const Vector& to, const Places& triangle)
   const View view(triangle);
   if (!view.IsThere())
   {
-    return true;
+    return false; // its own edges tell
   }
   const int inside = view.Turn(triangle[0], triangle[1], triangle[2]);
   Signs sides{};

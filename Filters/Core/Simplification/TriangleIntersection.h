@@ -13,8 +13,9 @@ namespace isodiamond
  * Whether two triangles cut or touch each other anywhere but in the corners and the edge that they
  * have in common. Exact (Orientation.h); true of those with the same three corners.
  *
- * @param a,b corners of triangles of some area; if one has none and lies in the other one's plane,
- *        it may be said to touch that
+ * @param a,b corners of triangles. If one has no area it is its edges, and may be said to touch the
+ *        other one if a common corner lies between its other corners, or a common edge is all of
+ *        it; if neither has, only what they have in common counts
  */
 bool Intersect(const std::vector<Vector>& positions, const Triangle& a, const Triangle& b);
 
