@@ -192,6 +192,22 @@ TEST(Simplification, LetsNoPartsThroughEachOther)
   }
 }
 
+// In further passes most triangles are in no part: here what is made would intersect some of these.
+TEST(Simplification, LetsNoSeamThroughTheRest)
+{
+  for (const std::uint32_t seed : { 13U, 17U, 20U, 69U, 76U })
+  {
+    SCOPED_TRACE(seed);
+    const AllowedMesh before = test::MeshOf(test::NoiseField({ 10, 10, 10 }, seed), 0.0, 2.0);
+    SimplifiedMesh simplified(before);
+    for (const double cut : { 0.5, 0.35, 0.6, 0.45 })
+    {
+      simplified.Simplify(300, cut, 0.85, SerialFor);
+      EXPECT_EQ(test::CountIntersections({ before.Mesh.Positions, simplified.Triangles() }), 0);
+    }
+  }
+}
+
 // Where samples allow much too much, everything depends on measuring and undoing.
 TEST(Simplification, KeepsThePromiseWhateverSamplesAllow)
 {
