@@ -148,6 +148,10 @@ std::vector<std::uint32_t> SimplifiedMesh::TrianglesToTry() const
         std::for_each(triangle.begin(), triangle.end(), [&](std::uint32_t p) { isNext[p] = true; });
       }
     }
+    if (isNext == isIn)
+    {
+      break; // as where all is to be tried
+    }
     isIn = std::move(isNext);
   }
   std::vector<std::uint32_t> triangles;
@@ -347,7 +351,7 @@ struct SimplifiedMesh::Made
   std::vector<Triangle> Triangles; ///< by number; the first point is None if one is gone
   NearLists Near{ 0 };
   std::vector<std::pair<std::uint32_t, std::uint32_t>> Homes; ///< samples, and numbers
-  std::vector<std::uint32_t> Tried;                           ///< points that could have gone
+  std::vector<std::uint32_t> Tried;                           ///< points that might have gone
 };
 
 SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const Division& division, std::uint32_t number,
@@ -366,18 +370,20 @@ SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const Division& division, std:
     isodiamond::Simplify(part, usedPart);
   }
   Made made{ std::move(part.Simple.Triangles), std::move(part.Near), {}, {} };
-  for (std::size_t point = 0; point < part.Positions.size(); ++point)
-  {
-    if (!part.IsFixed[point])
-    {
-      made.Tried.push_back(ids[point]);
-    }
-  }
   for (Triangle& triangle : made.Triangles)
   {
+    if (triangle[0] == None)
+    {
+      continue;
+    }
     for (std::uint32_t& point : triangle)
     {
-      point = point == None ? None : ids[point];
+      if (!part.IsFixed[point])
+      {
+        part.IsFixed[point] = true; // once is enough
+        made.Tried.push_back(ids[point]);
+      }
+      point = ids[point];
     }
   }
   for (std::size_t i = 0; i < ids.size(); ++i)
