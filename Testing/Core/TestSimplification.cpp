@@ -111,8 +111,8 @@ TEST(Simplification, LeavesNoSeams)
   const AllowedMesh before = test::MeshOf(test::SphereField({ 33, 33, 33 }), 0.0, 0.5);
   const std::size_t inOne = Simplify(before, SerialFor, MostOfPart).Triangles.size();
   const TriangleMesh inManySmall = Simplify(before, SerialFor, 500);
-  EXPECT_LT(inManySmall.Triangles.size(), 2 * inOne);
-  EXPECT_LT(Simplify(before, SerialFor, 1000).Triangles.size(), inOne + inOne / 2);
+  EXPECT_LT(inManySmall.Triangles.size(), 1.5 * inOne);
+  EXPECT_LT(Simplify(before, SerialFor, 1000).Triangles.size(), 1.35 * inOne);
   ExpectPromise(before, inManySmall, 0.5);
 }
 
@@ -130,7 +130,7 @@ TEST(Simplification, KnowsWhereThereIsAnythingToTry)
   parts.Simplify(1000, 0.5, 0.85, SerialFor);
   const double left = parts.PartToTry();
   EXPECT_GT(left, 0.05);
-  EXPECT_LT(left, 0.95);
+  EXPECT_LT(left, 1.0);
   const std::size_t count = parts.Triangles().size();
   parts.Simplify(MostOfPart, 0.5, 0.75, SerialFor);
   EXPECT_LT(parts.Triangles().size(), count);
