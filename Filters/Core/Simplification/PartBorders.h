@@ -24,7 +24,8 @@ public:
   /** By number; the first point is None if a triangle is gone. */
   using Triangles = std::vector<Triangle>;
 
-  /** @param positions of the points, must outlive it @param parts their triangles at the start */
+  /** @param positions of the points, must outlive it
+   *  @param parts their triangles at the start; what stays as it is may be a part, too */
   PartBorders(const std::vector<Vector>& positions, std::vector<Triangles> parts);
 
   /** Says what a part has become. */
