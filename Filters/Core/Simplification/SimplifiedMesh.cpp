@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Simplification/SimplifiedMesh.h"
 
-#include "Simplification/CellsAtPoints.h"
-#include "Simplification/MeshBlocks.h"
 #include "Simplification/PartBorders.h"
 #include "Simplification/SimplerPart.h"
 
@@ -19,19 +17,6 @@ namespace
 
 /** How many rings of triangles around those with something to try are taken along. */
 constexpr int RingsAround = 4;
-
-/** The numbers that belong to each part. @param partOf (number) -> part, or None */
-template <typename PartOf>
-CellsAtPoints ByPart(std::size_t parts, std::size_t count, PartOf&& partOf)
-{
-  std::uint32_t part = None;
-  return { parts, count,
-    [&](std::size_t number) -> IdRange
-    {
-      part = partOf(static_cast<std::uint32_t>(number));
-      return { &part, part == None ? &part : &part + 1 };
-    } };
-}
 
 /** Triangles with the numbers that each has in its part. @param numbers by triangle
  *  @param isHere (triangle) -> whether it is in the part, too */
@@ -56,19 +41,6 @@ LinkedTriangles Linked(const LinkedTriangles& all, IdRange triangles,
 }
 
 }
-
-/** The parts of a pass. */
-struct SimplifiedMesh::Division
-{
-  MeshBlocks Triangles;                      ///< of the simpler mesh, by part
-  std::vector<std::uint32_t> PartOf;         ///< by triangle of the simpler mesh; None: in no part
-  std::vector<std::uint32_t> Number;         ///< in its part
-  std::vector<bool> IsHeld;                  ///< by triangle of the simpler mesh
-  CellsAtPoints Originals;                   ///< by part
-  std::vector<std::uint32_t> OwnerOf;        ///< by original triangle: the part; None if several
-  std::vector<std::uint32_t> OriginalNumber; ///< in its part
-  CellsAtPoints Samples;                     ///< that lie over triangles, by part
-};
 
 SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
   : Original(original)
@@ -166,72 +138,7 @@ std::vector<std::uint32_t> SimplifiedMesh::TrianglesToTry() const
   return triangles;
 }
 
-SimplifiedMesh::Division SimplifiedMesh::Divide(std::size_t most, double cut) const
-{
-  const std::vector<Triangle>& simple = this->Triangles();
-  const std::vector<std::uint32_t> toTry = this->TrianglesToTry();
-  std::vector<Vector> middles;
-  middles.reserve(toTry.size());
-  for (const std::uint32_t triangle : toTry)
-  {
-    const auto [a, b, c] = simple[triangle];
-    const std::vector<Vector>& positions = this->Original.Mesh.Positions;
-    middles.push_back((1.0 / 3.0) * (positions[a] + positions[b] + positions[c]));
-  }
-  MeshBlocks blocks = CutIntoBlocks(middles, most, cut);
-  for (std::uint32_t& triangle : blocks.Order)
-  {
-    triangle = toTry[triangle]; // still ascending
-  }
-  std::vector<std::uint32_t> partOf(simple.size(), None);
-  std::vector<std::uint32_t> numbers(simple.size());
-  for (std::uint32_t part = 0; part < blocks.Count(); ++part)
-  {
-    const IdRange triangles = blocks[part];
-    for (std::uint32_t i = 0; i < triangles.size(); ++i)
-    {
-      partOf[triangles[i]] = part;
-      numbers[triangles[i]] = i;
-    }
-  }
-  // Original triangles that belong to more than one part, or partly to none, hold all that they are
-  // near to.
-  std::vector<bool> isHeld(simple.size());
-  std::vector<std::uint32_t> ownerOf(this->Original.Mesh.Triangles.size());
-  for (std::size_t i = 0; i < ownerOf.size(); ++i)
-  {
-    const IdRange near = this->Near[i];
-    ownerOf[i] = partOf[*near.begin()];
-    if (std::any_of(near.begin(), near.end(),
-          [&](std::uint32_t triangle) { return partOf[triangle] != ownerOf[i]; }))
-    {
-      ownerOf[i] = None;
-      std::for_each(
-        near.begin(), near.end(), [&](std::uint32_t triangle) { isHeld[triangle] = true; });
-    }
-  }
-  CellsAtPoints originals =
-    ByPart(blocks.Count(), ownerOf.size(), [&](std::uint32_t i) { return ownerOf[i]; });
-  CellsAtPoints samples = ByPart(blocks.Count(), this->Homes.size(),
-    [&](std::uint32_t i)
-    {
-      const std::uint32_t home = this->Homes[i];
-      return home == None ? None : partOf[home];
-    });
-  std::vector<std::uint32_t> originalNumbers(ownerOf.size());
-  for (std::uint32_t part = 0; part < blocks.Count(); ++part)
-  {
-    std::uint32_t number = 0;
-    for (const std::uint32_t original : originals[part])
-    {
-      originalNumbers[original] = number++;
-    }
-  }
-  return { std::move(blocks), std::move(partOf), std::move(numbers), std::move(isHeld),
-    std::move(originals), std::move(ownerOf), std::move(originalNumbers), std::move(samples) };
-}
-
-MeshPart SimplifiedMesh::Take(const Division& division, std::uint32_t number,
+MeshPart SimplifiedMesh::Take(const MeshDivision& division, std::uint32_t number,
   const std::vector<Triangle>& others, std::vector<std::uint32_t>& ids) const
 {
   const IdRange triangles = division.Triangles[number];
@@ -276,7 +183,7 @@ MeshPart SimplifiedMesh::Take(const Division& division, std::uint32_t number,
 
 /** The points of a part, and its samples: these points, the middles of its original triangles, and
  * what else lies over its own triangles. */
-void SimplifiedMesh::AddPoints(const Division& division, std::uint32_t number,
+void SimplifiedMesh::AddPoints(const MeshDivision& division, std::uint32_t number,
   const PointNumbers& numbers, std::vector<std::uint32_t>& ids, MeshPart& part) const
 {
   ids = numbers.Points();
@@ -318,7 +225,7 @@ void SimplifiedMesh::AddPoints(const Division& division, std::uint32_t number,
 
 /** What is held stays, and so does what other parts also have: where sheets meet at a point, a part
  *  may have only one of them. */
-std::vector<bool> SimplifiedMesh::FixedPoints(const Division& division, std::uint32_t number,
+std::vector<bool> SimplifiedMesh::FixedPoints(const MeshDivision& division, std::uint32_t number,
   const std::vector<std::uint32_t>& ids, const MeshPart& part) const
 {
   std::vector<bool> isFixed(part.Positions.size());
@@ -354,8 +261,8 @@ struct SimplifiedMesh::Made
   std::vector<std::uint32_t> Tried;                           ///< points that might have gone
 };
 
-SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const Division& division, std::uint32_t number,
-  const std::vector<Triangle>& others, double usedPart) const
+SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const MeshDivision& division,
+  std::uint32_t number, const std::vector<Triangle>& others, double usedPart) const
 {
   std::vector<std::uint32_t> ids;
   MeshPart part = this->Take(division, number, others, ids);
@@ -399,7 +306,9 @@ SimplifiedMesh::Made SimplifiedMesh::SimplifyPart(const Division& division, std:
 void SimplifiedMesh::Simplify(
   std::size_t most, double cut, double usedPart, const ParallelFor& parallelFor)
 {
-  const Division division = this->Divide(most, cut);
+  const MeshDivision division(
+    { this->Original.Mesh.Positions, this->Triangles(), this->Near, this->Homes },
+    this->TrianglesToTry(), most, cut);
   if (division.Triangles.Order.empty())
   {
     return;
@@ -430,7 +339,7 @@ void SimplifiedMesh::Simplify(
 }
 
 /** Gives new numbers to the triangles that are left, and all else follows these. */
-void SimplifiedMesh::PutTogether(const Division& division, const std::vector<Made>& made)
+void SimplifiedMesh::PutTogether(const MeshDivision& division, const std::vector<Made>& made)
 {
   std::vector<std::uint32_t> renamed(this->Triangles().size(), None);
   std::vector<Triangle> simple;

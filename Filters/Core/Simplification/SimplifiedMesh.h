@@ -4,6 +4,7 @@
 
 #include "Field/Parallel.h"
 #include "Simplification/AllowedMesh.h"
+#include "Simplification/MeshDivision.h"
 #include "Simplification/MeshPart.h"
 #include "Simplification/PointNumbers.h"
 
@@ -16,9 +17,10 @@ namespace isodiamond
 /**
  * A mesh that is simplified part by part, in passes that cut the parts in different places.
  *
- * A part has triangles of the simpler mesh, and those of the original that are near to these alone.
- * Where an original triangle is near to triangles of several parts, these all stay as they are in
- * that pass. Parts need to know of each other only so as not to intersect (PartBorders.h).
+ * A part has triangles of the simpler mesh, and those of the original that are near to these alone
+ * (MeshDivision.h); what is held stays as it is in that pass. Parts need to know of each other only
+ * so as not to intersect (PartBorders.h). A pass goes over what is not settled yet, and some rings
+ * of triangles around: all else is in no part.
  */
 class SimplifiedMesh
 {
@@ -47,24 +49,22 @@ public:
   double PartToTry() const;
 
 private:
-  struct Division;
   struct Made;
 
   SurfaceSample SampleOf(std::size_t id) const;
-  Division Divide(std::size_t most, double cut) const;
   /** @param others triangles of other parts @param ids receives the part's samples, the points
    * first, by their ids in the whole mesh */
-  MeshPart Take(const Division& division, std::uint32_t number, const std::vector<Triangle>& others,
-    std::vector<std::uint32_t>& ids) const;
-  void AddPoints(const Division& division, std::uint32_t number, const PointNumbers& numbers,
+  MeshPart Take(const MeshDivision& division, std::uint32_t number,
+    const std::vector<Triangle>& others, std::vector<std::uint32_t>& ids) const;
+  void AddPoints(const MeshDivision& division, std::uint32_t number, const PointNumbers& numbers,
     std::vector<std::uint32_t>& ids, MeshPart& part) const;
-  std::vector<bool> FixedPoints(const Division& division, std::uint32_t number,
+  std::vector<bool> FixedPoints(const MeshDivision& division, std::uint32_t number,
     const std::vector<std::uint32_t>& ids, const MeshPart& part) const;
   bool HasSettled(std::uint32_t triangle) const;
   std::vector<std::uint32_t> TrianglesToTry() const;
-  Made SimplifyPart(const Division& division, std::uint32_t number,
+  Made SimplifyPart(const MeshDivision& division, std::uint32_t number,
     const std::vector<Triangle>& others, double usedPart) const;
-  void PutTogether(const Division& division, const std::vector<Made>& made);
+  void PutTogether(const MeshDivision& division, const std::vector<Made>& made);
 
   const AllowedMesh& Original;
   LinkedTriangles OriginalLinks;
