@@ -128,10 +128,12 @@ bool AreDoubles(const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOpti
 }
 
 template <typename Extraction>
-void AddPoints(const Extraction& extraction, const MeshOptions& options, bool isDouble, Mesh& mesh)
+void AddPoints(const Extraction& extraction, const isodiamond::IsodiamondHierarchy& hierarchy,
+  const MeshOptions& options, Mesh& mesh)
 {
-  mesh.Points = isDouble ? WritePoints<vtkDoubleArray>(extraction, options.World)
-                         : WritePoints<vtkFloatArray>(extraction, options.World);
+  mesh.Points = AreDoubles(hierarchy, options)
+    ? WritePoints<vtkDoubleArray>(extraction, options.World)
+    : WritePoints<vtkFloatArray>(extraction, options.World);
 }
 
 template <typename Extraction>
@@ -255,7 +257,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
   AddCells(extraction, extraction.TetrahedronCount(), 4, options, parallelFor, mesh,
     [&](const isodiamond::CellRange& cells, auto* connectivity, std::int16_t* levels)
     { extraction.WriteTetrahedra(cells, options.World.Mirrors(), connectivity, levels); });
-  AddPoints(extraction, options, AreDoubles(refined.Hierarchy(), options), mesh);
+  AddPoints(extraction, refined.Hierarchy(), options, mesh);
   if (NeedDouble(refined.Hierarchy().InsideValues()))
   {
     AddValues<vtkDoubleArray>(extraction, options, mesh);
@@ -280,7 +282,7 @@ void ExtractSurface(const isodiamond::RefinedSet& refined, const MeshOptions& op
   AddCells(extraction, extraction.TriangleCount(), 3, options, parallelFor, mesh,
     [&](const isodiamond::CellRange& cells, auto* connectivity, std::int16_t* levels)
     { extraction.WriteTriangles(cells, options.World.Mirrors(), connectivity, levels); });
-  AddPoints(extraction, options, AreDoubles(refined.Hierarchy(), options), mesh);
+  AddPoints(extraction, refined.Hierarchy(), options, mesh);
   if (options.WithThresholds)
   {
     const auto codes = NewArray<vtkUnsignedShortArray>(ThresholdsArray, extraction.TriangleCount());

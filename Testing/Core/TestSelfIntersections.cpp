@@ -250,7 +250,6 @@ TEST(SelfIntersections, AreFoldsInOnePlane)
   EXPECT_TRUE(Intersect(folded, flat, { 1, 0, 3 })); // on it, and beyond
 }
 
-// Two sheets cross; that counts only where a triangle is not what it was.
 TEST(SelfIntersections, AreThoseOfItsEdgesWhereATriangleHasNoArea)
 {
   const std::vector<Vector> positions = { { 0, 0, 0 }, { 8, 0, 0 }, { 0, 8, 8 }, // oblique
@@ -269,6 +268,7 @@ TEST(SelfIntersections, AreThoseOfItsEdgesWhereATriangleHasNoArea)
   }
 }
 
+// Two sheets cross; that counts only where a triangle is not what it was.
 TEST(SelfIntersections, AreFoundWhereAPartHasChanged)
 {
   TriangleMesh mesh;

@@ -43,7 +43,7 @@ public:
   std::vector<std::uint32_t> Number;         ///< in its part
   std::vector<bool> IsHeld;                  ///< by triangle of the simpler mesh
   CellsAtPoints Originals;                   ///< by part
-  std::vector<std::uint32_t> OwnerOf;        ///< by original triangle: the part; None if several
+  std::vector<std::uint32_t> OwnerOf;        ///< by original triangle: the part; None if more
   std::vector<std::uint32_t> OriginalNumber; ///< in its part
   CellsAtPoints Samples;                     ///< that lie over triangles, by part
 

@@ -37,7 +37,9 @@ struct Pass
 
 constexpr std::array<Pass, 2> Passes = { { { 0.5, 0.85 }, { 0.35, 0.75 } } };
 
-/** In these, only what was held so far, or has something new around it, is tried. */
+/** In these, only what was held so far, or has something new around it, is tried: less, so parts
+ *  can be this many times as large. */
+constexpr std::size_t LargerOverSeams = 4;
 constexpr std::array<Pass, 4> PassesOverSeams = { { { 0.62, 0.75 }, { 0.45, 0.75 }, { 0.7, 0.75 },
   { 0.3, 0.75 } } };
 
@@ -68,7 +70,7 @@ SimplerMesh Simplify(
     {
       break;
     }
-    simplified.Simplify(4 * mostOfPart, pass.Cut, pass.UsedPart, parallelFor);
+    simplified.Simplify(LargerOverSeams * mostOfPart, pass.Cut, pass.UsedPart, parallelFor);
   }
   return { { mesh.Mesh.Positions, simplified.Triangles() }, simplified.PointHomes() };
 }

@@ -77,21 +77,16 @@ SimplifiedMesh::SimplifiedMesh(const AllowedMesh& original)
   }
 }
 
-bool SimplifiedMesh::HasSettled(std::uint32_t triangle) const
-{
-  const Triangle& points = this->Triangles()[triangle];
-  return std::all_of(
-    points.begin(), points.end(), [&](std::uint32_t point) { return this->IsSettled[point]; });
-}
-
 double SimplifiedMesh::PartToTry() const
 {
-  std::size_t count = 0;
-  for (std::uint32_t triangle = 0; triangle < this->Triangles().size(); ++triangle)
-  {
-    count += this->HasSettled(triangle) ? 0 : 1;
-  }
-  return static_cast<double>(count) / static_cast<double>(this->Triangles().size());
+  const std::vector<Triangle>& simple = this->Triangles();
+  const auto count = std::count_if(simple.begin(), simple.end(),
+    [&](const Triangle& triangle)
+    {
+      return std::any_of(triangle.begin(), triangle.end(),
+        [&](std::uint32_t point) { return !this->IsSettled[point]; });
+    });
+  return static_cast<double>(count) / static_cast<double>(simple.size());
 }
 
 SurfaceSample SimplifiedMesh::SampleOf(std::size_t id) const

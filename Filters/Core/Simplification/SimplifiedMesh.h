@@ -60,7 +60,6 @@ private:
     std::vector<std::uint32_t>& ids, MeshPart& part) const;
   std::vector<bool> FixedPoints(const MeshDivision& division, std::uint32_t number,
     const std::vector<std::uint32_t>& ids, const MeshPart& part) const;
-  bool HasSettled(std::uint32_t triangle) const;
   std::vector<std::uint32_t> TrianglesToTry() const;
   Made SimplifyPart(const MeshDivision& division, std::uint32_t number,
     const std::vector<Triangle>& others, double usedPart) const;
