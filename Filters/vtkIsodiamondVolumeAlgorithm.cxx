@@ -180,10 +180,19 @@ int vtkIsodiamondVolumeAlgorithm::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
+/** The volume of one execution, which refers to the rest. */
+struct vtkIsodiamondVolumeAlgorithm::OneInput
+{
+  std::unique_ptr<vtkIsodiamond::Slabs> Slabs;
+  vtkSmartPointer<vtkDataObject> Whole; // if it is there at once
+  vtkIsodiamond::InputArray Array;      // likewise
+  vtkIsodiamond::Volume Volume;
+};
+
+//------------------------------------------------------------------------------
 int vtkIsodiamondVolumeAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDataObject* output = vtkDataObject::GetData(outputVector);
   this->AchievedTolerance = 0.0;
   bool isDone = false;
   const int success = this->Plan->Execute(this, outputVector->GetInformationObject(0),
@@ -192,69 +201,10 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
       vtkIsodiamond::WorldQuery query = this->GetQuery();
       vtkIsodiamond::CheckTolerances(query);
       vtkIsodiamond::WarnOfEmptyRegion(this, query);
-      vtkInformation* input = inputVector[0]->GetInformationObject(0);
-      vtkIsodiamond::InputArray array;
-      vtkSmartPointer<vtkDataObject> whole; // if it is there at once
-      const std::unique_ptr<vtkIsodiamond::Slabs> slabs = this->Plan->Open(
-        input, [this](vtkDataSet* part) { return this->FindInputArray(part); },
-        this->ClosesBoundary());
-      vtkIsodiamond::Volume volume;
-      if (slabs)
+      OneInput input;
+      if (this->Open(inputVector[0]->GetInformationObject(0), input))
       {
-        volume = slabs->WholeVolume();
-      }
-      else
-      {
-        if (this->NumberOfBlocks > 1)
-        {
-          vtkWarningMacro("The input comes at once, not in blocks: only images from sources that "
-                          "make parts of them do, without blanked cells.");
-        }
-        whole = this->Plan->TakeWhole(input);
-        vtkDataSet* grid = vtkDataSet::SafeDownCast(whole);
-        vtkIsodiamond::CheckWhole(grid, input, this->Piece);
-        array = this->FindInputArray(grid);
-        if (!array.Array && this->HaveBlocksTheArray)
-        {
-          isDone = true;
-          return;
-        }
-        volume = vtkIsodiamond::ReadVolume(grid, array, this->ClosesBoundary());
-      }
-      const double unit = this->GetUnit(volume.Placement.World.SmallestStep());
-      query.ErrorTolerance *= unit;
-      query.OutsideErrorTolerance *= unit;
-      query.RefinesInterior = this->RefinesInterior(query, array.Array);
-      // Where cells are hidden, an interval volume is refined inside, by all errors.
-      query.OneTolerance = this->OneTolerance &&
-        this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
-        !(volume.Hidden.Any() && AreVolumes(this->GetRegions()));
-      const isodiamond::BuildOptions options = this->GetOptions(volume.Placement.World, query);
-      this->RemovedFromBlock = 0;
-      vtkIsodiamond::RunThreaded(this->NumberOfThreads,
-        [&]
-        {
-          // Trimmed after an abort or an error, too, or a series of these would fill the memory.
-          const vtkIsodiamond::CacheTrimmer trimmer{ *this->Hierarchies,
-            std::int64_t{ this->CacheSize } << 20 };
-          isodiamond::InStep(slabs ? slabs->Together() : nullptr,
-            [&] { this->Hierarchies->Prepare(array.Array, volume, options); });
-          double built = 0.0;
-          if (slabs && slabs->Together())
-          {
-            built = 0.8;
-            vtkIsodiamond::Task building = task.Part(0.0, built);
-            this->BuildTogether(volume, query, building);
-            slabs->Disperse();
-          }
-          vtkIsodiamond::Task extracting = task.Part(built, 1.0);
-          this->ExtractAtTolerance(volume, query, unit, extracting, output);
-        });
-      this->NumberOfRemovedPieces += this->RemovedFromBlock;
-      if (this->MinimumPieceSize > 0)
-      {
-        vtkIsodiamond::AddNumber<vtkIdTypeArray>(output->GetFieldData(),
-          vtkIsodiamond::format::NumberOfRemovedPieces, this->RemovedFromBlock);
+        this->ExtractFrom(input, query, task, vtkDataObject::GetData(outputVector));
       }
       isDone = true;
     });
@@ -265,6 +215,76 @@ int vtkIsodiamondVolumeAlgorithm::RequestData(
     this->NumberOfRemovedPieces = 0;
   }
   return success;
+}
+
+//------------------------------------------------------------------------------
+bool vtkIsodiamondVolumeAlgorithm::Open(vtkInformation* information, OneInput& input)
+{
+  input.Slabs = this->Plan->Open(
+    information, [this](vtkDataSet* part) { return this->FindInputArray(part); },
+    this->ClosesBoundary());
+  if (input.Slabs)
+  {
+    input.Volume = input.Slabs->WholeVolume();
+    return true;
+  }
+  if (this->NumberOfBlocks > 1)
+  {
+    vtkWarningMacro("The input comes at once, not in blocks: only images from sources that make "
+                    "parts of them do, without blanked cells.");
+  }
+  input.Whole = this->Plan->TakeWhole(information);
+  vtkDataSet* grid = vtkDataSet::SafeDownCast(input.Whole);
+  vtkIsodiamond::CheckWhole(grid, information, this->Piece);
+  input.Array = this->FindInputArray(grid);
+  if (!input.Array.Array && this->HaveBlocksTheArray)
+  {
+    return false;
+  }
+  input.Volume = vtkIsodiamond::ReadVolume(grid, input.Array, this->ClosesBoundary());
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkIsodiamondVolumeAlgorithm::ExtractFrom(const OneInput& input,
+  vtkIsodiamond::WorldQuery query, vtkIsodiamond::Task& task, vtkDataObject* output)
+{
+  const vtkIsodiamond::Volume& volume = input.Volume;
+  const double unit = this->GetUnit(volume.Placement.World.SmallestStep());
+  query.ErrorTolerance *= unit;
+  query.OutsideErrorTolerance *= unit;
+  query.RefinesInterior = this->RefinesInterior(query, input.Array.Array);
+  // Where cells are hidden, an interval volume is refined inside, by all errors.
+  query.OneTolerance = this->OneTolerance &&
+    this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
+    !(volume.Hidden.Any() && AreVolumes(this->GetRegions()));
+  const isodiamond::BuildOptions options = this->GetOptions(volume.Placement.World, query);
+  this->RemovedFromBlock = 0;
+  vtkIsodiamond::RunThreaded(this->NumberOfThreads,
+    [&]
+    {
+      // Trimmed after an abort or an error, too, or a series of these would fill the memory.
+      const vtkIsodiamond::CacheTrimmer trimmer{ *this->Hierarchies,
+        std::int64_t{ this->CacheSize } << 20 };
+      const bool isTogether = input.Slabs && input.Slabs->Together();
+      isodiamond::InStep(isTogether ? input.Slabs->Together() : nullptr,
+        [&] { this->Hierarchies->Prepare(input.Array.Array, volume, options); });
+      const double built = isTogether ? 0.8 : 0.0;
+      if (isTogether)
+      {
+        vtkIsodiamond::Task building = task.Part(0.0, built);
+        this->BuildTogether(volume, query, building);
+        input.Slabs->Disperse();
+      }
+      vtkIsodiamond::Task extracting = task.Part(built, 1.0);
+      this->ExtractAtTolerance(volume, query, unit, extracting, output);
+    });
+  this->NumberOfRemovedPieces += this->RemovedFromBlock;
+  if (this->MinimumPieceSize > 0)
+  {
+    vtkIsodiamond::AddNumber<vtkIdTypeArray>(
+      output->GetFieldData(), vtkIsodiamond::format::NumberOfRemovedPieces, this->RemovedFromBlock);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -255,6 +255,14 @@ private:
   vtkIsodiamondVolumeAlgorithm(const vtkIsodiamondVolumeAlgorithm&) = delete;
   void operator=(const vtkIsodiamondVolumeAlgorithm&) = delete;
 
+  struct OneInput;
+
+  /** @return false if a block among others has no such array: it has no mesh
+   *  @throws std::exception that says what is wrong */
+  bool Open(vtkInformation* information, OneInput& input);
+  /** @param query in the units that users gave */
+  void ExtractFrom(const OneInput& input, vtkIsodiamond::WorldQuery query,
+    vtkIsodiamond::Task& task, vtkDataObject* output);
   isodiamond::BuildOptions GetOptions(
     const isodiamond::GridGeometry& world, const vtkIsodiamond::WorldQuery& query) const;
   /** @param samples null if they are not at hand */

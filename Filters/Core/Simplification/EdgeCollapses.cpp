@@ -253,45 +253,19 @@ void EdgeCollapses::OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::ui
 
 void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
 {
+  this->Note(vertex, hole);
   const int last = hole.Count - 1;
-  const auto number = static_cast<std::uint32_t>(this->Steps.size());
-  this->Steps.push_back({ vertex, this->TrianglesOfSteps.size(), hole.Count });
-  for (int i = 0; i < hole.Count; ++i)
-  {
-    this->TrianglesOfSteps.push_back(hole.Triangles[i]);
-    this->PointsOfSteps.push_back(hole.Points[i]);
-    if (hole.Triangles[i] != None)
-    {
-      this->LastStep[hole.Triangles[i]] = number;
-    }
-  }
-  this->RemovedIn[vertex] = number;
-  // The first and the last triangle go: triangles beyond them become neighbours of the rest.
-  const auto close = [&](std::uint32_t gone, std::uint32_t stays, int edge)
-  {
-    const std::uint32_t beyond = gone == None
-      ? None
-      : this->Neighbours[gone][(PlaceOf(this->Triangles[gone], vertex) + 1) % 3];
-    this->Neighbours[stays][edge] = beyond;
-    if (beyond != None)
-    {
-      this->Neighbours[beyond][PlaceOf(this->Neighbours[beyond], gone)] = stays;
-    }
-    if (gone != None)
-    {
-      this->Triangles[gone][0] = None;
-    }
-  };
   const std::uint32_t target = hole.Points[0];
   const auto placeIn = [&](std::uint32_t triangle)
   { return PlaceOf(this->Triangles[triangle], vertex); };
-  close(hole.Triangles[0], hole.Triangles[1], placeIn(hole.Triangles[1]));
-  close(
-    hole.Triangles[last], hole.Triangles[last - 1], (placeIn(hole.Triangles[last - 1]) + 2) % 3);
+  const std::uint32_t first = hole.Triangles[1];
+  const std::uint32_t beforeLast = hole.Triangles[last - 1];
+  this->Close(vertex, hole.Triangles[0], first, placeIn(first));
+  this->Close(vertex, hole.Triangles[last], beforeLast, (placeIn(beforeLast) + 2) % 3);
   for (int i = 1; i < last; ++i)
   {
     const std::uint32_t triangle = hole.Triangles[i];
-    this->Triangles[triangle][PlaceOf(this->Triangles[triangle], vertex)] = target;
+    this->Triangles[triangle][placeIn(triangle)] = target;
     this->Normals[triangle] = this->Fillings[i].Normal;
     this->FirstSample[triangle] = this->Fillings[i].FirstSample;
     for (std::uint32_t at = this->FirstSample[triangle]; at != None; at = this->Samples[at].Next)
@@ -301,8 +275,8 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
     }
     this->AnyTriangle[hole.Points[i]] = triangle;
   }
-  this->AnyTriangle[target] = hole.Triangles[1];
-  this->AnyTriangle[hole.Points[last]] = hole.Triangles[last - 1];
+  this->AnyTriangle[target] = first;
+  this->AnyTriangle[hole.Points[last]] = beforeLast;
   this->AnyTriangle[vertex] = None;
   this->Quadrics[target].Add(this->Quadrics[vertex]);
   ++this->Versions[vertex];
@@ -313,6 +287,38 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
     {
       this->OfferAgain(point, vertex, target);
     }
+  }
+}
+
+/** Notes that a vertex is about to be removed. */
+void EdgeCollapses::Note(std::uint32_t vertex, const Hole& hole)
+{
+  const auto number = static_cast<std::uint32_t>(this->Steps.size());
+  this->Steps.push_back({ vertex, this->TrianglesOfSteps.size(), hole.Count });
+  this->RemovedIn[vertex] = number;
+  for (int i = 0; i < hole.Count; ++i)
+  {
+    this->TrianglesOfSteps.push_back(hole.Triangles[i]);
+    this->PointsOfSteps.push_back(hole.Points[i]);
+  }
+  this->ForEachTriangleOf(
+    this->Steps.back(), [&](std::uint32_t triangle) { this->LastStep[triangle] = number; });
+}
+
+/** Removes a triangle beside the edge that collapses, if there is one there: what is beyond it
+ *  becomes the neighbour of one that stays. */
+void EdgeCollapses::Close(std::uint32_t vertex, std::uint32_t gone, std::uint32_t stays, int edge)
+{
+  std::uint32_t beyond = None;
+  if (gone != None)
+  {
+    beyond = this->Neighbours[gone][(PlaceOf(this->Triangles[gone], vertex) + 1) % 3];
+    this->Triangles[gone][0] = None;
+  }
+  this->Neighbours[stays][edge] = beyond;
+  if (beyond != None)
+  {
+    this->Neighbours[beyond][PlaceOf(this->Neighbours[beyond], gone)] = stays;
   }
 }
 

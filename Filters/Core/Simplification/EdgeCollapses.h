@@ -204,6 +204,9 @@ private:
     std::uint32_t first, std::uint32_t second, const std::array<std::uint32_t, 4>& points);
   void ShareSamples(
     std::uint32_t first, std::uint32_t second, std::uint32_t point, const Vector& towardSecond);
+  std::vector<bool> StepsThatMade(
+    const std::vector<std::uint32_t>& triangles, const std::vector<std::uint32_t>& points) const;
+  void AskGuard(std::vector<bool>& isUndone);
   void Undo(const Step& step);
   void UndoCollapse(const Step& step);
   void Forget(const std::vector<bool>& isUndone);
@@ -212,9 +215,14 @@ private:
   void PutOver(std::uint32_t triangle, std::uint32_t sample);
   void TakeAway(std::uint32_t sample);
   void Collapse(std::uint32_t vertex, const Hole& hole);
+  void Note(std::uint32_t vertex, const Hole& hole);
+  void Close(std::uint32_t vertex, std::uint32_t gone, std::uint32_t stays, int edge);
   void Offer(std::uint32_t vertex, double cost, std::uint32_t target);
   void OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::uint32_t target);
 
+  /** Calls visit(triangle) for those that a step changed or removed. */
+  template <typename Visit>
+  void ForEachTriangleOf(const Step& step, Visit&& visit) const;
   /** Calls visit(neighbour, triangle between it and the next one; None if it is the last). */
   template <typename Visit>
   void ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const;
@@ -262,6 +270,19 @@ private:
   /** Edges that undoing flips would bring back. */
   std::unordered_set<std::uint64_t> FlippedAway;
 };
+
+template <typename Visit>
+void EdgeCollapses::ForEachTriangleOf(const Step& step, Visit&& visit) const
+{
+  for (int i = 0; i < step.Count; ++i)
+  {
+    const std::uint32_t triangle = this->TrianglesOfSteps[step.First + static_cast<std::size_t>(i)];
+    if (triangle != None)
+    {
+      visit(triangle);
+    }
+  }
+}
 
 template <typename Visit>
 void EdgeCollapses::ForEachNeighbour(std::uint32_t vertex, Visit&& visit) const

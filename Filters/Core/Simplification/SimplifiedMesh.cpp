@@ -333,41 +333,35 @@ void SimplifiedMesh::Simplify(
   this->PutTogether(division, made);
 }
 
-/** Gives new numbers to the triangles that are left, and all else follows these. */
+/** Puts the triangles of all parts together, and all else follows their new numbers. */
 void SimplifiedMesh::PutTogether(const MeshDivision& division, const std::vector<Made>& made)
 {
-  std::vector<std::uint32_t> renamed(this->Triangles().size(), None);
+  this->Settle(division, made);
   std::vector<Triangle> simple;
+  const std::vector<std::uint32_t> renamed = this->NewNumbers(division, made, simple);
+  this->Simple = Connectivity(this->Original.Mesh.Positions.size(), std::move(simple)).Linked();
+  this->MoveHomes(division, made, renamed);
+  this->Near = this->NewNear(division, made, renamed);
+}
+
+/** A point around which something has changed is to be tried, unless it was free to go in its part,
+ *  which has seen the change. */
+void SimplifiedMesh::Settle(const MeshDivision& division, const std::vector<Made>& made)
+{
   for (std::size_t number = 0; number < made.size(); ++number)
   {
-    for (std::size_t i = 0; i < made[number].Triangles.size(); ++i)
+    std::size_t i = 0;
+    for (const std::uint32_t triangle : division.Triangles[number])
     {
-      const Triangle& before = this->Triangles()[division.Triangles[number][i]];
-      if (!AreSame(before, made[number].Triangles[i]))
+      const Triangle& before = this->Triangles()[triangle];
+      if (!AreSame(before, made[number].Triangles[i++]))
       {
         for (const std::uint32_t point : before)
         {
           this->IsSettled[point] = this->IsPinched[point];
         }
       }
-      if (made[number].Triangles[i][0] != None)
-      {
-        renamed[division.Triangles[number][i]] = static_cast<std::uint32_t>(simple.size());
-        simple.push_back(made[number].Triangles[i]);
-      }
     }
-  }
-  for (std::size_t i = 0; i < renamed.size(); ++i)
-  {
-    if (division.PartOf[i] == None)
-    {
-      renamed[i] = static_cast<std::uint32_t>(simple.size());
-      simple.push_back(this->Triangles()[i]);
-    }
-  }
-  for (std::uint32_t& home : this->Homes)
-  {
-    home = home != None && division.PartOf[home] == None ? renamed[home] : home;
   }
   for (const Made& part : made)
   {
@@ -376,8 +370,49 @@ void SimplifiedMesh::PutTogether(const MeshDivision& division, const std::vector
       this->IsSettled[point] = true;
     }
   }
-  this->Simple = Connectivity(this->Original.Mesh.Positions.size(), std::move(simple)).Linked();
-  NearLists near(this->Near.Count());
+}
+
+/** Those of parts come first, part by part, then those that are in none.
+ *  @param simple receives the triangles that are left
+ *  @return by triangle so far: its new number, or None if it is gone */
+std::vector<std::uint32_t> SimplifiedMesh::NewNumbers(
+  const MeshDivision& division, const std::vector<Made>& made, std::vector<Triangle>& simple) const
+{
+  std::vector<std::uint32_t> renamed(this->Triangles().size(), None);
+  const auto keep = [&](std::uint32_t number, const Triangle& triangle)
+  {
+    renamed[number] = static_cast<std::uint32_t>(simple.size());
+    simple.push_back(triangle);
+  };
+  for (std::size_t number = 0; number < made.size(); ++number)
+  {
+    std::size_t i = 0;
+    for (const std::uint32_t triangle : division.Triangles[number])
+    {
+      const Triangle& after = made[number].Triangles[i++];
+      if (after[0] != None)
+      {
+        keep(triangle, after);
+      }
+    }
+  }
+  for (std::uint32_t triangle = 0; triangle < renamed.size(); ++triangle)
+  {
+    if (division.PartOf[triangle] == None)
+    {
+      keep(triangle, this->Triangles()[triangle]);
+    }
+  }
+  return renamed;
+}
+
+void SimplifiedMesh::MoveHomes(const MeshDivision& division, const std::vector<Made>& made,
+  const std::vector<std::uint32_t>& renamed)
+{
+  for (std::uint32_t& home : this->Homes)
+  {
+    home = home != None && division.PartOf[home] == None ? renamed[home] : home;
+  }
   for (std::size_t number = 0; number < made.size(); ++number)
   {
     const IdRange triangles = division.Triangles[number];
@@ -385,6 +420,16 @@ void SimplifiedMesh::PutTogether(const MeshDivision& division, const std::vector
     {
       this->Homes[sample] = renamed[triangles[home]];
     }
+  }
+}
+
+NearLists SimplifiedMesh::NewNear(const MeshDivision& division, const std::vector<Made>& made,
+  const std::vector<std::uint32_t>& renamed) const
+{
+  NearLists near(this->Near.Count());
+  for (std::size_t number = 0; number < made.size(); ++number)
+  {
+    const IdRange triangles = division.Triangles[number];
     std::size_t i = 0;
     for (const std::uint32_t original : division.Originals[number])
     {
@@ -406,6 +451,7 @@ void SimplifiedMesh::PutTogether(const MeshDivision& division, const std::vector
       }
     }
   }
-  this->Near = std::move(near);
+  return near;
 }
+
 }

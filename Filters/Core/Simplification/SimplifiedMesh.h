@@ -64,6 +64,13 @@ private:
   Made SimplifyPart(const MeshDivision& division, std::uint32_t number,
     const std::vector<Triangle>& others, double usedPart) const;
   void PutTogether(const MeshDivision& division, const std::vector<Made>& made);
+  void Settle(const MeshDivision& division, const std::vector<Made>& made);
+  std::vector<std::uint32_t> NewNumbers(const MeshDivision& division, const std::vector<Made>& made,
+    std::vector<Triangle>& simple) const;
+  void MoveHomes(const MeshDivision& division, const std::vector<Made>& made,
+    const std::vector<std::uint32_t>& renamed);
+  NearLists NewNear(const MeshDivision& division, const std::vector<Made>& made,
+    const std::vector<std::uint32_t>& renamed) const;
 
   const AllowedMesh& Original;
   LinkedTriangles OriginalLinks;

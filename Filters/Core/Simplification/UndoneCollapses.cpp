@@ -138,71 +138,21 @@ int EdgeCollapses::NearestIn(const Hole& hole, const Vector& place) const
 std::vector<bool> EdgeCollapses::Undo(
   const std::vector<std::uint32_t>& triangles, const std::vector<std::uint32_t>& points)
 {
-  std::vector<bool> isUndone(this->Steps.size());
-  const auto mark = [&](std::uint32_t step)
-  {
-    if (step != None)
-    {
-      isUndone[step] = true;
-    }
-  };
-  for (const std::uint32_t triangle : triangles)
-  {
-    mark(this->LastStep[triangle]);
-    if (this->LastStep[triangle] == None)
-    {
-      for (const std::uint32_t point : this->Triangles[triangle])
-      {
-        this->ForEachNeighbour(point,
-          [&](std::uint32_t, std::uint32_t other)
-          {
-            if (other != None)
-            {
-              mark(this->LastStep[other]);
-            }
-          });
-      }
-    }
-  }
-  for (const std::uint32_t point : points)
-  {
-    mark(this->RemovedIn[point]);
-  }
+  std::vector<bool> isUndone = this->StepsThatMade(triangles, points);
   if (this->Guard != nullptr)
   {
-    std::vector<std::uint32_t> vertices;
-    for (std::size_t i = 0; i < this->Steps.size(); ++i)
-    {
-      if (isUndone[i])
-      {
-        vertices.push_back(this->Steps[i].Vertex);
-      }
-    }
-    for (const std::uint32_t vertex : this->Guard->Undo(vertices))
-    {
-      mark(this->RemovedIn[vertex]);
-    }
+    this->AskGuard(isUndone);
   }
   // Forwards to find what builds on it; then back.
   std::vector<bool> isTouched(this->Triangles.size());
   for (std::size_t i = 0; i < this->Steps.size(); ++i)
   {
-    const auto begin =
-      this->TrianglesOfSteps.begin() + static_cast<std::ptrdiff_t>(this->Steps[i].First);
-    const auto end = begin + this->Steps[i].Count;
-    isUndone[i] = isUndone[i] ||
-      std::any_of(begin, end,
-        [&](std::uint32_t triangle) { return triangle != None && isTouched[triangle]; });
+    this->ForEachTriangleOf(this->Steps[i],
+      [&](std::uint32_t triangle) { isUndone[i] = isUndone[i] || isTouched[triangle]; });
     if (isUndone[i])
     {
-      std::for_each(begin, end,
-        [&](std::uint32_t triangle)
-        {
-          if (triangle != None)
-          {
-            isTouched[triangle] = true;
-          }
-        });
+      this->ForEachTriangleOf(
+        this->Steps[i], [&](std::uint32_t triangle) { isTouched[triangle] = true; });
     }
   }
   for (std::size_t i = this->Steps.size(); i-- > 0;)
@@ -214,6 +164,59 @@ std::vector<bool> EdgeCollapses::Undo(
   }
   this->Forget(isUndone);
   return isTouched;
+}
+
+/** By step: whether it was the last one that made one of the triangles what it is, or a triangle
+ *  around it if it is as it was; or the one that removed one of the points. */
+std::vector<bool> EdgeCollapses::StepsThatMade(
+  const std::vector<std::uint32_t>& triangles, const std::vector<std::uint32_t>& points) const
+{
+  std::vector<bool> isOne(this->Steps.size());
+  const auto mark = [&](std::uint32_t step)
+  {
+    if (step != None)
+    {
+      isOne[step] = true;
+    }
+  };
+  for (const std::uint32_t triangle : triangles)
+  {
+    mark(this->LastStep[triangle]);
+    if (this->LastStep[triangle] == None)
+    {
+      for (const std::uint32_t point : this->Triangles[triangle])
+      {
+        this->ForEachNeighbour(point,
+          [&](std::uint32_t, std::uint32_t other)
+          { mark(other != None ? this->LastStep[other] : None); });
+      }
+    }
+  }
+  for (const std::uint32_t point : points)
+  {
+    mark(this->RemovedIn[point]);
+  }
+  return isOne;
+}
+
+/** Adds what the guard wants to have undone as well. */
+void EdgeCollapses::AskGuard(std::vector<bool>& isUndone)
+{
+  std::vector<std::uint32_t> vertices;
+  for (std::size_t i = 0; i < this->Steps.size(); ++i)
+  {
+    if (isUndone[i])
+    {
+      vertices.push_back(this->Steps[i].Vertex);
+    }
+  }
+  for (const std::uint32_t vertex : this->Guard->Undo(vertices))
+  {
+    if (this->RemovedIn[vertex] != None)
+    {
+      isUndone[this->RemovedIn[vertex]] = true;
+    }
+  }
 }
 
 /** Gives new numbers to the steps that are left. */
@@ -231,14 +234,9 @@ void EdgeCollapses::Forget(const std::vector<bool>& isUndone)
       {
         this->RemovedIn[step.Vertex] = static_cast<std::uint32_t>(kept);
       }
-      for (int k = 0; k < step.Count; ++k)
-      {
-        const std::uint32_t triangle = this->TrianglesOfSteps[step.First + k];
-        if (triangle != None)
-        {
-          this->LastStep[triangle] = static_cast<std::uint32_t>(kept);
-        }
-      }
+      this->ForEachTriangleOf(step,
+        [&](std::uint32_t triangle)
+        { this->LastStep[triangle] = static_cast<std::uint32_t>(kept); });
       ++kept;
     }
   }
