@@ -129,7 +129,7 @@ vtkIsodiamond::Share vtkIsodiamondAlgorithm::GetShare() const
 void vtkIsodiamondAlgorithm::NoteTolerance(
   double tolerance, const vtkIsodiamond::CountedTolerance* aimed, vtkDataObject* output)
 {
-  this->AchievedTolerance = tolerance;
+  this->AchievedTolerance = std::max(this->AchievedTolerance, tolerance); // of all blocks
   if (aimed)
   {
     vtkIsodiamond::WarnIfAbove(this, *aimed, this->TargetNumberOfTriangles);
@@ -186,8 +186,7 @@ int vtkIsodiamondAlgorithm::ModifyRequest(vtkInformation* request, int when)
   vtkIsodiamond::NotePiece(this, request, when, this->Piece);
   if (when == vtkExecutive::BeforeForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
-    this->SmallestDihedralAngle = 0.0;
-    this->LargestDihedralAngle = 0.0;
+    this->ForgetMesh();
   }
   return this->Superclass::ModifyRequest(request, when);
 }

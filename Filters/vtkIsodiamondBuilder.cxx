@@ -201,7 +201,8 @@ void vtkIsodiamondBuilder::Build(
   {
     vtkIsodiamond::CheckWhole(whole, information, this->Piece);
   }
-  const bool isKnown = this->Built && this->BuiltOf == input && this->BuiltAt > input->GetMTime() &&
+  const bool isKnown = this->Built && this->BuiltOf == input &&
+    this->BuiltAt > std::max(input->GetMTime(), input->GetUpdateTime()) &&
     this->BuiltAt > this->GetMTime();
   // Peers build together or not at all.
   if (!isodiamond::IsAnywhere(this->Plan->Together(), !isKnown))
@@ -211,6 +212,7 @@ void vtkIsodiamondBuilder::Build(
   }
   this->Built = nullptr;
   this->CheckModel();
+  vtkIsodiamond::RemoveState(output->GetFieldData()); // the input's, if any, which came along
   if (vtkPolyData* hierarchy = vtkPolyData::SafeDownCast(input))
   {
     this->BuildFromHierarchy(hierarchy, task, output);
@@ -387,7 +389,6 @@ void vtkIsodiamondBuilder::BuildFromHierarchy(
     vtkIsodiamond::WriteDefaultsOfQueries(*state, choice, this->ExactIsovertices, output);
     return;
   }
-  vtkIsodiamond::RemoveState(output->GetFieldData()); // the HD's, which came along
   isodiamond::BuildOptions options = this->GetOptions(state->World);
   options.Report = task.Report();
   isodiamond::Encoding encoding;

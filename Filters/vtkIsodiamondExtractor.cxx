@@ -270,7 +270,6 @@ int vtkIsodiamondExtractor::RequestData(
 {
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
   this->Last.reset();
-  this->AchievedTolerance = 0.0;
   const int success = vtkIsodiamond::Execute(this, output,
     [&](vtkIsodiamond::Task& task)
     {
@@ -377,8 +376,9 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
     return vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles, cellsAt);
   }
   const double guess = isUniform ? found.Tolerance : 0.01 * codes.Scale();
-  return vtkIsodiamond::LeastToleranceBelow(
-    guess, codes.Scale(), this->TargetNumberOfTriangles, cellsAt);
+  return vtkIsodiamond::LeastToleranceBelow(guess,
+    vtkIsodiamond::CoarsestTolerance(query, codes.Scale(), state.World),
+    this->TargetNumberOfTriangles, cellsAt);
 }
 
 //------------------------------------------------------------------------------

@@ -24,13 +24,14 @@
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace
@@ -122,6 +123,10 @@ double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
   }
   for (vtkDataSet* grid : vtkIsodiamond::LeavesOf(input))
   {
+    if (grid->GetNumberOfPoints() == 0)
+    {
+      continue;
+    }
     const double inUnits = vtkIsodiamond::LargestTolerance(
       static_cast<isodiamond::ErrorMetric>(this->ErrorMetric), grid, this->FindInputArray(grid));
     largest = std::max(largest, inUnits / this->GetUnit(vtkIsodiamond::VoxelOf(grid)));
@@ -193,7 +198,6 @@ struct vtkIsodiamondVolumeAlgorithm::OneInput
 int vtkIsodiamondVolumeAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->AchievedTolerance = 0.0;
   bool isDone = false;
   const int success = this->Plan->Execute(this, outputVector->GetInformationObject(0),
     [&](vtkIsodiamond::Task& task)
@@ -282,7 +286,7 @@ void vtkIsodiamondVolumeAlgorithm::ExtractFrom(const OneInput& input,
   this->NumberOfRemovedPieces += this->RemovedFromBlock;
   if (this->MinimumPieceSize > 0)
   {
-    vtkIsodiamond::AddNumber<vtkIdTypeArray>(
+    vtkIsodiamond::AddNumber<vtkTypeInt64Array>(
       output->GetFieldData(), vtkIsodiamond::format::NumberOfRemovedPieces, this->RemovedFromBlock);
   }
 }
@@ -370,7 +374,8 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
   return getsCoarser
     ? vtkIsodiamond::LeastToleranceBelow(
         vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles).Tolerance,
-        codes.Scale(), this->TargetNumberOfTriangles, cellsAt)
+        vtkIsodiamond::CoarsestTolerance(query, codes.Scale(), volume.Placement.World),
+        this->TargetNumberOfTriangles, cellsAt)
     : vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles, cellsAt);
 }
 
@@ -391,7 +396,13 @@ void vtkIsodiamondVolumeAlgorithm::ExtractAtTolerance(const vtkIsodiamond::Volum
   vtkIsodiamond::Task extracting = task.Part(found ? aimPart : 0.0, 1.0);
   this->Extract(volume, aimed, extracting, output);
   this->WriteTable(volume, aimed, unit, extracting, output);
-  this->NoteTolerance(aimed.ErrorTolerance / unit, found ? &*found : nullptr, output);
+  // What is told gives the same mesh if it is set.
+  double achieved = aimed.ErrorTolerance / unit;
+  while (achieved * unit < aimed.ErrorTolerance)
+  {
+    achieved = std::nextafter(achieved, HUGE_VAL);
+  }
+  this->NoteTolerance(achieved, found ? &*found : nullptr, output);
 }
 
 //------------------------------------------------------------------------------

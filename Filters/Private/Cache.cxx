@@ -9,6 +9,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vtkIsodiamond
 {
@@ -91,9 +92,10 @@ bool Cache::Refinement::operator==(const Refinement& other) const
 void Cache::Prepare(
   vtkDataArray* array, const Volume& volume, const isodiamond::BuildOptions& options)
 {
-  this->Current.Samples = volume.InSlabs ? volume.InSlabs->Stamp() : this->Hashes.Of(array);
-  this->Current.HiddenPoints = this->Hashes.Of(volume.Grid->GetPointGhostArray());
-  this->Current.HiddenCells = this->Hashes.Of(volume.Grid->GetCellGhostArray());
+  const auto hashOf = [&](vtkDataArray* ofGrid) { return this->Hashes.Of(ofGrid, volume.Grid); };
+  this->Current.Samples = volume.InSlabs ? volume.InSlabs->Stamp() : hashOf(array);
+  this->Current.HiddenPoints = hashOf(volume.Grid->GetPointGhostArray());
+  this->Current.HiddenCells = hashOf(volume.Grid->GetCellGhostArray());
   this->Current.Dimensions = volume.Dimensions;
   this->Current.Padding = volume.Padding;
   this->Current.Options = options;
@@ -292,13 +294,13 @@ const std::vector<vtkSmartPointer<vtkDataArray>>& Cache::StoredPointData(const V
 
 void Cache::Trim(std::int64_t bytes)
 {
-  std::int64_t kept = 0;
+  std::int64_t left = bytes;
   for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
   {
-    kept += entry->Bytes();
-    const bool isUsed = entry->IsUsed;
-    entry->IsUsed = false;
-    entry = isUsed || kept <= bytes ? std::next(entry) : this->Entries.erase(entry);
+    const std::int64_t needed = std::exchange(entry->IsUsed, false) ? 0 : entry->Bytes();
+    const bool stays = needed <= left;
+    left -= stays ? needed : 0;
+    entry = stays ? std::next(entry) : this->Entries.erase(entry);
   }
 }
 

@@ -119,6 +119,7 @@ private:
       {
         bytes = this->Current().StorageSize() + this->Current().DerivedSize();
       }
+      bytes += this->Counts ? this->Counts->Bytes() : 0;
       for (vtkDataArray* array : this->StoredArrays)
       {
         bytes += array->GetNumberOfValues() * array->GetDataTypeSize();

@@ -4,6 +4,8 @@
 #include "Private/Arrays.h"
 #include "Private/Threads.h"
 
+#include "vtkDataSet.h"
+
 #include <algorithm>
 #include <xxhash.h>
 
@@ -48,12 +50,14 @@ ContentHash HashOf(vtkDataArray* array)
   return HashOf(parts.data(), static_cast<std::int64_t>(parts.size() * sizeof(ContentHash)));
 }
 
-ContentHash ContentHashes::Of(vtkDataArray* array)
+ContentHash ContentHashes::Of(vtkDataArray* array, vtkDataSet* grid)
 {
   if (!array)
   {
     return {};
   }
+  const vtkMTimeType time =
+    std::max({ array->GetMTime(), grid->GetMTime(), grid->GetUpdateTime() });
   this->All.erase(std::remove_if(this->All.begin(), this->All.end(),
                     [](const Known& known) { return known.Array == nullptr; }),
     this->All.end());
@@ -61,15 +65,15 @@ ContentHash ContentHashes::Of(vtkDataArray* array)
   {
     if (known.Array == array)
     {
-      if (known.Time != array->GetMTime())
+      if (known.Time != time)
       {
         known.Hash = HashOf(array);
-        known.Time = array->GetMTime();
+        known.Time = time;
       }
       return known.Hash;
     }
   }
-  this->All.push_back({ array, array->GetMTime(), HashOf(array) });
+  this->All.push_back({ array, time, HashOf(array) });
   return this->All.back().Hash;
 }
 

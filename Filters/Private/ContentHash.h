@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+class vtkDataSet;
+
 namespace vtkIsodiamond
 {
 
@@ -28,7 +30,9 @@ ContentHash HashOf(vtkDataArray* array);
 class ContentHashes
 {
 public:
-  ContentHash Of(vtkDataArray* array);
+  /** @param grid that the array belongs to: who writes into an array may only mark its grid as
+   *  modified, and a source that fills the same one again marks neither, but updates the grid */
+  ContentHash Of(vtkDataArray* array, vtkDataSet* grid);
 
 private:
   struct Known

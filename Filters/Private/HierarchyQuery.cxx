@@ -34,6 +34,17 @@ double PartForHierarchy(
                     : std::min(LargestPartOfSimplify, 0.4 * tolerance / world.SmallestStep());
 }
 
+double CoarsestTolerance(
+  const WorldQuery& query, double scale, const isodiamond::GridGeometry& world)
+{
+  double tolerance = scale;
+  while (tolerance * PartForHierarchy(query, tolerance, world) < scale)
+  {
+    tolerance *= 2.0;
+  }
+  return tolerance;
+}
+
 WorldQuery HierarchyQuery(
   const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world)
 {

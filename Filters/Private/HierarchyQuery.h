@@ -21,6 +21,11 @@ bool GetsCoarser(const WorldQuery& query, isodiamond::ErrorMetric metric);
 double PartForHierarchy(
   const WorldQuery& query, double tolerance, const isodiamond::GridGeometry& world);
 
+/** A tolerance that leaves the hierarchy one at which its mesh is the coarsest.
+ *  @param scale of the hierarchy's errors */
+double CoarsestTolerance(
+  const WorldQuery& query, double scale, const isodiamond::GridGeometry& world);
+
 /** The query whose mesh is then made coarser; the given one if its mesh is not. */
 WorldQuery HierarchyQuery(
   const WorldQuery& query, const Measure& measure, const isodiamond::GridGeometry& world);

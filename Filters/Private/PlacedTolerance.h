@@ -21,7 +21,8 @@ public:
   {
   }
 
-  /** The least tolerance in a triangle or tetrahedron, or less. */
+  /** The least tolerance in a triangle or tetrahedron, or less: what moves from there by no more
+   *  than that does not get to where less is tolerated. */
   double In(const isodiamond::Vector* corners, int count) const
   {
     isodiamond::Vector low = corners[0];
@@ -37,29 +38,35 @@ public:
     double tolerance = this->Query.ErrorTolerance;
     if (this->Query.Region)
     {
-      bool touches = true;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        touches = touches && low[axis] <= this->Query.Region->Maximum[axis] &&
-          high[axis] >= this->Query.Region->Minimum[axis];
-      }
-      tolerance = touches ? std::min(tolerance, this->Outside) : this->Outside;
+      const isodiamond::Box& region = *this->Query.Region;
+      const double away = Between(low, high, region.Minimum, region.Maximum);
+      tolerance = std::min(std::max(tolerance, away), this->Outside);
     }
     if (this->Query.View)
     {
       const isodiamond::Vector& eye = this->Query.View->Position;
-      double squared = 0.0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double away = std::max({ low[axis] - eye[axis], eye[axis] - high[axis], 0.0 });
-        squared += away * away;
-      }
-      tolerance = std::max(tolerance, this->Query.View->TolerancePerDistance * std::sqrt(squared));
+      const double slope = this->Query.View->TolerancePerDistance;
+      tolerance = std::max(tolerance, slope / (1.0 + slope) * Between(low, high, eye, eye));
     }
     return tolerance;
   }
 
 private:
+  /** The distance between two boxes. */
+  template <typename Corner>
+  static double Between(const isodiamond::Vector& low, const isodiamond::Vector& high,
+    const Corner& otherLow, const Corner& otherHigh)
+  {
+    double squared = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double away =
+        std::max({ low[axis] - otherHigh[axis], otherLow[axis] - high[axis], 0.0 });
+      squared += away * away;
+    }
+    return std::sqrt(squared);
+  }
+
   const WorldQuery& Query;
   double Outside;
 };

@@ -63,9 +63,11 @@ PointWriter WriteGradients(const Volume& volume, vtkFloatArray* normals, vtkFloa
 }
 
 /** Whether values between an array's own make sense. */
-bool CanBeInterpolated(vtkDataArray* array, int attribute)
+/** @param points of the grid */
+bool CanBeInterpolated(vtkDataArray* array, int attribute, vtkIdType points)
 {
   return array && array->GetName() && array->GetDataType() != VTK_BIT &&
+    array->GetNumberOfTuples() >= points &&
     std::string(array->GetName()) != vtkDataSetAttributes::GhostArrayName() &&
     attribute != vtkDataSetAttributes::GLOBALIDS && attribute != vtkDataSetAttributes::PEDIGREEIDS;
 }
@@ -123,8 +125,8 @@ PointWriter WriteOthers(const Volume& volume, const std::vector<std::string>& na
   {
     vtkDataArray* array = input->GetArray(i);
     const int attribute = input->IsArrayAnAttribute(i);
-    if (!CanBeInterpolated(array, attribute) || array->GetName() == volume.ArrayName ||
-      output->HasArray(array->GetName()) ||
+    if (!CanBeInterpolated(array, attribute, volume.Grid->GetNumberOfPoints()) ||
+      array->GetName() == volume.ArrayName || output->HasArray(array->GetName()) ||
       (!names.empty() && std::find(names.begin(), names.end(), array->GetName()) == names.end()))
     {
       continue;

@@ -61,7 +61,9 @@ Slabs::Slabs(vtkInformation* inputInformation, int count, ArrayFinder findArray,
   const double time = this->Input->Has(Pipeline::UPDATE_TIME_STEP())
     ? this->Input->Get(Pipeline::UPDATE_TIME_STEP())
     : 0.0;
-  const std::size_t content = std::hash<double>()(time) ^ std::hash<std::string>()(this->ArrayName);
+  const std::string port = std::to_string(vtkExecutive::PRODUCER()->GetPort(this->Input));
+  const std::size_t content =
+    std::hash<double>()(time) ^ std::hash<std::string>()(port + ' ' + this->ArrayName);
   this->StampOfUpstream = { static_cast<std::uint64_t>(upstream->GetPipelineMTime()),
     static_cast<std::uint64_t>(content ^ std::hash<const void*>()(upstream)) };
 }

@@ -18,8 +18,8 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** In one change, a surface may move by this part of the grid's smallest step, or of the tolerance
- *  if that is more. */
+/** In one change, a surface may move by this part of the grid's smallest step, or of the edge that
+ *  it cuts on a curvilinear grid; or of the tolerance if that is more. */
 constexpr double MovePartOfStep = 0.25;
 constexpr double MovePartOfTolerance = 0.5;
 
@@ -28,10 +28,19 @@ isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
   const std::vector<isodiamond::Vector>& vertices, const std::vector<isodiamond::Vector>& points,
   const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options)
 {
-  const double move = std::max(
-    MovePartOfStep * options.World.SmallestStep(), MovePartOfTolerance * options.DistanceTolerance);
-  isodiamond::StuffingInput input{ leaves, vertices, points, options.World, hierarchy.SampleGrid(),
-    move };
+  isodiamond::StuffingInput input{ leaves, vertices, points, options.World,
+    hierarchy.SampleGrid() };
+  const double step = options.World.SmallestStep();
+  if (step > 0.0)
+  {
+    input.SurfaceMove =
+      std::max(MovePartOfStep * step, MovePartOfTolerance * options.DistanceTolerance);
+  }
+  else
+  {
+    input.SurfaceMove = HUGE_VAL;
+    input.SurfaceMoveOfEdge = MovePartOfStep;
+  }
   input.KeepsInside = options.KeepsInside;
   input.VolumeAtTolerance = options.VolumeAtTolerance;
   input.MayPin = options.MayPin;

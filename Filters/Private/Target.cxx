@@ -5,13 +5,15 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace vtkIsodiamond
 {
@@ -115,20 +117,52 @@ namespace
 /** Tolerances that differ by a factor. */
 constexpr double TargetStep = 4.0;
 
+/** Tolerances that have been tried, of which the best one is kept. */
+class Trials
+{
+public:
+  Trials(std::int64_t target, const std::function<std::int64_t(double tolerance)>& cellsAt)
+    : Target(target)
+    , CellsAt(cellsAt)
+  {
+  }
+
+  CountedTolerance At(double tolerance)
+  {
+    const CountedTolerance tried{ tolerance, this->CellsAt(tolerance) };
+    const auto rank = [this](const CountedTolerance& one)
+    { return std::pair(this->HasFew(one) ? std::int64_t{ 0 } : one.Cells, one.Tolerance); };
+    if (rank(tried) < rank(this->TheBest))
+    {
+      this->TheBest = tried;
+    }
+    return tried;
+  }
+
+  bool HasFew(const CountedTolerance& tried) const { return tried.Cells <= this->Target; }
+
+  /** The least tolerance with few enough cells, or with the fewest if none has. */
+  const CountedTolerance& Best() const { return this->TheBest; }
+
+private:
+  std::int64_t Target;
+  const std::function<std::int64_t(double tolerance)>& CellsAt;
+  CountedTolerance TheBest{ 0.0, std::numeric_limits<std::int64_t>::max() };
+};
+
 /** Goes up to a tolerance with few enough cells. @param many a tolerance with too many; afterwards
- *  one that is nearer @param last that may be tried, with few enough */
-CountedTolerance FirstWithFew(double& many, const CountedTolerance& last, std::int64_t target,
-  const std::function<std::int64_t(double tolerance)>& cellsAt)
+ *  one that is nearer @param last that may be tried
+ *  @return last if no other one has few enough */
+CountedTolerance FirstWithFew(double& many, const CountedTolerance& last, Trials& trials)
 {
   while (TargetStep * many < last.Tolerance)
   {
-    const double tolerance = TargetStep * many;
-    const CountedTolerance tried{ tolerance, cellsAt(tolerance) };
-    if (tried.Cells <= target)
+    const CountedTolerance tried = trials.At(TargetStep * many);
+    if (trials.HasFew(tried))
     {
       return tried;
     }
-    many = tolerance;
+    many = tried.Tolerance;
   }
   return last;
 }
@@ -136,15 +170,14 @@ CountedTolerance FirstWithFew(double& many, const CountedTolerance& last, std::i
 /** Goes down as long as there are few cells; down to 0, if need be: below some tolerance,
  *  triangles for simulations no longer increase. @param many afterwards a tolerance with too many
  *  cells, or one that is low enough; 0 if 0 has few */
-CountedTolerance LastWithFew(CountedTolerance few, std::int64_t target,
-  const std::function<std::int64_t(double tolerance)>& cellsAt, double& many)
+CountedTolerance LastWithFew(CountedTolerance few, Trials& trials, double& many)
 {
   constexpr int steps = 4;
   for (int i = 0; i <= steps; ++i)
   {
     const double tolerance = i < steps ? few.Tolerance / TargetStep : 0.0;
-    const CountedTolerance tried{ tolerance, cellsAt(tolerance) };
-    if (tried.Cells > target)
+    const CountedTolerance tried = trials.At(tolerance);
+    if (!trials.HasFew(tried))
     {
       many = i < steps ? tolerance : few.Tolerance / TargetStep;
       return few;
@@ -160,33 +193,24 @@ CountedTolerance LeastToleranceBelow(double guess, double largest, std::int64_t 
   const std::function<std::int64_t(double tolerance)>& cellsAt)
 {
   constexpr int bisections = 6;
-  const auto at = [&](double tolerance) {
-    return CountedTolerance{ tolerance, cellsAt(tolerance) };
-  };
-  CountedTolerance few = at(std::min(guess, largest));
-  if (few.Tolerance == 0.0)
-  {
-    return few;
-  }
+  constexpr double leastPart = 1.0 / 4096.0; // of the largest, if full resolution was the guess
+  Trials trials(target, cellsAt);
+  CountedTolerance few = trials.At(std::min(guess, largest));
   double many = 0.0; // a tolerance with too many cells, once there is one
-  if (few.Cells <= target)
+  if (!trials.HasFew(few))
   {
-    few = LastWithFew(few, target, cellsAt, many);
+    // A coarser mesh can have a few more cells: what is between is tried even if the last has many.
+    many = few.Tolerance > 0.0 ? few.Tolerance : leastPart * largest;
+    few = FirstWithFew(many, trials.At(largest), trials);
   }
-  else
+  else if (few.Tolerance > 0.0)
   {
-    const CountedTolerance last = few.Tolerance < largest ? at(largest) : few;
-    if (last.Cells > target)
-    {
-      return last;
-    }
-    many = few.Tolerance;
-    few = FirstWithFew(many, last, target, cellsAt);
+    few = LastWithFew(few, trials, many);
   }
-  for (int i = 0; i < bisections && many > 0.0; ++i)
+  for (int i = 0; i < bisections && many > 0.0 && trials.HasFew(few); ++i)
   {
-    const CountedTolerance tried = at(std::sqrt(many * few.Tolerance));
-    if (tried.Cells <= target)
+    const CountedTolerance tried = trials.At(std::sqrt(many * few.Tolerance));
+    if (trials.HasFew(tried))
     {
       few = tried;
     }
@@ -195,7 +219,7 @@ CountedTolerance LeastToleranceBelow(double guess, double largest, std::int64_t 
       many = tried.Tolerance;
     }
   }
-  return few;
+  return trials.Best();
 }
 
 void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64_t target)
@@ -219,10 +243,10 @@ void WriteCounts(const std::vector<const isodiamond::CellCounts*>& counts, const
     const double tolerance = RoundTolerance(largest / unit, i);
     std::ostringstream number;
     number << tolerance;
-    AddNumber<vtkIdTypeArray>(
+    AddNumber<vtkTypeInt64Array>(
       output, (prefix + number.str()).c_str(), CellsAt(counts, tolerance * unit));
   }
-  AddNumber<vtkIdTypeArray>(output, (prefix + "0").c_str(), CellsAt(counts, 0.0));
+  AddNumber<vtkTypeInt64Array>(output, (prefix + "0").c_str(), CellsAt(counts, 0.0));
 }
 
 }

@@ -42,6 +42,13 @@ TEST(CellCounts, ChangeWithTheTolerance)
   EXPECT_GT(counts.At(0.1), counts.At(HUGE_VAL));
 }
 
+// A filter may keep those of thousands of small hierarchies.
+TEST(CellCounts, OfSmallHierarchiesAreSmall)
+{
+  const test::Built built = test::Build(Model::Minimal, test::WaveField({ 5, 5, 5 }));
+  EXPECT_LT(CellCounts(*built.Hierarchy, SerialFor).Bytes(), 10000);
+}
+
 TEST(CellCounts, AreThoseOfSurfaces)
 {
   for (const test::Field& field : test::SmallFields())

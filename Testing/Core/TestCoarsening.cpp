@@ -226,6 +226,45 @@ TEST(Coarsening, KeepsTheVolumeOfWhatIsThin)
   EXPECT_NEAR(VolumeOf(coarse.Result.Mesh), wanted, std::abs(VolumeOf(stuffed.Mesh) - wanted));
 }
 
+// A ball, which loses volume as it gets coarser, and what is around it, which gains some: if the
+// volume at tolerance is known, the result's may lie between, but not beyond.
+TEST(Coarsening, UsesTheVolumeAtTolerance)
+{
+  const test::Field ball = test::SphereField({ 17, 17, 17 });
+  const double value = ball.Isovalue;
+  for (const bool isBall : { true, false })
+  {
+    const Isoregion region = isBall ? Isoregion{ value, HUGE_VAL } : Isoregion{ -HUGE_VAL, value };
+    const test::Stuffed stuffed(*test::BuildVolume(ball, region).Hierarchy, Query{});
+    const TetrahedronMesh plain = stuffed.PlainMesh();
+    const double volume = VolumeOf(plain);
+    const std::vector<double> allowances(stuffed.LeafCount, 1.0);
+    const std::vector<bool> finer(stuffed.LeafCount, true);
+    const auto coarser = [&](std::optional<double> atTolerance)
+    {
+      CoarseningInput input{ plain, allowances, finer, false, 0.75, test::UnitAxes };
+      input.VolumeAtTolerance = atTolerance;
+      TetrahedronMesh mesh = stuffed.Mesh;
+      EXPECT_TRUE(Coarsen(mesh, input, SerialFor).empty());
+      return mesh;
+    };
+    constexpr double slack = 0.008; // of the volume may come or go
+    const TetrahedronMesh kept = coarser({});
+    EXPECT_NEAR(VolumeOf(kept) / volume, 1.0, slack);
+    const double sign = isBall ? -1.0 : 1.0;
+    for (const double part : { 0.01, 0.2 })
+    {
+      const TetrahedronMesh mesh = coarser((1.0 + sign * part) * volume);
+      const double change = sign * (VolumeOf(mesh) / volume - 1.0);
+      EXPECT_GT(change, sign * (VolumeOf(kept) / volume - 1.0) + 0.001);
+      EXPECT_LT(change, part + slack);
+      EXPECT_LT(mesh.Tetrahedra.size(), kept.Tetrahedra.size());
+      const TetrahedronMesh other = coarser((1.0 - sign * part) * volume);
+      EXPECT_NEAR(VolumeOf(other) / volume, VolumeOf(kept) / volume, 1e-9);
+    }
+  }
+}
+
 // What is too far away from the start has to be finer; where it cannot be, it is left as it is.
 TEST(Coarsening, LeavesAloneWhatIsFarFromTheStart)
 {
@@ -246,6 +285,37 @@ TEST(Coarsening, LeavesAloneWhatIsFarFromTheStart)
   const std::set<Triangle> after = SetOf(SurfacesOf(finest.Result.Mesh).Triangles);
   EXPECT_GT(after.size(), before.size() * 9 / 10);
   EXPECT_LT(finest.Result.Mesh.Tetrahedra.size(), stuffed.Mesh.Tetrahedra.size());
+}
+
+// Two tetrahedra, each in a leaf, of which the second one is in the wrong place, in a third leaf.
+TEST(Coarsening, TellsWhereAnyOfBothSurfacesIsFar)
+{
+  TetrahedronMesh plain;
+  for (const double x : { 0.0, 10.0, 20.0 })
+  {
+    const Vector corner = { x, 0, 0 };
+    for (const Vector& way : { Vector{}, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } })
+    {
+      plain.Positions.push_back(corner + way);
+    }
+  }
+  plain.Surfaces.assign(plain.Positions.size(), 1);
+  plain.OnWalls.assign(plain.Positions.size(), 0);
+  TetrahedronMesh mesh = plain;
+  plain.Tetrahedra = { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } };
+  plain.Origins = { 0, 1 };
+  mesh.Tetrahedra = { { 0, 1, 2, 3 }, { 8, 9, 10, 11 } };
+  mesh.Origins = { 0, 2 };
+  const std::vector<double> allowances(3, 0.1);
+  using Leaves = std::vector<std::uint32_t>;
+  for (const auto& [canBeNearer, far] :
+    { std::pair(std::vector<bool>{ true, true, true }, Leaves{ 1, 2 }),
+      std::pair(std::vector<bool>{ true, true, false }, Leaves{ 1 }),
+      std::pair(std::vector<bool>{ true, false, true }, Leaves{ 2 }),
+      std::pair(std::vector<bool>{ true, false, false }, Leaves{}) })
+  {
+    EXPECT_EQ(FarLeaves(mesh, { plain, allowances, canBeNearer }, SerialFor), far);
+  }
 }
 
 TEST(Coarsening, IsTheSameWithThreads)

@@ -173,6 +173,61 @@ TEST(EdgeCollapses, FlipsNothingThatHasToStay)
   EXPECT_EQ(EdgeCollapses(shaped, 1.0).Run(), std::vector<bool>({ true, true }));
 }
 
+// Two sheets meet in the ends of the roof's ridge: one of them has that edge already.
+TEST(EdgeCollapses, MakesNoEdgeThatAnotherSheetHas)
+{
+  MeshPart roof = CutRoof();
+  for (SurfaceSample& sample : roof.Samples)
+  {
+    sample.Home += sample.Home != None ? 1 : 0;
+  }
+  roof.Positions.push_back({ 0.5, 0.5, -3.0 });
+  roof.Simple = Connectivity(5, { { 0, 2, 4 }, { 0, 1, 3 }, { 1, 2, 3 } }).Linked();
+  roof.Samples.insert(roof.Samples.begin() + 4, { roof.Positions[4], 1.0, None });
+  roof.IsFixed.resize(5);
+  roof.IsSettled.resize(5);
+  roof.OnWalls.resize(5);
+  EXPECT_EQ(EdgeCollapses(roof, 1.0).Run(), std::vector<bool>(3, false));
+  roof.Simple.Triangles[0][0] = None; // without that sheet
+  EXPECT_EQ(EdgeCollapses(roof, 1.0).Run(), std::vector<bool>({ false, true, true }));
+}
+
+// A vertex at the border, between two others on a wall: the edges there have to be on it, too.
+TEST(EdgeCollapses, MoveAlongTheBorderOnOneWallOnly)
+{
+  AllowedMesh border;
+  border.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 } };
+  border.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  border.Allowances = { 1.0, 1.0 };
+  for (const auto& [ofVertex, ofFirst, ofLast, goes] :
+    { std::array<int, 4>{ 1, 1, 1, 1 }, { 5, 1, 5, 1 }, { 4, 1, 1, 0 }, { 1, 4, 1, 0 },
+      { 1, 1, 4, 0 }, { 5, 1, 4, 0 }, { 0, 1, 1, 0 } })
+  {
+    border.OnWalls = { static_cast<Walls::Type>(ofVertex), static_cast<Walls::Type>(ofFirst), 0,
+      static_cast<Walls::Type>(ofLast) };
+    const MeshPart part = test::WholePart(border);
+    EXPECT_EQ(EdgeCollapses(part, 1.0).Run(), std::vector<bool>(2, goes == 1))
+      << ofVertex << ofFirst << ofLast;
+  }
+}
+
+// Where a triangle is at fault that is as it was, what is around it has to be undone.
+TEST(EdgeCollapses, AreUndoneAroundWhatHasNotChanged)
+{
+  AllowedMesh flat;
+  flat.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { 0, -1, 0 },
+    { 1, 1, 0 }, { 2, 1, 0 }, { 2, 2, 0 } };
+  flat.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 1 }, { 1, 5, 2 },
+    { 5, 6, 7 } };
+  flat.Allowances.assign(6, 0.5);
+  const MeshPart part = test::WholePart(flat);
+  EdgeCollapses collapses(part, 1.0);
+  EXPECT_EQ(collapses.Run(), std::vector<bool>({ true, true, true, true, false, false }));
+  EXPECT_EQ(collapses.Undo({ 5 }, {}), std::vector<bool>(6, false)) << "farther away";
+  EXPECT_EQ(collapses.Undo({ 4 }, {}), std::vector<bool>({ true, true, true, true, false, false }));
+  EXPECT_EQ(test::TrianglesLeft(collapses.Mesh()).size(), 6U);
+}
+
 TEST(EdgeCollapses, CanBeUndone)
 {
   for (const test::Field& field : test::SurfacesToSimplify())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Simplification of what surfaces of fields hardly ever have, or have in few places.
 #include "Simplification/MeshBlocks.h"
+#include "Simplification/MeshDivision.h"
 #include "Simplification/Simplification.h"
 #include "SimplificationTestTools.h"
 #include "TopologyTestTools.h"
@@ -275,6 +276,7 @@ TEST(OddMeshes, AreCutIntoPartsOfAnySize)
       {
         EXPECT_LE(blocks[i].size(), most);
         EXPECT_GT(blocks[i].size(), 0U);
+        EXPECT_TRUE(std::is_sorted(blocks[i].begin(), blocks[i].end()));
         all.insert(all.end(), blocks[i].begin(), blocks[i].end());
       }
       std::sort(all.begin(), all.end());
@@ -282,5 +284,54 @@ TEST(OddMeshes, AreCutIntoPartsOfAnySize)
       std::iota(expected.begin(), expected.end(), 0U);
       EXPECT_EQ(all, expected);
     }
+  }
+}
+
+// A strip of six triangles, of which the first two are a part, the next two another one, and the
+// last two in none.
+TEST(OddMeshes, HaveOriginalsThatBelongToSeveralPartsOrToNone)
+{
+  std::vector<Vector> positions;
+  std::vector<Triangle> strip;
+  for (std::uint32_t i = 0; i < 8; ++i)
+  {
+    positions.push_back({ 1.0 * i, 1.0 * (i % 2), 0.0 });
+  }
+  for (std::uint32_t i = 0; i < 6; ++i)
+  {
+    strip.push_back(i % 2 == 0 ? Triangle{ i, i + 2, i + 1 } : Triangle{ i, i + 1, i + 2 });
+  }
+  struct Case
+  {
+    std::vector<std::uint32_t> Near;
+    std::uint32_t Owner;
+  };
+  for (const auto& [near, owner] : { Case{ { 1 }, 0 }, Case{ { 3, 2 }, 1 }, Case{ { 5 }, None },
+         Case{ { 1, 2 }, None }, Case{ { 3, 4 }, None }, Case{ { 4, 3 }, None },
+         Case{ { 2, 4, 3 }, None }, Case{ { 2, 1, 3 }, None } })
+  {
+    SCOPED_TRACE(testing::PrintToString(near));
+    NearLists lists(2);
+    lists.Begin(0);
+    lists.Add(0, 2);
+    lists.Begin(1);
+    for (const std::uint32_t triangle : near)
+    {
+      lists.Add(1, triangle);
+    }
+    const std::vector<std::uint32_t> homes = { None, 3, 5, 0 };
+    const MeshDivision division({ positions, strip, lists, homes }, { 0, 1, 2, 3 }, 2, 0.5);
+    EXPECT_EQ(division.PartOf, (std::vector<std::uint32_t>{ 0, 0, 1, 1, None, None }));
+    EXPECT_EQ(division.OwnerOf, (std::vector<std::uint32_t>{ 1, owner }));
+    EXPECT_EQ(division.OriginalNumber[1], owner == 1 ? 1U : 0U);
+    for (std::uint32_t i = 0; i < strip.size(); ++i)
+    {
+      const bool isNear = std::find(near.begin(), near.end(), i) != near.end();
+      EXPECT_EQ(division.IsHeld[i], near.size() > 1 && owner == None && isNear) << i;
+    }
+    ASSERT_EQ(division.Samples[0].size(), 1U);
+    EXPECT_EQ(division.Samples[0][0], 3U);
+    ASSERT_EQ(division.Samples[1].size(), 1U);
+    EXPECT_EQ(division.Samples[1][0], 1U);
   }
 }

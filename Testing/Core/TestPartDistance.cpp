@@ -47,6 +47,43 @@ TEST(PartDistance, BelievesTheStartOnly)
   EXPECT_TRUE(faults(true, { { 4, 6, 5 }, { 4, 7, 6 } }).Any()) << "turned over";
 }
 
+// If the start is not known to be near, nothing is believed of it, though nothing has changed.
+TEST(PartDistance, FindsWhatIsFarFromTheStart)
+{
+  AllowedMesh square;
+  square.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 5, 5, 5 },
+    { 6, 5, 5 }, { 5, 6, 5 } };
+  square.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  square.Allowances = { 0.2, 0.2 };
+  MeshPart part = test::WholePart(square);
+  part.Simple = Connectivity(7, { { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 } }).Linked();
+  PartDistance distance(part);
+  const PartDistance::Faults faults = distance.Find(
+    part.Simple, std::vector<std::uint32_t>(part.Samples.size(), None), std::vector<bool>(3, true));
+  EXPECT_EQ(faults.Triangles, std::vector<std::uint32_t>{ 2 });
+  EXPECT_TRUE(faults.Points.empty());
+}
+
+// Each triangle is where it was, but faces the other way.
+TEST(PartDistance, FindsWhatIsTurnedOver)
+{
+  AllowedMesh square;
+  square.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
+  square.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  square.Allowances = { 0.2, 0.2 };
+  for (const bool isTurned : { false, true })
+  {
+    MeshPart part = test::WholePart(square);
+    const std::vector<Triangle> simple =
+      isTurned ? std::vector<Triangle>{ { 0, 2, 1 }, { 0, 3, 2 } } : square.Mesh.Triangles;
+    PartDistance distance(part);
+    const PartDistance::Faults faults = distance.Find(Connectivity(4, simple).Linked(),
+      std::vector<std::uint32_t>(part.Samples.size(), None), { true, true });
+    EXPECT_EQ(faults.Triangles,
+      isTurned ? std::vector<std::uint32_t>({ 0, 1 }) : std::vector<std::uint32_t>());
+  }
+}
+
 // Asked again, it again names something that can be undone: a triangle that was near at the start,
 // and has changed since.
 TEST(PartDistance, TellsOfWhatIsNotAsAtTheStart)

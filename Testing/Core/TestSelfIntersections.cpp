@@ -190,6 +190,16 @@ TEST(SelfIntersections, KnowOnWhichSideOfADiagonalAPointIs)
   }
 }
 
+// Here the sign of the rounded determinant is wrong, by 2.2 of the 3 units that it may be.
+TEST(SelfIntersections, KnowOnWhichSideAPointIsWhereRoundingIsNearlyAtItsWorst)
+{
+  const PlanePoint a = { 0x1.0a63aa7830eaep-2, 0x1.829a004e59bbp-2 };
+  const PlanePoint b = { 0x1.280ee5a191d7fp+0, 0x1.53724944bfee2p+0 };
+  const PlanePoint c = { -0x1.cdc3dfd2c563p-7, 0x1.65d9485e58d96p-4 };
+  EXPECT_EQ(Orientation(a, b, c), -1);
+  EXPECT_EQ(Orientation(b, a, c), 1);
+}
+
 TEST(SelfIntersections, AreRightByLinesThatSeparate)
 {
   test::Random random(2);
@@ -266,6 +276,30 @@ TEST(SelfIntersections, AreThoseOfItsEdgesWhereATriangleHasNoArea)
     EXPECT_EQ(Intersect(positions, oblique, flat), doMeet) << flat[0];
     EXPECT_EQ(Intersect(positions, flat, oblique), doMeet) << flat[0];
   }
+}
+
+// Of so many triangles, side by side, that several threads look at them: few stand in another one.
+TEST(SelfIntersections, AreFoundAmongMany)
+{
+  constexpr std::uint32_t count = 9000;
+  const std::vector<IntersectingPair> expected = { { 5, 0 }, { 4095, 1 }, { 4096, 4094 },
+    { 4097, 8 }, { 8191, 4100 }, { 8192, 4101 }, { count - 1, 4102 } };
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const double x = 4.0 * i;
+    mesh.Triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
+    mesh.Positions.insert(mesh.Positions.end(), { { x, 0, 0 }, { x + 1, 0, 0 }, { x, 1, 0 } });
+  }
+  for (const auto& [i, other] : expected)
+  {
+    const double x = 4.0 * other;
+    mesh.Positions[3 * i] = { x + 0.25, 0.25, -1.0 };
+    mesh.Positions[3 * i + 1] = { x + 0.25, 0.25, 1.0 };
+    mesh.Positions[3 * i + 2] = { x + 0.5, 0.25, 1.0 };
+  }
+  EXPECT_EQ(IntersectionsOf(mesh.Positions, mesh.Triangles, SerialFor), expected);
+  EXPECT_EQ(IntersectionsOf(mesh.Positions, mesh.Triangles, test::ThreadedFor(3)), expected);
 }
 
 // Two sheets cross; that counts only where a triangle is not what it was.
@@ -379,6 +413,8 @@ TEST(SelfIntersections, AreFoundBetweenPartsThatAreMadeAtTheSameTime)
   EXPECT_TRUE(borders.Meeting(all).empty()); // nothing is new
   borders.Set(0, turned(0));
   EXPECT_TRUE(borders.Meeting(all).empty()); // others know what was there
+  borders.Set(2, turned(2));
+  EXPECT_EQ(borders.Meeting(all), Numbers{ 2 }); // not only with the one before
   borders.Set(1, turned(1));
   borders.Set(2, turned(2));
   EXPECT_EQ(borders.Meeting(all), (Numbers{ 1, 2 }));
@@ -399,4 +435,28 @@ TEST(SelfIntersections, AreFoundBetweenPartsThatAreMadeAtTheSameTime)
   borders.Set(1, turned(1));
   borders.Set(2, turned(2));
   EXPECT_EQ(borders.Meeting({ 1, 2 }), Numbers{ 2 });
+}
+
+// A pyramid without a base, in which another part's triangle stands, across the base. Undoing tells
+// of all that it changes, not only of what intersects.
+TEST(SelfIntersections, AreUndoneAndToldOf)
+{
+  AllowedMesh pyramid;
+  pyramid.Mesh.Positions = { { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { 0, -1, 0 },
+    { 0.3, 0.1, -0.5 }, { 0.3, 0.2, 0.1 }, { 0.4, 0.1, 0.1 } };
+  pyramid.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 1 } };
+  pyramid.Allowances.assign(4, 2.0);
+  MeshPart part = test::WholePart(pyramid);
+  part.Others = { { 5, 6, 7 } };
+  const SelfIntersections intersections(part);
+  EdgeCollapses collapses(part, 1.0);
+  EXPECT_EQ(collapses.Run(), std::vector<bool>(4, true));
+  ASSERT_EQ(test::TrianglesLeft(collapses.Mesh()).size(), 2U);
+  const auto found = intersections.Find(collapses.Mesh(), std::vector<bool>(4, true));
+  ASSERT_EQ(found.size(), 1U);
+  std::vector<bool> isTouched(4);
+  isTouched[found[0].first] = true;
+  intersections.Undo(collapses, isTouched);
+  EXPECT_EQ(test::TrianglesLeft(collapses.Mesh()).size(), 4U);
+  EXPECT_EQ(isTouched, std::vector<bool>(4, true));
 }

@@ -207,6 +207,19 @@ TEST(Stuffing, LetsNoSheetsThroughEachOther)
   EXPECT_GE(apart, 11);
 }
 
+// Where holding surfaces once is not enough, and where not only those in a leaf beside have to be.
+TEST(Stuffing, LetsNoSheetsThroughEachOtherThatAreHardToHold)
+{
+  for (const unsigned seed : { 60U, 74U, 168U })
+  {
+    const test::Field field = test::NoiseField({ 7, 7, 7 }, seed);
+    const test::Built built = test::BuildVolume(field, { 3.7, HUGE_VAL });
+    const test::Stuffed stuffed(*built.Hierarchy, Query{});
+    EXPECT_EQ(stuffed.CountBad(), 0U) << seed;
+    EXPECT_EQ(test::CountIntersections(stuffed.Mesh), 0U) << seed;
+  }
+}
+
 // The smallest grids where it fails: single cells, whose corners stay, however near a surface is.
 TEST(Stuffing, FailsInFewGridsOfOneCell)
 {
@@ -347,6 +360,19 @@ TEST(Stuffing, RefusesLeavesWithAPointTwice)
     });
   bad.Vertices[leaf.Vertices[0]].PointId = bad.Vertices[leaf.Vertices[1]].PointId;
   EXPECT_EQ(isRefused(bad), 2);
+  bad = good.Mesh; // a corner that is no point
+  const auto beside = std::find_if(bad.Tetrahedra.begin(), bad.Tetrahedra.end(),
+    [&](const CutMesh::Tetrahedron& some)
+    { return bad.Vertices[some.Vertices[0]].PointId == CutMesh::None; });
+  ASSERT_NE(beside, bad.Tetrahedra.end());
+  beside->Vertices[3] = beside->Vertices[0];
+  EXPECT_EQ(isRefused(bad), 2);
+  bad = good.Mesh; // on both surfaces
+  const auto cut = std::find_if(bad.Tetrahedra.begin(), bad.Tetrahedra.end(),
+    [](const CutMesh::Tetrahedron& some) { return some.Cuts[1][0] != CutMesh::None; });
+  ASSERT_NE(cut, bad.Tetrahedra.end());
+  cut->Cuts[0][1] = cut->Cuts[1][0];
+  EXPECT_EQ(isRefused(bad), 2);
 }
 
 // Full resolution cannot be refined: where vertices have moved too far, they are pinned.
@@ -394,6 +420,98 @@ TEST(Stuffing, KeepsTheToleranceAtFullResolutionWherePinned)
   input.MayPin = false;
   stuffed.Mesh = Stuff(input, SerialFor).Mesh;
   EXPECT_NE(test::FarByForce(stuffed.Plain, stuffed.AsVolume(), 1.0001 * allowance), "");
+}
+
+// A vertex moves as little as any of its leaves wants.
+TEST(Stuffing, MovesVerticesByTheLeastThatIsAllowedThere)
+{
+  const test::Built built = test::BuildVolume(test::GyroidField(17, 1.5), { 0.1, HUGE_VAL });
+  test::Leaves leaves(*built.Hierarchy, 0.0);
+  const GridGeometry world = AffineMap();
+  const std::vector<Vector> vertices = VerticesInWorld(leaves.Mesh, world);
+  StuffingInput input{ leaves.Mesh, vertices, leaves.Points, world, leaves.SampleGrid, 0.25 };
+  input.CanBeFiner.assign(leaves.Mesh.Tetrahedra.size(), true);
+  std::vector<std::uint64_t> all;
+  for (const CutMesh::Vertex& vertex : leaves.Mesh.Vertices)
+  {
+    all.push_back(PackedPoint(vertex.Position));
+  }
+  std::sort(all.begin(), all.end());
+  for (const std::size_t odd : { 0, 1 })
+  {
+    input.Allowances.clear();
+    for (std::size_t i = 0; i < leaves.Mesh.Tetrahedra.size(); ++i)
+    {
+      input.Allowances.push_back(i % 2 == odd ? 0.05 : 5.0);
+    }
+    Pin(leaves.Mesh, {});
+    EXPECT_GT(FarLeaves(input, SerialFor).size(), 1000U);
+    Pin(leaves.Mesh, all);
+    EXPECT_EQ(FarLeaves(input, SerialFor), std::vector<std::uint32_t>());
+  }
+}
+
+// The more often all is pinned, the less surfaces move; but what is still too far away then is
+// left.
+TEST(Stuffing, IsNearerTheMoreItIsPinnedButAsksForThreePinsAtMost)
+{
+  const test::Built built = test::BuildVolume(test::NoiseField({ 7, 7, 7 }, 3), { 3.7, HUGE_VAL });
+  test::Leaves leaves(*built.Hierarchy, 0.0);
+  const GridGeometry world = AffineMap();
+  const std::vector<Vector> vertices = VerticesInWorld(leaves.Mesh, world);
+  const auto tightLeaves = [&](double allowance, std::size_t pins)
+  {
+    std::vector<std::uint64_t> all;
+    for (const CutMesh::Vertex& vertex : leaves.Mesh.Vertices)
+    {
+      all.insert(all.end(), pins, PackedPoint(vertex.Position));
+    }
+    std::sort(all.begin(), all.end());
+    Pin(leaves.Mesh, all);
+    StuffingInput input{ leaves.Mesh, vertices, leaves.Points, world, leaves.SampleGrid, 0.25 };
+    input.Allowances.assign(leaves.Mesh.Tetrahedra.size(), allowance);
+    input.CanBeFiner.assign(leaves.Mesh.Tetrahedra.size(), false);
+    return Stuff(input, SerialFor).TightLeaves.size();
+  };
+  EXPECT_GT(tightLeaves(0.3, 1), 0U);
+  EXPECT_EQ(tightLeaves(0.3, 2), 0U);
+  EXPECT_GT(tightLeaves(0.01, 2), 0U);
+  EXPECT_EQ(tightLeaves(0.01, 3), 0U);
+}
+
+// Of one bad tetrahedron at a time.
+TEST(Stuffing, TellsTheLeavesAroundBadTetrahedra)
+{
+  const test::Built built = test::BuildVolume(test::NoiseField({ 7, 7, 7 }, 3), { 3.7, HUGE_VAL });
+  const test::Leaves leaves(*built.Hierarchy, 0.0);
+  const std::vector<CutMesh::Tetrahedron>& all = leaves.Mesh.Tetrahedra;
+  const TetrahedronMesh mesh = leaves.Moved();
+  std::size_t bad = 0;
+  for (std::size_t i = 0; i < mesh.Tetrahedra.size(); ++i)
+  {
+    TetrahedronMesh one = mesh;
+    one.Tetrahedra = { mesh.Tetrahedra[i] };
+    one.Origins = { mesh.Origins[i] };
+    const auto [smallest, largest] = DihedralAngles(one);
+    std::vector<std::uint32_t> expected;
+    if (smallest < 15.0 || largest > 165.0)
+    {
+      const auto& of = all[mesh.Origins[i]].Vertices;
+      for (std::uint32_t leaf = 0; leaf < all.size(); ++leaf)
+      {
+        const auto& vertices = all[leaf].Vertices;
+        if (std::find_first_of(vertices.begin(), vertices.end(), of.begin(), of.end()) !=
+          vertices.end())
+        {
+          expected.push_back(leaf);
+        }
+      }
+      ++bad;
+    }
+    ASSERT_EQ(LeavesOfBad(leaves.Mesh, one), expected);
+  }
+  EXPECT_GT(bad, 50U);
+  EXPECT_LT(bad, mesh.Tetrahedra.size());
 }
 
 // Where the surface hugs a wall, the nearest isovertex may be off the wall, and another one on it.

@@ -153,6 +153,25 @@ TEST(BadInput, ArraysThatCannotBeContoured)
     "not supported");
 }
 
+TEST(BadInput, OtherArraysThatAreTooShortAreLeftOut)
+{
+  const auto image = test::BallImage({ 9, 9, 9 });
+  for (const int tuples : { 0, 5 })
+  {
+    vtkNew<vtkFloatArray> values;
+    values->SetName(tuples == 0 ? "empty" : "short");
+    values->SetNumberOfTuples(tuples);
+    image->GetPointData()->AddArray(values);
+  }
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.0);
+  contour->Update();
+  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_FALSE(contour->GetOutput()->GetPointData()->HasArray("empty"));
+  EXPECT_FALSE(contour->GetOutput()->GetPointData()->HasArray("short"));
+}
+
 TEST(BadInput, GhostArraysOfAnotherSize)
 {
   for (const bool isOfCells : { true, false })

@@ -3,6 +3,7 @@
 #include "FilterTestTools.h"
 
 #include "vtkDataSetAttributes.h"
+#include "vtkExecutive.h"
 #include "vtkFloatArray.h"
 #include "vtkImageAlgorithm.h"
 #include "vtkInformation.h"
@@ -56,26 +57,34 @@ public:
   vtkIdType MostVoxels = 0; ///< of any one request
 
 protected:
-  PartsSource() { this->SetNumberOfInputPorts(0); }
+  PartsSource()
+  {
+    this->SetNumberOfInputPorts(0);
+    this->SetNumberOfOutputPorts(2); // the second one's values are less by 3
+  }
 
   int RequestInformation(
     vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override
   {
-    vtkInformation* info = outputVector->GetInformationObject(0);
-    info->Set(Pipeline::WHOLE_EXTENT(), this->WholeExtent.data(), 6);
-    info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), this->CanMakeParts ? 1 : 0);
-    vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
+    for (int port = 0; port < 2; ++port)
+    {
+      vtkInformation* info = outputVector->GetInformationObject(port);
+      info->Set(Pipeline::WHOLE_EXTENT(), this->WholeExtent.data(), 6);
+      info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), this->CanMakeParts ? 1 : 0);
+      vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
+    }
     return 1;
   }
 
   int RequestData(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override
+    vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputVector) override
   {
     if (this->Requests++ == this->FailsAt)
     {
       return 0;
     }
-    vtkInformation* info = outputVector->GetInformationObject(0);
+    const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
+    vtkInformation* info = outputVector->GetInformationObject(port);
     int extent[6];
     info->Get(Pipeline::UPDATE_EXTENT(), extent);
     if (this->MakesMore)
@@ -106,7 +115,7 @@ protected:
       {
         for (int x = extent[0]; x <= extent[1]; ++x, ++id)
         {
-          density->SetValue(id, static_cast<float>(this->Function(x, y, z)));
+          density->SetValue(id, static_cast<float>(this->Function(x, y, z) - 3.0 * port));
           if (this->HasOther)
           {
             other->SetValue(id, static_cast<unsigned char>(7 * x + 3 * y + z));
@@ -403,6 +412,18 @@ TEST(Blocks, AreReadAgainWhenTheSourceChanges)
   }
   EXPECT_EQ(both.Difference(), "");
   EXPECT_EQ(both.InBlocks->GetNumberOfBuilds(), 2);
+}
+
+TEST(Blocks, AreThoseOfTheirPort)
+{
+  Both<vtkIsodiamondContour> both(3);
+  both.ForEach([](vtkIsodiamondContour* contour) { contour->SetValue(0, 0.0); });
+  for (const int port : { 0, 1, 0 })
+  {
+    both.AtOnce->SetInputConnection(both.Source->GetOutputPort(port));
+    both.InBlocks->SetInputConnection(both.SourceOfParts->GetOutputPort(port));
+    EXPECT_EQ(both.Difference(), "");
+  }
 }
 
 TEST(Blocks, AreOneWithAWarningWhereTheyCannotBe)

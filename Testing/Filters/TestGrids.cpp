@@ -7,6 +7,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkIsodiamondBuilder.h"
 #include "vtkIsodiamondContour.h"
+#include "vtkIsodiamondExtractor.h"
 #include "vtkIsodiamondHierarchy.h"
 #include "vtkIsodiamondIntervalVolume.h"
 #include "vtkMultiBlockDataSet.h"
@@ -498,18 +499,100 @@ TEST(Grids, HierarchiesAreKnownByContentAndKeptWithinTheCache)
   show(16);
   EXPECT_EQ(contour->GetNumberOfBuilds(), 2);
   EXPECT_EQ(contour->GetNumberOfCachedHierarchies(), 2);
+  // The size counts besides what was used last, so one of these two may be as large as it is.
+  const auto large = test::BallImage({ 300, 200, 200 });
+  contour->SetCacheSize(2);
+  contour->SetInputData(large);
+  contour->Update();
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 3);
+  show(16);
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 3);
+  show(17);
+  show(16);
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 3);
+  EXPECT_EQ(contour->GetNumberOfCachedHierarchies(), 2);
   contour->SetCacheSize(0); // only what was used last
   show(16);
   EXPECT_EQ(contour->GetNumberOfCachedHierarchies(), 1);
   show(17);
-  EXPECT_EQ(contour->GetNumberOfBuilds(), 3);
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 4);
   EXPECT_EQ(contour->GetNumberOfCachedHierarchies(), 1);
   contour->SetValue(1, 0.1);
   contour->SetValue(2, -0.1);
   contour->Update();
-  EXPECT_EQ(contour->GetNumberOfBuilds(), 5); // those of one execution are kept together
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 6); // those of one execution are kept together
   EXPECT_EQ(contour->GetNumberOfCachedHierarchies(), 3);
   contour->SetValue(2, -0.2);
   contour->Update();
-  EXPECT_EQ(contour->GetNumberOfBuilds(), 6);
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 7);
+}
+
+// Who writes into an array may mark only the grid as modified; and a source that fills the same
+// array again marks nothing.
+TEST(Grids, ArraysThatWereWrittenIntoAreReadAgain)
+{
+  const auto image = test::BallImage({ 16, 16, 16 });
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.0);
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(image);
+  builder->SetIsovalue(0.0);
+  vtkNew<vtkIsodiamondExtractor> extractor;
+  extractor->SetInputConnection(builder->GetOutputPort());
+  extractor->SetOutputTypeToPolyData();
+  const auto expectAsNew = [&]
+  {
+    vtkNew<vtkIsodiamondContour> fresh;
+    fresh->SetInputData(image);
+    fresh->SetValue(0, 0.0);
+    fresh->Update();
+    contour->Update();
+    extractor->Update();
+    EXPECT_EQ(
+      test::SortedTriangles(contour->GetOutput()), test::SortedTriangles(fresh->GetOutput()));
+    EXPECT_EQ(extractor->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL),
+      fresh->GetOutput()->GetNumberOfCells());
+  };
+  const auto write = [&]
+  {
+    vtkDataArray* array = image->GetPointData()->GetScalars();
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    {
+      array->SetComponent(i, 0, array->GetComponent(i, 0) + 0.15);
+    }
+  };
+  expectAsNew();
+  write();
+  image->Modified();
+  expectAsNew();
+  write();
+  image->DataHasBeenGenerated();
+  contour->Modified();
+  builder->GetInputAlgorithm()->Modified(); // the executive does so where a source has run
+  expectAsNew();
+}
+
+TEST(Grids, BlocksTellTheLargestToleranceThatTheyAchieve)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, test::PhantomImage({ 24, 24, 24 }, 2.0));
+  blocks->SetBlock(1, test::BallImage({ 5, 5, 5 }));
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(blocks);
+  contour->SetValue(0, 0.0);
+  contour->SetTargetNumberOfTriangles(500);
+  contour->Update();
+  double largest = 0.0;
+  for (int i = 0; i < 2; ++i)
+  {
+    vtkNew<vtkIsodiamondContour> alone;
+    alone->SetInputData(blocks->GetBlock(i));
+    alone->SetValue(0, 0.0);
+    alone->SetTargetNumberOfTriangles(500);
+    alone->Update();
+    largest = std::max(largest, alone->GetAchievedTolerance());
+    EXPECT_EQ(i == 0, alone->GetAchievedTolerance() > 0.0);
+  }
+  EXPECT_EQ(contour->GetAchievedTolerance(), largest);
 }

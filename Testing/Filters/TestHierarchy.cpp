@@ -56,6 +56,29 @@ vtkSmartPointer<vtkUnstructuredGrid> Extract(vtkAlgorithmOutput* hierarchy, doub
 
 }
 
+// An image can have been made from a hierarchy, whose field data came along.
+TEST(Hierarchy, IsNotDisturbedByAnotherInTheFieldDataOfTheImage)
+{
+  const auto image = test::BallImage({ 17, 17, 17 });
+  vtkNew<vtkIsodiamondBuilder> other;
+  other->SetInputData(image);
+  other->SetShapeToIntervalVolume();
+  other->SetIsorange(-0.5, 0.5);
+  other->RefineInteriorOn();
+  other->ComputeNormalsOn();
+  other->Update();
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(image);
+  builder->Update();
+  const std::set<std::string> names = NamesOf(builder->GetHierarchy());
+  const vtkIdType cells = Extract(builder->GetOutputPort(), 0.0)->GetNumberOfCells();
+  image->GetFieldData()->ShallowCopy(other->GetHierarchy()->GetFieldData());
+  image->Modified();
+  builder->Update();
+  EXPECT_EQ(NamesOf(builder->GetHierarchy()), names);
+  EXPECT_EQ(Extract(builder->GetOutputPort(), 0.0)->GetNumberOfCells(), cells);
+}
+
 TEST(Hierarchy, KnowsWhatItHolds)
 {
   const auto minimal = MakeBuilder(vtkIsodiamondHierarchy::MINIMAL);

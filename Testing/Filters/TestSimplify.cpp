@@ -24,6 +24,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 
 namespace
 {
@@ -31,6 +32,21 @@ namespace
 vtkSmartPointer<vtkImageData> Image()
 {
   return test::PhantomImage({ 32, 28, 30 }, 6.0);
+}
+
+/** Values between 0 and 1. */
+vtkSmartPointer<vtkImageData> NoiseImage(int size, unsigned seed)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(size, size, size);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  std::mt19937 random(seed);
+  vtkDataArray* values = image->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    values->SetComponent(i, 0, static_cast<double>(random()) / random.max());
+  }
+  return image;
 }
 
 vtkSmartPointer<vtkIsodiamondContour> MakeContour(vtkImageData* image)
@@ -292,6 +308,30 @@ TEST(Simplify, ToleranceOfEachPlace)
   };
   EXPECT_LE(Excess(full, seen, fromView), 0.0);
   EXPECT_LE(Excess(seen, full, fromView), 0.0);
+}
+
+// What is outside may be moved far, but not into the box.
+TEST(Simplify, KeepsTheToleranceInABoxBesideAMuchLargerOne)
+{
+  constexpr double insideTolerance = 0.05;
+  double worst = -1.0;
+  for (unsigned seed = 1; seed <= 100; ++seed)
+  {
+    const auto image = NoiseImage(7, seed);
+    const auto contour = MakeContour(image);
+    contour->SetValue(0, 0.5);
+    const auto full = Update(contour);
+    contour->SetErrorTolerance(insideTolerance);
+    contour->UseRegionOfInterestOn();
+    contour->SetRegionOfInterest(-1, 1.6, -1, 7, -1, 7);
+    contour->SetOutsideErrorTolerance(5.0);
+    contour->SimplifyOn();
+    const auto simple = Update(contour);
+    const auto local = [](const double place[3])
+    { return place[0] <= 1.6 ? insideTolerance + 1e-6 : 100.0; };
+    worst = std::max({ worst, Excess(full, simple, local), Excess(simple, full, local) });
+  }
+  EXPECT_LE(worst, 0.0);
 }
 
 TEST(Simplify, SeveralIsovaluesHiddenCellsAndCaps)

@@ -20,6 +20,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkStructuredGrid.h"
 #include "vtkTetra.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -618,4 +619,29 @@ TEST(SimulationQuality, OfNothingIsEmpty)
   EXPECT_EQ(messages->ErrorCount, 0);
   EXPECT_EQ(volume->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_EQ(volume->GetSmallestDihedralAngle(), 0.0);
+}
+
+// Curvilinear grids have no smallest step.
+TEST(SimulationQuality, HasTheSameAnglesOnStructuredGrids)
+{
+  const auto image = test::PhantomImage({ 24, 24, 24 }, 10.0);
+  vtkNew<vtkStructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    points->InsertNextPoint(image->GetPoint(i));
+  }
+  grid->SetDimensions(image->GetDimensions());
+  grid->SetPoints(points);
+  grid->GetPointData()->ShallowCopy(image->GetPointData());
+  for (vtkDataSet* input : { static_cast<vtkDataSet*>(image), static_cast<vtkDataSet*>(grid) })
+  {
+    vtkNew<vtkIsodiamondIntervalVolume> volume;
+    volume->SetInputData(input);
+    volume->SetIsorange(50.0, 1000.0);
+    volume->SimulationQualityOn();
+    volume->Update();
+    EXPECT_GT(volume->GetSmallestDihedralAngle(), 15.0);
+    EXPECT_LT(volume->GetLargestDihedralAngle(), 165.0);
+  }
 }

@@ -7,7 +7,7 @@
 #include "DistanceError/ErrorMaxima.h"
 #include "DistanceError/FineSurface.h"
 #include "DistanceError/FlatPiece.h"
-#include "DistanceError/NearbyTriangles.h"
+#include "DistanceError/NearestSearch.h"
 #include "DistanceError/SlabTest.h"
 #include "DistanceError/SpineNeighbourhood.h"
 #include "Patches/ConvexPolygon.h"
@@ -52,8 +52,7 @@ public:
     , Surface(surface)
     , Fine(fine)
     , Code(code)
-    , Balls(lengths)
-    , Nearby(lengths)
+    , Nearest(fine, lengths)
     , Map(hierarchy, lengths, surface)
     , Least(lengths.TypicalStep() / 64.0)
   {
@@ -88,8 +87,6 @@ private:
   /** How often pieces of one diamond are compared with what is nearest before bounds are taken as
    *  they are. Few diamonds need so many: those with cells a million times longer than wide. */
   static constexpr int MostLooks = 500;
-  /** How many of the triangles found are kept. */
-  static constexpr int MostFound = 4;
   /** How many cells are worth gathering. */
   static constexpr std::int64_t MostCells = 1000;
 
@@ -100,9 +97,8 @@ private:
     this->Known = this->Most < HUGE_VAL ? known : std::max(known, this->Least);
     this->Bound = 0.0;
     this->Left = MostLooks;
-    this->FoundCount = 0;
     this->HasNearby = false;
-    this->Nearby.Clear();
+    this->Nearest.Clear();
     this->Hard.Clear();
     this->Neighbourhood.FindPatches(diamond, this->Surface, this->Patches);
     for (const NumberedPatch& patch : this->Patches)
@@ -273,7 +269,7 @@ private:
       return false;
     }
     const SlabTest<Lengths> test(piece.Polygon, piece.Normal, this->Known - piece.Bend,
-      this->Limit(Precision) - piece.Bend, this->Fine, this->InWorld, this->Balls);
+      this->Limit(Precision) - piece.Bend, this->Fine, this->InWorld, this->Nearest.Balls());
     return test.IsBetween() && this->IsAccepted(test.Greatest() + piece.Bend);
   }
 
@@ -321,12 +317,12 @@ private:
   bool IsNearToFound(const ConvexPolygon& piece)
   {
     const double enough = this->Known * this->Known;
-    for (int i = 0; i < std::min(this->FoundCount, MostFound); ++i)
+    for (int i = 0; i < this->Nearest.FoundCount(); ++i)
     {
       double squared = 0.0;
       for (int j = 0; j < piece.Count && squared <= enough; ++j)
       {
-        squared = std::max(squared, this->Found[i].Squared(piece.Corners[j]));
+        squared = std::max(squared, this->Nearest.Found(i).Squared(piece.Corners[j]));
       }
       if (squared <= enough)
       {
@@ -413,21 +409,6 @@ private:
     }
   }
 
-  /** About how far away other cells are. */
-  double StepAt(const Vector& point) const
-  {
-    if constexpr (Lengths::IsLinear)
-    {
-      return this->InWorld.TypicalStep();
-    }
-    else
-    {
-      const Point cell = CellsIn(this->InWorld.IndexBox(point, 0.0), this->Fine.Whole()).Low;
-      const Vector size = this->InWorld.Between(cell, cell + Point{ 1, 1, 1 });
-      return std::min({ std::abs(size[0]), std::abs(size[1]), std::abs(size[2]) });
-    }
-  }
-
   /** Gathers what is near to the patches that are still to be measured, once per diamond. */
   void GatherNearby()
   {
@@ -459,98 +440,16 @@ private:
     const CellBox cells = CellsIn(all, this->Fine.Whole());
     if (cells.Size() <= MostCells)
     {
-      this->Nearby.Gather(this->Fine, cells);
+      this->Nearest.Gather(cells);
     }
   }
 
-  /** The nearest triangle of the surface, or one that is near enough: what is known rises to its
-   *  distance. */
+  /** The nearest triangle, or one that is near enough: what is known rises to its distance. */
   NearestTriangle FindNearest(const Vector& point, double enough)
   {
-    // Those that were found are good guesses: pieces lie side by side.
-    double guess = std::numeric_limits<double>::infinity();
-    const TriangleDistance* guessed = nullptr;
-    for (int i = 0; i < std::min(this->FoundCount, MostFound); ++i)
-    {
-      const double squared = this->Found[i].Squared(point);
-      if (squared < guess)
-      {
-        guess = squared;
-        guessed = &this->Found[i];
-      }
-    }
-    NearestTriangle nearest;
-    if (guessed != nullptr)
-    {
-      nearest = { guess, *guessed };
-    }
-    const double squaredEnough = enough * enough;
-    if (nearest.Squared > squaredEnough)
-    {
-      this->Nearby.FindNearer(point, squaredEnough, nearest);
-    }
-    // Look farther and farther away, at last wherever something may be nearer than what was found.
-    CellBox done = this->Nearby.Cells();
-    double radius = 0.5 * this->StepAt(point);
-    bool isAll = false;
-    while (nearest.Squared > squaredEnough && !isAll)
-    {
-      const double found = std::sqrt(nearest.Squared);
-      isAll = found <= 2.0 * radius;
-      const CellBox box =
-        CellsIn(this->InWorld.IndexBox(point, isAll ? found : radius), this->Fine.Whole());
-      isAll = isAll || (box.Low == this->Fine.Whole().Low && box.High == this->Fine.Whole().High);
-      if (!done.Holds(box))
-      {
-        this->Fine.ForEachCell(box,
-          [&](const Point& cell, const auto& triangles)
-          {
-            if (!done.Holds(cell) && this->MayBeNearer(cell, point, nearest))
-            {
-              triangles([&](const FineSurface::Triangle& corners)
-                { this->Compare(point, corners, nearest); });
-            }
-            return nearest.Squared > squaredEnough;
-          });
-        done = box;
-      }
-      radius *= 2.0;
-    }
+    const NearestTriangle nearest = this->Nearest.Find(point, enough);
     this->Known = std::max(this->Known, std::sqrt(nearest.Squared));
-    if (nearest.Squared < guess)
-    {
-      this->Found[this->FoundCount++ % MostFound] = nearest.Triangle;
-    }
     return nearest;
-  }
-
-  bool MayBeNearer(const Point& cell, const Vector& point, const NearestTriangle& nearest) const
-  {
-    const Ball ball = this->Balls(cell);
-    const Vector to = ball.Middle - point;
-    // Whether |to| < the radius and the distance together, without roots.
-    const double beyond = Dot(to, to) - ball.Radius * ball.Radius - nearest.Squared;
-    return beyond < 0.0 || beyond * beyond < 4.0 * ball.Radius * ball.Radius * nearest.Squared;
-  }
-
-  void Compare(
-    const Vector& point, const FineSurface::Triangle& corners, NearestTriangle& nearest) const
-  {
-    const Vector a = this->InWorld(corners[0]);
-    const Vector b = this->InWorld(corners[1]);
-    const Vector c = this->InWorld(corners[2]);
-    const Vector normal = Cross(b - a, c - a);
-    const double height = Dot(point - a, normal);
-    if (height * height > nearest.Squared * Dot(normal, normal))
-    {
-      return; // even its plane is farther
-    }
-    const TriangleDistance triangle(a, b, c);
-    const double squared = triangle.Squared(point);
-    if (squared < nearest.Squared)
-    {
-      nearest = { squared, triangle };
-    }
   }
 
   /** Cuts across the longest way from one corner to another. */
@@ -579,19 +478,16 @@ private:
   int Surface;
   const FineSurface& Fine;
   ErrorCode Code;
-  CellBalls<Lengths> Balls;
-  NearbyTriangles<Lengths> Nearby; ///< to the diamond
+  NearestSearch<Lengths> Nearest;
   DomainMap<Lengths> Map;
-  double Least;           ///< what is less is no error
-  double Known = 0.0;     ///< the error is not less: the one so far, or a distance found
-  double Bound = 0.0;     ///< nothing that was looked at is farther
-  double Most = HUGE_VAL; ///< what is farther need not be measured
-  int Left = 0;           ///< how many more looks are worth it
-  int FoundCount = 0;
-  std::array<TriangleDistance, MostFound> Found; ///< the last ones, of the diamond
-  bool HasNearby = false;                        ///< of the diamond
-  NumberedPatches Patches;                       ///< of the diamond
-  NumberedPatches Hard;                          ///< those that are still to be measured
+  double Least;            ///< what is less is no error
+  double Known = 0.0;      ///< the error is not less: the one so far, or a distance found
+  double Bound = 0.0;      ///< nothing that was looked at is farther
+  double Most = HUGE_VAL;  ///< what is farther need not be measured
+  int Left = 0;            ///< how many more looks are worth it
+  bool HasNearby = false;  ///< whether what is near to the diamond has been gathered
+  NumberedPatches Patches; ///< of the diamond
+  NumberedPatches Hard;    ///< those that are still to be measured
   std::vector<ConvexPolygon> Pieces;
   std::vector<Vector> Seen; ///< corners of pieces that were looked at
 };

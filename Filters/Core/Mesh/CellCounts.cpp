@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <functional>
 #include <mutex>
-#include <numeric>
 
 namespace isodiamond
 {
@@ -96,25 +95,34 @@ std::int64_t CountCells(const RefinedSet& refined, const ParallelFor& parallelFo
 CellCounts::CellCounts(
   const IsodiamondHierarchy& hierarchy, const ParallelFor& parallelFor, double interiorTolerance)
   : Code(hierarchy.Codes())
-  , Counts(ErrorCode::Always + 1)
 {
-  const RefinedSet all(hierarchy, Query{ 0.0, 0.0 }, parallelFor);
-  const std::vector<BrickPlace> bricks = AllBricks(all.Diamonds());
+  Changes all(ErrorCode::Always + 1);
+  const RefinedSet refined(hierarchy, Query{ 0.0, 0.0 }, parallelFor);
+  const std::vector<BrickPlace> bricks = AllBricks(refined.Diamonds());
   const BrickCounter counter(hierarchy, interiorTolerance);
   std::mutex mutex;
   parallelFor(static_cast<std::int64_t>(bricks.size()), 256,
     [&](std::int64_t begin, std::int64_t end)
     {
-      Changes changes(this->Counts.size());
+      Changes changes(all.size());
       for (std::int64_t i = begin; i < end; ++i)
       {
-        counter.Add(RefinedBrick(all, bricks[i]), changes);
+        counter.Add(RefinedBrick(refined, bricks[i]), changes);
       }
       const std::lock_guard<std::mutex> lock(mutex);
-      std::transform(
-        changes.begin(), changes.end(), this->Counts.begin(), this->Counts.begin(), std::plus<>());
+      std::transform(changes.begin(), changes.end(), all.begin(), all.begin(), std::plus<>());
     });
-  std::partial_sum(this->Counts.begin(), this->Counts.end(), this->Counts.begin());
+  // Most codes change nothing; a filter may keep the counts of thousands of small hierarchies.
+  std::int64_t cells = 0;
+  for (int code = 0; code <= ErrorCode::Always; ++code)
+  {
+    cells += all[code];
+    if (all[code] != 0)
+    {
+      this->Counts.push_back({ code, cells });
+    }
+  }
+  this->Counts.shrink_to_fit();
 }
 
 }

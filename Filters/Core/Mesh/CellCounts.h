@@ -4,8 +4,10 @@
 
 #include "Refinement/RefinedSet.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace isodiamond
@@ -30,14 +32,33 @@ public:
     double interiorTolerance = HUGE_VAL);
 
   /** The number of cells at a tolerance, including those in hidden cells of the grid. */
-  std::int64_t At(double tolerance) const { return this->Counts[this->Code.Accepted(tolerance)]; }
+  std::int64_t At(double tolerance) const
+  {
+    const auto after =
+      std::upper_bound(this->Counts.begin(), this->Counts.end(), this->Code.Accepted(tolerance),
+        [](int code, const CountFrom& count) { return code < count.Code; });
+    return after != this->Counts.begin() ? std::prev(after)->Cells : 0;
+  }
 
   /** The codes of the tolerances; the number may change from one to the next. */
   const ErrorCode& Codes() const { return this->Code; }
 
+  /** The memory that this takes. */
+  std::int64_t Bytes() const
+  {
+    return static_cast<std::int64_t>(this->Counts.capacity() * sizeof(CountFrom));
+  }
+
 private:
+  /** The number of cells from an accepted code on, up to the next one. */
+  struct CountFrom
+  {
+    int Code;
+    std::int64_t Cells;
+  };
+
   ErrorCode Code;
-  std::vector<std::int64_t> Counts; ///< by accepted code
+  std::vector<CountFrom> Counts; ///< ascending; before the first one there are no cells
 };
 
 }

@@ -77,9 +77,11 @@ public:
   }
 
 private:
+  /** In the region of interest, or everywhere if there is none: no more than outside. */
   Tolerances Inside() const
   {
-    return { this->TheQuery.Tolerance, this->TheQuery.InteriorTolerance };
+    const double most = this->TheQuery.Region ? this->TheQuery.OutsideTolerance : HUGE_VAL;
+    return { std::min(this->TheQuery.Tolerance, most), this->TheQuery.InteriorTolerance };
   }
   Tolerances Outside() const { return { this->TheQuery.OutsideTolerance, HUGE_VAL }; }
 

@@ -53,7 +53,20 @@ unsigned SidesBeyond(const Box& box, const Vector& point)
 
 Box IndexBoxOf(const Box& box, const GridGeometry& world)
 {
-  const std::array<int, 3> size = world.Dimensions();
+  const int padding = world.Padding();
+  const Point inside = Point(world.Dimensions());
+  const Point size = inside + 2 * padding * Point{ 1, 1, 1 };
+  const auto positionOf = [&](const Point& padded)
+  {
+    const Point sample = padded + -padding * Point{ 1, 1, 1 };
+    bool isThere = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      isThere = isThere && sample[axis] >= 0 && sample[axis] < inside[axis];
+    }
+    return isThere ? world.SampleAt(sample)
+                   : world(Vector{ 1.0 * padded[0], 1.0 * padded[1], 1.0 * padded[2] });
+  };
   const auto row = static_cast<std::size_t>(size[0]);
   const auto slice = row * size[1];
   std::vector<unsigned> sides(2 * slice); // of two slices in turn
@@ -66,8 +79,9 @@ Box IndexBoxOf(const Box& box, const GridGeometry& world)
     {
       for (int x = 0; x < size[0]; ++x)
       {
+        const Point end = { x, y, z };
         const std::size_t i = y * row + x;
-        above[i] = SidesBeyond(box, world.SampleAt({ x, y, z }));
+        above[i] = SidesBeyond(box, positionOf(end));
         // The cell that ends here.
         if (x == 0 || y == 0 || z == 0 ||
           (above[i] & above[i - 1] & above[i - row] & above[i - row - 1] & below[i] & below[i - 1] &
@@ -75,14 +89,10 @@ Box IndexBoxOf(const Box& box, const GridGeometry& world)
         {
           continue;
         }
-        const Point end = { x, y, z };
         for (int axis = 0; axis < 3; ++axis)
         {
-          // Padding belongs to the cells at the ends.
-          const int first = end[axis] == 1 ? 0 : end[axis] - 1 + world.Padding();
-          const int last = end[axis] + (end[axis] == size[axis] - 1 ? 2 : 1) * world.Padding();
-          result.Minimum[axis] = std::min(result.Minimum[axis], 1.0 * first);
-          result.Maximum[axis] = std::max(result.Maximum[axis], 1.0 * last);
+          result.Minimum[axis] = std::min(result.Minimum[axis], end[axis] - 1.0);
+          result.Maximum[axis] = std::max(result.Maximum[axis], 1.0 * end[axis]);
         }
       }
     }

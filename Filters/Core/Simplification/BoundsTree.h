@@ -28,10 +28,13 @@ struct Bounds
       this->High[axis] = std::max(this->High[axis], point[axis]);
     }
   }
-  void Add(const Bounds& other)
+  void Add(const Bounds& other) // may be empty
   {
-    this->Add(other.Low);
-    this->Add(other.High);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Low[axis] = std::min(this->Low[axis], other.Low[axis]);
+      this->High[axis] = std::max(this->High[axis], other.High[axis]);
+    }
   }
   /** The axis along which it is longest. */
   std::size_t LongestAxis() const

@@ -15,6 +15,12 @@ constexpr double SlackPart = 1e-9;
 /** The least cosine of a direction with a triangle's normal. */
 constexpr double LeastUp = 0.3;
 
+/** Lengths of grids are far from what std::hypot() cares for, and takes its time for. */
+double LengthOf(double x, double y)
+{
+  return std::sqrt(x * x + y * y);
+}
+
 }
 
 ShadowTest::ShadowTest(const std::vector<Vector>& positions, const LinkedTriangles& mesh,
@@ -48,7 +54,7 @@ bool ShadowTest::Reset(const std::array<Vector, 3>& corners, const Vector& direc
   {
     const Place& from = this->Corners[k];
     const Place& to = this->Corners[(k + 1) % 3];
-    const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+    const double length = LengthOf(to[0] - from[0], to[1] - from[1]);
     this->Inward[k] = { (from[1] - to[1]) / length, (to[0] - from[0]) / length };
     longest = std::max(longest, length);
     area += from[0] * to[1] - from[1] * to[0];
@@ -92,7 +98,7 @@ bool ShadowTest::Enters(const Shadow& a, const Shadow& b) const
   }
   // Otherwise the edge's own line separates them, or nothing does.
   const Place along = { b.At[0] - a.At[0], b.At[1] - a.At[1] };
-  const double slack = this->Slack * std::hypot(along[0], along[1]);
+  const double slack = this->Slack * LengthOf(along[0], along[1]);
   bool anyLeft = false;
   bool anyRight = false;
   for (const Place& corner : this->Corners)

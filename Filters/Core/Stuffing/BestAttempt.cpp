@@ -16,6 +16,9 @@ namespace
 /** This many tetrahedra are worth a thread. */
 constexpr std::int64_t TetrahedraOfThread = 2048;
 
+/** How often what is held is released in part. */
+constexpr int MostReleases = 3;
+
 }
 
 BestAttempt::BestAttempt(const Background& background, const TetrahedronMesh& start,
@@ -24,34 +27,49 @@ BestAttempt::BestAttempt(const Background& background, const TetrahedronMesh& st
   : Leaves(background)
   , Start(start)
   , Options(options)
+  , HeldAt(options.CutEdges.size(), Holds::None)
   , Measured(measured)
   , ForAll(parallelFor)
   , Known(known)
 {
+  this->MostMoves.reserve(options.CutEdges.size());
+  for (const CutSide& edge : options.CutEdges)
+  {
+    this->MostMoves.push_back(edge.MostMove);
+  }
 }
 
 BestAttempt::Attempt BestAttempt::Find()
 {
-  Attempt free = this->Try();
-  if (!free.FarLeaves.empty() || !this->HoldIntersecting(free.Mesh))
+  Attempt best = this->Try();
+  bool isToTry = best.FarLeaves.empty() && this->HoldIntersecting(best);
+  for (int releases = 0; isToTry;)
   {
-    return free;
+    Attempt held = this->Try();
+    if (!held.FarLeaves.empty())
+    {
+      return held;
+    }
+    isToTry = this->HoldIntersecting(held);
+    if (!isToTry && best.Bad < held.Bad && releases < MostReleases)
+    {
+      ++releases;
+      isToTry = this->ReleaseAroundBad(held.Mesh);
+    }
+    if (held.IsBetterThan(best))
+    {
+      best = std::move(held);
+    }
   }
-  Attempt held;
-  do
-  {
-    held = this->Try();
-  } while (held.FarLeaves.empty() && this->HoldIntersecting(held.Mesh));
-  const bool isWorse =
-    held.FarLeaves.empty() && this->CountBad(held.Mesh) > this->CountBad(free.Mesh);
-  return isWorse ? std::move(free) : std::move(held);
+  return best;
 }
 
 /** Improves the mesh. Detours are long: they wait until nothing needs a finer mesh. */
 BestAttempt::Attempt BestAttempt::Try()
 {
   Attempt attempt{ Improve(this->Start, this->Options, this->ForAll, this->Known), {} };
-  if (this->CountBad(attempt.Mesh) > 0)
+  attempt.Bad = this->CountBad(attempt.Mesh);
+  if (attempt.Bad > 0)
   {
     if (this->Measured != nullptr)
     {
@@ -60,6 +78,7 @@ BestAttempt::Attempt BestAttempt::Try()
     if (attempt.FarLeaves.empty())
     {
       attempt.Mesh = TakeDetours(std::move(attempt.Mesh), this->Options, this->ForAll);
+      attempt.Bad = this->CountBad(attempt.Mesh);
     }
   }
   return attempt;
@@ -81,27 +100,67 @@ std::size_t BestAttempt::CountBad(const TetrahedronMesh& mesh) const
   return count;
 }
 
-/** Holds surfaces where they intersect. @return whether that is new for some of them */
-bool BestAttempt::HoldIntersecting(const TetrahedronMesh& mesh)
+/** Calls visit(point) for all points where surfaces cross edges at the corners of a leaf. */
+template <typename Visit>
+void BestAttempt::ForEachCrossingAround(std::uint32_t leaf, Visit&& visit) const
 {
-  const Surfaces surfaces = SurfacesOf(mesh);
+  for (const std::uint32_t vertex : this->Leaves.CornersOf(leaf))
+  {
+    for (const std::uint32_t point : this->Leaves.CrossingsAt(vertex))
+    {
+      visit(point);
+    }
+  }
+}
+
+/** Counts intersections, and holds surfaces there. @return whether that is new for some of them */
+bool BestAttempt::HoldIntersecting(Attempt& attempt)
+{
+  const Surfaces surfaces = SurfacesOf(attempt.Mesh);
+  const std::vector<IntersectingPair> pairs =
+    IntersectionsOf(attempt.Mesh.Positions, surfaces.Triangles, this->ForAll);
+  attempt.Intersections = pairs.size();
   bool isNew = false;
   const auto holdAround = [&](std::uint32_t triangle)
   {
-    for (const std::uint32_t vertex : this->Leaves.CornersOf(surfaces.Origins[triangle]))
-    {
-      for (const std::uint32_t point : this->Leaves.CrossingsAt(vertex))
+    this->ForEachCrossingAround(surfaces.Origins[triangle],
+      [&](std::uint32_t point)
       {
-        isNew = std::exchange(this->Options.CutEdges[point].MostMove, 0.0) > 0.0 || isNew;
-      }
-    }
+        if (this->HeldAt[point] == Holds::None)
+        {
+          this->HeldAt[point] = Holds::Held;
+          isNew = std::exchange(this->Options.CutEdges[point].MostMove, 0.0) > 0.0 || isNew;
+        }
+      });
   };
-  for (const auto& [a, b] : IntersectionsOf(mesh.Positions, surfaces.Triangles, this->ForAll))
+  for (const auto& [a, b] : pairs)
   {
     holdAround(a);
     holdAround(b);
   }
   return isNew;
+}
+
+/** Releases what is held around tetrahedra whose angles are not as wanted. @return whether there is
+ *  any */
+bool BestAttempt::ReleaseAroundBad(const TetrahedronMesh& mesh)
+{
+  const double wanted = WantedSine(this->Options);
+  bool isAny = false;
+  for (std::size_t i = 0; i < mesh.Tetrahedra.size(); ++i)
+  {
+    if (SmallestSine(mesh, mesh.Tetrahedra[i]) < wanted)
+    {
+      this->ForEachCrossingAround(mesh.Origins[i],
+        [&](std::uint32_t point)
+        {
+          isAny = isAny || this->HeldAt[point] == Holds::Held;
+          this->HeldAt[point] = Holds::Released;
+          this->Options.CutEdges[point].MostMove = this->MostMoves[point];
+        });
+    }
+  }
+  return isAny;
 }
 
 }

@@ -8,6 +8,9 @@
 #include "Stuffing/Improvement.h"
 #include "Stuffing/KnownChanges.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace isodiamond
@@ -18,9 +21,11 @@ namespace isodiamond
  *
  * As cut, surfaces never intersect; but improvement moves them, and where sheets are near to each
  * other they may get through each other. So where they do, surfaces are held: they stay as cut in
- * the leaves there and all around these, and everything is improved again. What that leaves is
- * taken unless more of its angles are bad: in white noise, there is often no room for both, and
- * angles come first.
+ * the leaves there and all around these, and everything is improved again. Angles come first: if
+ * more of them are bad then, what is held near these is released for good, and everything is
+ * improved once more. Of all these attempts the one with the fewest bad angles is taken, and of
+ * several such the one with the fewest intersections: in white noise there is often no room for
+ * both.
  */
 class BestAttempt
 {
@@ -40,17 +45,39 @@ public:
     /** The leaves where it is too far away, if that was found out (Coarsening.h): then the mesh is
      *  not finished. */
     std::vector<std::uint32_t> FarLeaves;
+    ///@{
+    /** If there are none of these: how many are left. */
+    std::size_t Bad = 0;           ///< tetrahedra whose angles are not as wanted
+    std::size_t Intersections = 0; ///< pairs of a surface's triangles
+
+    bool IsBetterThan(const Attempt& other) const
+    {
+      return std::tie(this->Bad, this->Intersections) < std::tie(other.Bad, other.Intersections);
+    }
+    ///@}
   };
   Attempt Find();
 
 private:
+  enum class Holds : char
+  {
+    None,
+    Held,
+    Released ///< must not be held again
+  };
+
   Attempt Try();
   std::size_t CountBad(const TetrahedronMesh& mesh) const;
-  bool HoldIntersecting(const TetrahedronMesh& mesh);
+  bool HoldIntersecting(Attempt& attempt);
+  bool ReleaseAroundBad(const TetrahedronMesh& mesh);
+  template <typename Visit>
+  void ForEachCrossingAround(std::uint32_t leaf, Visit&& visit) const;
 
   const Background& Leaves;
   const TetrahedronMesh& Start;
   ImprovementOptions Options;
+  std::vector<double> MostMoves; ///< by point: where it is not held
+  std::vector<Holds> HeldAt;     ///< by point
   const CoarseningInput* Measured;
   const ParallelFor& ForAll;
   KnownChanges* Known;

@@ -98,8 +98,8 @@ bool HasAxes(const GridGeometry& world)
   return world.Affine() != nullptr || world.Axes() != nullptr;
 }
 
-/** The cut edges of isovertices, by point. */
-std::vector<CutSide> CutEdgesOf(const Background& background, bool inIndexSpace)
+/** The cut edges of isovertices, by point. @param mostOfEdge see SurfaceMoveOfEdge */
+std::vector<CutSide> CutEdgesOf(const Background& background, bool inIndexSpace, double mostOfEdge)
 {
   const auto placeOf = [&](std::uint32_t vertex) -> Vector
   {
@@ -117,9 +117,10 @@ std::vector<CutSide> CutEdgesOf(const Background& background, bool inIndexSpace)
       const bool isRising = vertices[younger].Sign < vertices[older].Sign;
       const bool isOlderInside = isRising == (crossing.Surface == 0);
       const Vector way = background.PositionOf(older) - background.PositionOf(younger);
+      const double length = std::sqrt(Dot(way, way));
+      const double most = std::max(background.MostMoveOf(younger), background.MostMoveOf(older));
       edges[point] = { placeOf(isOlderInside ? older : younger),
-        placeOf(isOlderInside ? younger : older), std::sqrt(Dot(way, way)),
-        std::max(background.MostMoveOf(younger), background.MostMoveOf(older)) };
+        placeOf(isOlderInside ? younger : older), length, std::min(most, mostOfEdge * length) };
     }
   }
   return edges;
@@ -214,19 +215,20 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   options.SurfaceMove = input.SurfaceMove;
   options.Axes = AxesOf(input.World);
   options.World = HasAxes(input.World) ? &input.World : nullptr;
-  options.CutEdges = CutEdgesOf(background, options.World != nullptr);
+  options.CutEdges = CutEdgesOf(background, options.World != nullptr, input.SurfaceMoveOfEdge);
   const std::vector<bool> canBeNearer = CanBeNearer(input);
   CoarseningInput coarsening{ meshes.Plain, input.Allowances, canBeNearer, input.KeepsInside };
   coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
   coarsening.Axes = options.Axes;
-  auto [mesh, far] = BestAttempt(
-    background, meshes.Stuffed, options, getsCoarser ? &coarsening : nullptr, parallelFor, known)
-                       .Find();
+  BestAttempt attempts(
+    background, meshes.Stuffed, options, getsCoarser ? &coarsening : nullptr, parallelFor, known);
+  BestAttempt::Attempt best = attempts.Find();
+  std::vector<std::uint32_t> far = std::move(best.FarLeaves);
   if (getsCoarser && far.empty())
   {
-    far = Coarsen(mesh, coarsening, parallelFor);
+    far = Coarsen(best.Mesh, coarsening, parallelFor);
   }
-  StuffedMesh result{ std::move(mesh), {}, {} };
+  StuffedMesh result{ std::move(best.Mesh), {}, {} };
   for (const std::uint32_t leaf : far)
   {
     (input.CanBeFiner[leaf] ? result.FarLeaves : result.TightLeaves).push_back(leaf);

@@ -9,6 +9,7 @@
 #include "Stuffing/KnownChanges.h"
 #include "Stuffing/TetrahedronMesh.h"
 
+#include <cmath>
 #include <optional>
 
 namespace isodiamond
@@ -22,7 +23,12 @@ struct StuffingInput
   const std::vector<Vector>& Points;   ///< of the interval volume's mesh, in the world
   const GridGeometry& World;
   const Grid& SampleGrid;
-  double SurfaceMove = 0.0; ///< see ImprovementOptions
+  ///@{
+  /** How far a surface may get from where it was, in one change: see ImprovementOptions; and as a
+   *  part of the edge that it cuts, for grids that have no smallest step. */
+  double SurfaceMove = 0.0;
+  double SurfaceMoveOfEdge = HUGE_VAL;
+  ///@}
   ///@{
   /** See CoarseningInput; without allowances nothing is measured or coarsened. */
   std::vector<double> Allowances = {};
