@@ -33,6 +33,7 @@ int vtkSMRoundArrayRangeDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPV
 {
   this->Parts = RoundDefaults::ReadParts(element);
   this->FieldArray = element->GetAttributeOrEmpty("field_array");
+  this->RangeArray = element->GetAttributeOrEmpty("range_array");
   return this->Superclass::ReadXMLAttributes(property, element);
 }
 
@@ -44,8 +45,11 @@ void vtkSMRoundArrayRangeDomain::Update(vtkSMProperty* requestingProperty)
   vtkSMProperty* array = this->GetRequiredProperty("ArraySelection");
   const bool isInfinite = this->GetMinimumExists(0) &&
     !(std::isfinite(this->GetMinimum(0)) && std::isfinite(this->GetMaximum(0)));
-  vtkPVArrayInformation* values =
-    isInfinite && input && array ? SelectedArray(input, array) : nullptr;
+  vtkPVArrayInformation* values = this->FieldData(this->RangeArray);
+  if (!values && isInfinite && input && array)
+  {
+    values = SelectedArray(input, array);
+  }
   if (values)
   {
     const double* range = values->GetComponentFiniteRange(0);
@@ -64,12 +68,17 @@ int vtkSMRoundArrayRangeDomain::SetDefaultValues(vtkSMProperty* property, bool u
 }
 
 //------------------------------------------------------------------------------
-bool vtkSMRoundArrayRangeDomain::SetToFieldArray(vtkSMProperty* property, bool useUncheckedValues)
+vtkPVArrayInformation* vtkSMRoundArrayRangeDomain::FieldData(const std::string& name)
 {
   vtkPVDataInformation* input = this->GetInputDataInformation("Input");
-  vtkPVArrayInformation* array = input && !this->FieldArray.empty()
-    ? input->GetArrayInformation(this->FieldArray.c_str(), vtkDataObject::FIELD)
-    : nullptr;
+  return input && !name.empty() ? input->GetArrayInformation(name.c_str(), vtkDataObject::FIELD)
+                                : nullptr;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMRoundArrayRangeDomain::SetToFieldArray(vtkSMProperty* property, bool useUncheckedValues)
+{
+  vtkPVArrayInformation* array = this->FieldData(this->FieldArray);
   if (!array)
   {
     return false;

@@ -6,7 +6,8 @@
  * As its base class, but the default of element i is about `default_parts[i]` of the way from the
  * minimum to the maximum, and a number that a person would type. Values that are not finite are not
  * in the range. If the input has field data of the name `field_array`, a hierarchy's own isovalue
- * for instance, the default is what that holds.
+ * for instance, the default is what that holds; of the name `range_array`, the samples of a
+ * hierarchy of diamonds, the range is that of their values.
  */
 
 #ifndef vtkSMRoundArrayRangeDomain_h
@@ -15,8 +16,10 @@
 #include "vtkIsodiamondServerManagerModule.h" // for export macro
 #include "vtkSMArrayRangeDomain.h"
 
-#include <string> // for the name
+#include <string> // for names
 #include <vector> // for the parts
+
+class vtkPVArrayInformation;
 
 class VTKISODIAMONDSERVERMANAGER_EXPORT vtkSMRoundArrayRangeDomain : public vtkSMArrayRangeDomain
 {
@@ -38,10 +41,13 @@ private:
   vtkSMRoundArrayRangeDomain(const vtkSMRoundArrayRangeDomain&) = delete;
   void operator=(const vtkSMRoundArrayRangeDomain&) = delete;
 
+  /** Field data of the input; null if there are none. */
+  vtkPVArrayInformation* FieldData(const std::string& name);
   bool SetToFieldArray(vtkSMProperty* property, bool useUncheckedValues);
 
   std::vector<double> Parts;
   std::string FieldArray;
+  std::string RangeArray;
 };
 
 #endif

@@ -310,6 +310,9 @@ extract.UpdatePipeline()
 assert extract.GetDataInformation().GetNumberOfCells() == full
 extract = IsodiamondExtract(diamonds)  # the hierarchy's values are known now
 assert extract.Isovalue == 160 and list(extract.Isorange) == [120, 200]
+for name in ("Isovalue", "Isorange"):  # sliders over the range of the samples
+    domain = extract.GetProperty(name).GetDomain("own")
+    assert (domain.GetMinimum(0), domain.GetMaximum(0)) == wavelet.PointData[0].GetRange(0), name
 extract.UseIsovalue = 1
 extract.UpdatePipeline()
 assert extract.GetDataInformation().GetNumberOfCells() == full

@@ -73,7 +73,31 @@ public:
     {
       this->Nearby.FindNearer(point, squaredEnough, nearest);
     }
-    // Look farther and farther away, at last wherever something may be nearer than what was found.
+    if (nearest.Squared > squaredEnough)
+    {
+      this->LookFarther(point, squaredEnough, nearest);
+    }
+    if (nearest.Squared < guess)
+    {
+      this->Last[this->Count++ % MostFound] = nearest.Triangle;
+    }
+    return nearest;
+  }
+
+  ///@{
+  /** The triangles found last, in no order. */
+  int FoundCount() const { return std::min(this->Count, MostFound); }
+  const TriangleDistance& Found(int i) const { return this->Last[i]; }
+  ///@}
+
+private:
+  /** How many of the triangles found are kept. */
+  static constexpr int MostFound = 4;
+
+  /** Looks farther and farther away, at last wherever something may be nearer than what was found.
+   */
+  void LookFarther(const Vector& point, double squaredEnough, NearestTriangle& nearest) const
+  {
     CellBox done = this->Nearby.Cells();
     double radius = 0.5 * this->StepAt(point);
     bool isAll = false;
@@ -100,22 +124,7 @@ public:
       }
       radius *= 2.0;
     }
-    if (nearest.Squared < guess)
-    {
-      this->Last[this->Count++ % MostFound] = nearest.Triangle;
-    }
-    return nearest;
   }
-
-  ///@{
-  /** The triangles found last, in no order. */
-  int FoundCount() const { return std::min(this->Count, MostFound); }
-  const TriangleDistance& Found(int i) const { return this->Last[i]; }
-  ///@}
-
-private:
-  /** How many of the triangles found are kept. */
-  static constexpr int MostFound = 4;
 
   /** About how far away other cells are. */
   double StepAt(const Vector& point) const
