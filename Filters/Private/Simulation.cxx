@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace vtkIsodiamond
@@ -66,11 +67,27 @@ bool Release(
   return pinned.size() < before;
 }
 
+/** Where tetrahedra have no volume or are nowhere, improving them would take long, for nothing.
+ *  @throws std::invalid_argument */
+void CheckVolumes(const isodiamond::GridGeometry& world)
+{
+  const isodiamond::AffineMap* map = world.Affine();
+  const bool isFine = map == nullptr ||
+    (std::isnormal(map->Determinant()) &&
+      std::isfinite(map->At(0, 0, 0, 0) + map->At(1, 0, 0, 0) + map->At(2, 0, 0, 0)));
+  if (!isFine)
+  {
+    throw std::invalid_argument(
+      "SimulationQuality needs a finite origin, and a finite spacing other than 0.");
+  }
+}
+
 }
 
 Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuery& query,
   const MeshOptions& options, Task& task)
 {
+  CheckVolumes(options.World);
   const isodiamond::IsodiamondHierarchy& hierarchy = refined.Hierarchy();
   const Measure measure(hierarchy);
   MeshOptions asked = options;

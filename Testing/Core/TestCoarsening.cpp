@@ -196,7 +196,6 @@ TEST(Coarsening, SavesMostOfSmoothSurfaces)
   }
 }
 
-// Two surfaces that may move farther than they are apart: gained and lost volume has to balance.
 // Sheets in noise are less than what is allowed apart.
 TEST(Coarsening, LetsNoSheetsThroughEachOther)
 {
@@ -216,6 +215,7 @@ TEST(Coarsening, LetsNoSheetsThroughEachOther)
   EXPECT_GT(seen, 3);
 }
 
+// Two surfaces that may move farther than they are apart: gained and lost volume has to balance.
 TEST(Coarsening, KeepsTheVolumeOfWhatIsThin)
 {
   const test::Stuffed stuffed = Gyroid(0.3, { -0.2, 0.2 });

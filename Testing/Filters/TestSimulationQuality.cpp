@@ -621,6 +621,25 @@ TEST(SimulationQuality, OfNothingIsEmpty)
   EXPECT_EQ(volume->GetSmallestDihedralAngle(), 0.0);
 }
 
+TEST(SimulationQuality, NeedsAWorldWithVolumes)
+{
+  const auto image = test::BallImage({ 9, 9, 9 });
+  const auto volume = Ball(image, 0.0);
+  const auto messages = test::Watch(volume);
+  int refused = 0;
+  for (const double wrong : { HUGE_VAL, 1e308, 0.0, 1.0 })
+  {
+    image->SetSpacing(1.0, wrong, wrong);
+    volume->Update();
+    refused += wrong != 1.0 ? 1 : 0;
+    EXPECT_EQ(messages->ErrorCount, refused) << wrong;
+    EXPECT_EQ(volume->GetOutput()->GetNumberOfCells() > 0, wrong == 1.0);
+  }
+  image->SetOrigin(0.0, HUGE_VAL, 0.0);
+  volume->Update();
+  EXPECT_EQ(messages->ErrorCount, refused + 1);
+}
+
 // Curvilinear grids have no smallest step.
 TEST(SimulationQuality, HasTheSameAnglesOnStructuredGrids)
 {

@@ -14,8 +14,8 @@ namespace isodiamond
  * have in common. Exact (Orientation.h); true of those with the same three corners.
  *
  * @param a,b corners of triangles. If one has no area it is its edges, and may be said to touch the
- *        other one if a common corner lies between its other corners, or a common edge is all of
- *        it; if neither has, only what they have in common counts
+ *        other one if a common corner lies between its other corners, or if they have an edge in
+ *        common; if neither has, only what they have in common counts
  */
 bool Intersect(const std::vector<Vector>& positions, const Triangle& a, const Triangle& b);
 
