@@ -14,6 +14,22 @@
 
 using namespace isodiamond;
 
+namespace
+{
+
+/** A square of two triangles, and three points far away. */
+AllowedMesh SquareAndPoints()
+{
+  AllowedMesh square;
+  square.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 5, 5, 5 },
+    { 6, 5, 5 }, { 5, 6, 5 } };
+  square.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  square.Allowances = { 0.2, 0.2 };
+  return square;
+}
+
+}
+
 // A square above another one, farther away than allowed, but said to be near at the start: that is
 // believed of triangles that are as they were, and of no others.
 TEST(PartDistance, BelievesTheStartOnly)
@@ -50,11 +66,7 @@ TEST(PartDistance, BelievesTheStartOnly)
 // If the start is not known to be near, nothing is believed of it, though nothing has changed.
 TEST(PartDistance, FindsWhatIsFarFromTheStart)
 {
-  AllowedMesh square;
-  square.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 5, 5, 5 },
-    { 6, 5, 5 }, { 5, 6, 5 } };
-  square.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  square.Allowances = { 0.2, 0.2 };
+  const AllowedMesh square = SquareAndPoints();
   MeshPart part = test::WholePart(square);
   part.Simple = Connectivity(7, { { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 } }).Linked();
   PartDistance distance(part);
@@ -67,17 +79,14 @@ TEST(PartDistance, FindsWhatIsFarFromTheStart)
 // Each triangle is where it was, but faces the other way.
 TEST(PartDistance, FindsWhatIsTurnedOver)
 {
-  AllowedMesh square;
-  square.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
-  square.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  square.Allowances = { 0.2, 0.2 };
+  const AllowedMesh square = SquareAndPoints();
   for (const bool isTurned : { false, true })
   {
     MeshPart part = test::WholePart(square);
     const std::vector<Triangle> simple =
       isTurned ? std::vector<Triangle>{ { 0, 2, 1 }, { 0, 3, 2 } } : square.Mesh.Triangles;
     PartDistance distance(part);
-    const PartDistance::Faults faults = distance.Find(Connectivity(4, simple).Linked(),
+    const PartDistance::Faults faults = distance.Find(Connectivity(7, simple).Linked(),
       std::vector<std::uint32_t>(part.Samples.size(), None), { true, true });
     EXPECT_EQ(faults.Triangles,
       isTurned ? std::vector<std::uint32_t>({ 0, 1 }) : std::vector<std::uint32_t>());
@@ -88,11 +97,7 @@ TEST(PartDistance, FindsWhatIsTurnedOver)
 // and has changed since.
 TEST(PartDistance, TellsOfWhatIsNotAsAtTheStart)
 {
-  AllowedMesh square;
-  square.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 5, 5, 5 },
-    { 6, 5, 5 }, { 5, 6, 5 } };
-  square.Mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  square.Allowances = { 0.2, 0.2 };
+  const AllowedMesh square = SquareAndPoints();
   MeshPart part = test::WholePart(square);
   part.Simple = part.Original;
   for (std::uint32_t i = 0; i < 2; ++i)
