@@ -323,7 +323,7 @@ void Mesh::Give(vtkUnstructuredGrid* output, bool isVolume) const
 
 Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& options, Task& task)
 {
-  task.Begin("Extracting the mesh", 0.0, 1.0);
+  task.Begin(options.ForSimulation ? "Improving tetrahedra" : "Extracting the mesh", 0.0, 1.0);
   Mesh mesh;
   if (refined.Hierarchy().Region().IsVolume())
   {

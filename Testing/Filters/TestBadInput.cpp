@@ -15,6 +15,7 @@
 #include "vtkIsodiamondHierarchy.h"
 #include "vtkIsodiamondIntervalVolume.h"
 #include "vtkIsodiamondPoints.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -229,6 +230,16 @@ TEST(BadInput, NeverHarmsWhoAsksForTheRangeOfTolerances)
   EXPECT_DOUBLE_EQ(inSlabs->GetErrorToleranceRange()[1], 2.0);
   inSlabs->RemoveAllInputConnections(0);
   EXPECT_EQ(inSlabs->GetErrorToleranceRange()[1], 1.0);
+  // A block without points has no part in it.
+  const auto small = test::BallImage({ 5, 5, 5 });
+  contour->SetInputData(small);
+  const double range = contour->GetErrorToleranceRange()[1];
+  EXPECT_LT(range, 1.0);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, small);
+  blocks->SetBlock(1, vtkNew<vtkImageData>());
+  contour->SetInputData(blocks);
+  EXPECT_EQ(contour->GetErrorToleranceRange()[1], range);
 }
 
 TEST(BadInput, NoInputAtAll)
