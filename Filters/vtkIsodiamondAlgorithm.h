@@ -56,7 +56,8 @@ public:
   ///@}
 
   /** The tolerance of the last mesh: ErrorTolerance, or the one that TargetNumberOfTriangles led
-   *  to, which is then in the mesh's field data, too. 0 before the first one and after an error. */
+   *  to, which is then in the mesh's field data, too; of several blocks, the largest. 0 before the
+   *  first one and after an error. */
   vtkGetMacro(AchievedTolerance, double);
 
   ///@{

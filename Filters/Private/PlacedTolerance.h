@@ -53,9 +53,8 @@ public:
 
 private:
   /** The distance between two boxes. */
-  template <typename Corner>
   static double Between(const isodiamond::Vector& low, const isodiamond::Vector& high,
-    const Corner& otherLow, const Corner& otherHigh)
+    const isodiamond::Vector& otherLow, const isodiamond::Vector& otherHigh)
   {
     double squared = 0.0;
     for (int axis = 0; axis < 3; ++axis)

@@ -18,6 +18,44 @@
 
 using namespace isodiamond;
 
+namespace
+{
+
+/** Leaves of full resolution, to be stuffed again and again, with pins. */
+struct PinnedLeaves
+{
+  explicit PinnedLeaves(const IsodiamondHierarchy& hierarchy)
+    : Leaves(hierarchy, 0.0)
+    , Vertices(VerticesInWorld(this->Leaves.Mesh, this->World))
+    , Input{ this->Leaves.Mesh, this->Vertices, this->Leaves.Points, this->World,
+      this->Leaves.SampleGrid, 0.25 }
+  {
+  }
+  PinnedLeaves(const PinnedLeaves&) = delete;
+  PinnedLeaves& operator=(const PinnedLeaves&) = delete;
+
+  std::size_t Count() const { return this->Leaves.Mesh.Tetrahedra.size(); }
+
+  /** Pins every vertex so many times. */
+  void PinAll(std::size_t times)
+  {
+    std::vector<std::uint64_t> all;
+    for (const CutMesh::Vertex& vertex : this->Leaves.Mesh.Vertices)
+    {
+      all.insert(all.end(), times, PackedPoint(vertex.Position));
+    }
+    std::sort(all.begin(), all.end());
+    Pin(this->Leaves.Mesh, all);
+  }
+
+  const GridGeometry World = AffineMap();
+  test::Leaves Leaves;
+  const std::vector<Vector> Vertices;
+  StuffingInput Input; ///< refers to the others
+};
+
+}
+
 TEST(Stuffing, SineIsThatOfTheWorstDihedralAngle)
 {
   test::Random random(3);
@@ -380,12 +418,11 @@ TEST(Stuffing, KeepsTheToleranceAtFullResolutionWherePinned)
 {
   const double allowance = 0.05;
   const test::Built built = test::BuildVolume(test::GyroidField(25, 1.5), { 0.1, HUGE_VAL });
-  test::Leaves leaves(*built.Hierarchy, 0.0);
-  const GridGeometry world = AffineMap();
-  const std::vector<Vector> vertices = VerticesInWorld(leaves.Mesh, world);
-  StuffingInput input{ leaves.Mesh, vertices, leaves.Points, world, leaves.SampleGrid, 0.25 };
-  input.Allowances.assign(leaves.Mesh.Tetrahedra.size(), allowance);
-  input.CanBeFiner.assign(leaves.Mesh.Tetrahedra.size(), false);
+  PinnedLeaves pinnedLeaves(*built.Hierarchy);
+  test::Leaves& leaves = pinnedLeaves.Leaves;
+  StuffingInput& input = pinnedLeaves.Input;
+  input.Allowances.assign(pinnedLeaves.Count(), allowance);
+  input.CanBeFiner.assign(pinnedLeaves.Count(), false);
 
   test::Stuffed stuffed(*built.Hierarchy, Query{});
   EXPECT_NE(test::FarByForce(stuffed.Plain, stuffed.AsVolume(), allowance), "");
@@ -426,28 +463,19 @@ TEST(Stuffing, KeepsTheToleranceAtFullResolutionWherePinned)
 TEST(Stuffing, MovesVerticesByTheLeastThatIsAllowedThere)
 {
   const test::Built built = test::BuildVolume(test::GyroidField(17, 1.5), { 0.1, HUGE_VAL });
-  test::Leaves leaves(*built.Hierarchy, 0.0);
-  const GridGeometry world = AffineMap();
-  const std::vector<Vector> vertices = VerticesInWorld(leaves.Mesh, world);
-  StuffingInput input{ leaves.Mesh, vertices, leaves.Points, world, leaves.SampleGrid, 0.25 };
-  input.CanBeFiner.assign(leaves.Mesh.Tetrahedra.size(), true);
-  std::vector<std::uint64_t> all;
-  for (const CutMesh::Vertex& vertex : leaves.Mesh.Vertices)
-  {
-    all.push_back(PackedPoint(vertex.Position));
-  }
-  std::sort(all.begin(), all.end());
+  PinnedLeaves leaves(*built.Hierarchy);
+  leaves.Input.CanBeFiner.assign(leaves.Count(), true);
   for (const std::size_t odd : { 0, 1 })
   {
-    input.Allowances.clear();
-    for (std::size_t i = 0; i < leaves.Mesh.Tetrahedra.size(); ++i)
+    leaves.Input.Allowances.clear();
+    for (std::size_t i = 0; i < leaves.Count(); ++i)
     {
-      input.Allowances.push_back(i % 2 == odd ? 0.05 : 5.0);
+      leaves.Input.Allowances.push_back(i % 2 == odd ? 0.05 : 5.0);
     }
-    Pin(leaves.Mesh, {});
-    EXPECT_GT(FarLeaves(input, SerialFor).size(), 1000U);
-    Pin(leaves.Mesh, all);
-    EXPECT_EQ(FarLeaves(input, SerialFor), std::vector<std::uint32_t>());
+    leaves.PinAll(0);
+    EXPECT_GT(FarLeaves(leaves.Input, SerialFor).size(), 1000U);
+    leaves.PinAll(1);
+    EXPECT_EQ(FarLeaves(leaves.Input, SerialFor), std::vector<std::uint32_t>());
   }
 }
 
@@ -456,22 +484,13 @@ TEST(Stuffing, MovesVerticesByTheLeastThatIsAllowedThere)
 TEST(Stuffing, IsNearerTheMoreItIsPinnedButAsksForThreePinsAtMost)
 {
   const test::Built built = test::BuildVolume(test::NoiseField({ 7, 7, 7 }, 3), { 3.7, HUGE_VAL });
-  test::Leaves leaves(*built.Hierarchy, 0.0);
-  const GridGeometry world = AffineMap();
-  const std::vector<Vector> vertices = VerticesInWorld(leaves.Mesh, world);
+  PinnedLeaves leaves(*built.Hierarchy);
+  leaves.Input.CanBeFiner.assign(leaves.Count(), false);
   const auto tightLeaves = [&](double allowance, std::size_t pins)
   {
-    std::vector<std::uint64_t> all;
-    for (const CutMesh::Vertex& vertex : leaves.Mesh.Vertices)
-    {
-      all.insert(all.end(), pins, PackedPoint(vertex.Position));
-    }
-    std::sort(all.begin(), all.end());
-    Pin(leaves.Mesh, all);
-    StuffingInput input{ leaves.Mesh, vertices, leaves.Points, world, leaves.SampleGrid, 0.25 };
-    input.Allowances.assign(leaves.Mesh.Tetrahedra.size(), allowance);
-    input.CanBeFiner.assign(leaves.Mesh.Tetrahedra.size(), false);
-    return Stuff(input, SerialFor).TightLeaves.size();
+    leaves.PinAll(pins);
+    leaves.Input.Allowances.assign(leaves.Count(), allowance);
+    return Stuff(leaves.Input, SerialFor).TightLeaves.size();
   };
   EXPECT_GT(tightLeaves(0.3, 1), 0U);
   EXPECT_EQ(tightLeaves(0.3, 2), 0U);

@@ -53,12 +53,13 @@ unsigned SidesBeyond(const Box& box, const Vector& point)
 
 Box IndexBoxOf(const Box& box, const GridGeometry& world)
 {
-  const int padding = world.Padding();
-  const Point inside = Point(world.Dimensions());
-  const Point size = inside + 2 * padding * Point{ 1, 1, 1 };
+  const Point inside = world.Dimensions();
+  const Point padding = world.Padding() * Point{ 1, 1, 1 };
+  const Point size = inside + 2 * padding;
+  // In the padding positions are extrapolated, which takes longer.
   const auto positionOf = [&](const Point& padded)
   {
-    const Point sample = padded + -padding * Point{ 1, 1, 1 };
+    const Point sample = padded + -1 * padding;
     bool isThere = true;
     for (int axis = 0; axis < 3; ++axis)
     {
