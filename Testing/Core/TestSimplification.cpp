@@ -102,6 +102,19 @@ std::vector<Triangle> WithoutPieceOf(std::vector<Triangle> triangles, const Tria
   return triangles;
 }
 
+/** Only points that are not in use lie over a triangle: one that had been removed may be back. */
+void ExpectHomes(const SimplifiedMesh& mesh)
+{
+  const std::vector<std::uint32_t> homes = mesh.PointHomes();
+  for (const Triangle& triangle : mesh.Triangles())
+  {
+    for (const std::uint32_t point : triangle)
+    {
+      ASSERT_EQ(homes[point], None);
+    }
+  }
+}
+
 }
 
 // Where parts were cut, there are not many more triangles than elsewhere. Two passes alone leave
@@ -222,6 +235,7 @@ TEST(Simplification, KeepsThePromiseWhateverSamplesAllow)
       simplified.Simplify(150, cut, 4.0, SerialFor);
       EXPECT_LE(simplified.Triangles().size(), last);
       ExpectPromise(before, { before.Mesh.Positions, simplified.Triangles() }, 0.2);
+      ExpectHomes(simplified);
     }
     EXPECT_LT(simplified.Triangles().size(), before.Mesh.Triangles.size());
   }
@@ -258,7 +272,7 @@ TEST(Simplification, MakesNoSmallAnglesIfItShallNot)
   }
   sheet.Allowances.assign(sheet.Mesh.Triangles.size(), 0.1);
   const TriangleMesh any = Simplify(sheet, SerialFor);
-  EXPECT_LT(SmallestAngle(any, 0), 5.0);
+  EXPECT_LT(SmallestAngle(any, 0), 9.0);
   for (const double angle : { 9.0, 15.0, 18.0 })
   {
     sheet.LeastAngle = angle;

@@ -89,4 +89,26 @@ bool EdgeCollapses::MakesCrease(const Flip& flip) const
   return after.IsSharperThan(before);
 }
 
+/** The same for a vertex that moves. */
+bool EdgeCollapses::MakesCrease(const Fan& fan) const
+{
+  Sharpest before(SharpestCosine);
+  Sharpest after(1.0);
+  const Hole& hole = fan.Border();
+  for (int i = 0; i < hole.Count; ++i)
+  {
+    const std::uint32_t triangle = hole.Triangles[i];
+    before.Add(this->Normals[triangle], this->Normals[hole.Triangles[fan.After(i)]]);
+    after.Add(fan.NewNormal(i), fan.NewNormal(fan.After(i)));
+    const std::uint32_t outer =
+      this->Neighbours[triangle][PlaceOf(this->Triangles[triangle], hole.Points[i])];
+    if (outer != None)
+    {
+      before.Add(this->Normals[triangle], this->Normals[outer]);
+      after.Add(fan.NewNormal(i), this->Normals[outer]);
+    }
+  }
+  return after.IsSharperThan(before);
+}
+
 }

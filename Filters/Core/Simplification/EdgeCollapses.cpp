@@ -294,7 +294,7 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
 void EdgeCollapses::Note(std::uint32_t vertex, const Hole& hole)
 {
   const auto number = static_cast<std::uint32_t>(this->Steps.size());
-  this->Steps.push_back({ vertex, this->TrianglesOfSteps.size(), hole.Count });
+  this->Steps.push_back({ vertex, None, this->TrianglesOfSteps.size(), hole.Count });
   this->RemovedIn[vertex] = number;
   for (int i = 0; i < hole.Count; ++i)
   {
@@ -336,6 +336,27 @@ std::vector<bool> EdgeCollapses::Run()
       this->Offer(point, -HUGE_VAL, 0);
     }
   }
+  this->CollapseAll();
+  if (this->Guard == nullptr)
+  {
+    this->MoveVertices();
+    this->CollapseAll();
+    this->FlipEdges();
+  }
+  std::vector<bool> isChanged(this->Triangles.size());
+  for (const std::uint32_t triangle : this->TrianglesOfSteps)
+  {
+    if (triangle != None)
+    {
+      isChanged[triangle] = true;
+    }
+  }
+  return isChanged;
+}
+
+/** Makes all collapses that are offered, and those that become possible, the cheapest first. */
+void EdgeCollapses::CollapseAll()
+{
   Hole hole;
   while (!this->Queue.empty())
   {
@@ -364,19 +385,6 @@ std::vector<bool> EdgeCollapses::Run()
       this->Offer(at.Vertex, at.Cost, at.Target);
     }
   }
-  if (this->Guard == nullptr)
-  {
-    this->FlipEdges();
-  }
-  std::vector<bool> isChanged(this->Triangles.size());
-  for (const std::uint32_t triangle : this->TrianglesOfSteps)
-  {
-    if (triangle != None)
-    {
-      isChanged[triangle] = true;
-    }
-  }
-  return isChanged;
 }
 
 }

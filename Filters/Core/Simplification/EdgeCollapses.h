@@ -3,6 +3,7 @@
 #define isodiamond_EdgeCollapses_h
 
 #include "Patches/PatchDistance.h"
+#include "Simplification/Fan.h"
 #include "Simplification/Hole.h"
 #include "Simplification/MeshPart.h"
 #include "Simplification/Quadric.h"
@@ -50,6 +51,11 @@ public:
  * the edge that replaces them is, too. Where no walls are known, the border stays. No new edge
  * joins two fixed vertices: a neighbouring part that has them, too, might make the same edge.
  *
+ * Then each vertex that is left moves to another of the original's points that lies over its
+ * triangles, if these are nearer to all that lies over them then, or shaped better (Fan.h); and
+ * edges collapse where that has become possible. A mesh that only collapses can make has its
+ * vertices where others, earlier, happened to leave them.
+ *
  * Last, the remaining edges are flipped where that brings samples nearer overall: quadrics tell
  * which vertices to keep, but not which of two diagonals follows a ridge or a groove between them.
  * Where both do equally well, the one that gives the better shape is taken.
@@ -67,8 +73,8 @@ public:
   EdgeCollapses& operator=(const EdgeCollapses&) = delete;
 
   /** Collapses all that it can, except what the guard knows to be futile, or what is settled and
-   * has nothing change around it. Flips edges only if there is no guard. @return by number: whether
-   * a triangle has changed, or is gone */
+   * has nothing change around it. Moves vertices and flips edges only if there is no guard. @return
+   * by number: whether a triangle has changed, or is gone */
   std::vector<bool> Run();
 
   /** The mesh as it is now; triangles that remain keep their numbers. */
@@ -137,11 +143,12 @@ private:
     Vector At() const { return { this->Position[0], this->Position[1], this->Position[2] }; }
   };
 
-  /** What was done, so as to undo it: a vertex was removed, or an edge flipped. */
+  /** What was done, so as to undo it: a vertex was removed or moved, or an edge flipped. */
   struct Step
   {
-    std::uint32_t Vertex; ///< None for a flip
-    std::size_t First;    ///< of its triangles, and of its points: for a flip, A to D
+    std::uint32_t Vertex;    ///< None for a flip
+    std::uint32_t Successor; ///< the point that took its place; None if it was removed
+    std::size_t First;       ///< of its triangles, and of its points: for a flip, A to D
     int Count;
   };
 
@@ -181,6 +188,7 @@ private:
   void FillWithTheSame(std::uint32_t vertex, const Hole& hole);
   bool MakesCrease(std::uint32_t vertex, const Hole& hole) const;
   bool MakesCrease(const Flip& flip) const;
+  bool MakesCrease(const Fan& fan) const;
   bool MayGo(std::uint32_t vertex) const
   {
     return this->AnyTriangle[vertex] != None && !this->IsFixed[vertex] &&
@@ -194,6 +202,11 @@ private:
   bool IsNear(
     const Hole& hole, const Watched& sample, std::uint32_t number, const Hole::Place& place);
   bool IsNearRidge(std::uint32_t number, const Vector& normal);
+  void CollapseAll();
+  void MoveVertices();
+  bool FindFan(std::uint32_t vertex);
+  void Move(std::uint32_t vertex, const Fan& fan);
+  void UndoMove(const Step& step);
   void FlipEdges();
   bool SeeFlip(std::uint32_t triangle, int edge, Flip& flip) const;
   bool IsWorthIt(const Flip& flip) const;
@@ -261,6 +274,7 @@ private:
   std::array<Filling, MostNeighbours> Fillings; ///< of the last hole, by its points
   Vector Corner{};                              ///< that all of them share
   int FillingCount = 0;
+  Fan Around; ///< the last vertex that might have moved
 
   std::vector<Step> Steps;
   std::vector<std::uint32_t> TrianglesOfSteps;

@@ -13,19 +13,6 @@ namespace
 /** Sweeps over edges that may be worth a flip; most is done in two. */
 constexpr int MostSweeps = 4;
 
-/** The part of the sum of squared distances that a flip may leave; and one that makes a sliver. */
-constexpr double WorthPart = 0.95;
-constexpr double WorthPartOfSliver = 0.75;
-
-/** The sine of the smallest angle of a triangle that is no sliver: of 10 degrees. */
-constexpr double SliverSine = 0.17;
-
-/** The sine below which a shape could be better: of 30 degrees; how much better it has to get; and
- *  how much the mean squared distance may grow for that, as a part of what is allowed. */
-constexpr double ShapelySine = 0.5;
-constexpr double BetterShape = 1.2;
-constexpr double PriceOfShape = 0.05;
-
 /** A key of an edge, in either direction. */
 std::uint64_t KeyOf(std::uint32_t a, std::uint32_t b)
 {
@@ -109,21 +96,19 @@ bool EdgeCollapses::SeeFlip(std::uint32_t triangle, int edge, Flip& flip) const
     turn({ flip.D, flip.B, flip.C }, flip.SecondNormal);
 }
 
-/** Whether after a flip the samples are nearer to the surface overall, or not much farther if the
- * shape gets better; and each is near enough, and no angle less than wanted, unless one was before.
- */
+/** Whether the triangles fit better after a flip; and each sample is near enough, and no angle less
+ *  than wanted, unless one was before. */
 bool EdgeCollapses::IsWorthIt(const Flip& flip) const
 {
   const auto [first, second, a, b, c, d] = flip.Numbers();
-  const double sineBefore = std::min(this->SineOf({ a, b, c }), this->SineOf({ b, a, d }));
-  const double sineAfter = std::min(this->SineOf({ a, d, c }), this->SineOf({ d, b, c }));
-  if (sineAfter < std::min(sineBefore, this->LeastSine))
+  Fit before;
+  Fit after;
+  before.Sine = std::min(this->SineOf({ a, b, c }), this->SineOf({ b, a, d }));
+  after.Sine = std::min(this->SineOf({ a, d, c }), this->SineOf({ d, b, c }));
+  if (after.Sine < std::min(before.Sine, this->LeastSine))
   {
     return false;
   }
-  double before = 0.0;
-  double after = 0.0;
-  double allowed = 0.0;
   for (const std::uint32_t triangle : { first, second })
   {
     for (std::uint32_t at = this->FirstSample[triangle]; at != None; at = this->Samples[at].Next)
@@ -137,17 +122,12 @@ bool EdgeCollapses::IsWorthIt(const Flip& flip) const
       {
         return false;
       }
-      before += now * now;
-      after += then * then;
-      allowed += double{ sample.Allowance } * sample.Allowance;
+      before.Squares += now * now;
+      before.Allowed += double{ sample.Allowance } * sample.Allowance;
+      after.Squares += then * then;
     }
   }
-  if (sineBefore < ShapelySine && sineAfter > BetterShape * sineBefore)
-  {
-    return after <= before + PriceOfShape * allowed;
-  }
-  const bool isSliver = sineAfter < std::min(sineBefore, SliverSine);
-  return after < (isSliver ? WorthPartOfSliver : WorthPart) * before;
+  return after.IsBetterThan(before);
 }
 
 /** Whether a flip makes an edge that is not there, is not in another part, and would not be there
@@ -170,7 +150,7 @@ void EdgeCollapses::Do(const Flip& flip)
 {
   const auto [first, second, a, b, c, d] = flip.Numbers();
   const auto number = static_cast<std::uint32_t>(this->Steps.size());
-  this->Steps.push_back({ None, this->TrianglesOfSteps.size(), 4 });
+  this->Steps.push_back({ None, None, this->TrianglesOfSteps.size(), 4 });
   this->TrianglesOfSteps.insert(this->TrianglesOfSteps.end(), { first, second, None, None });
   this->PointsOfSteps.insert(this->PointsOfSteps.end(), { a, b, c, d });
   this->LastStep[first] = number;

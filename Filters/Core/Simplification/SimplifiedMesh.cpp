@@ -420,6 +420,10 @@ void SimplifiedMesh::MoveHomes(const MeshDivision& division, const std::vector<M
     {
       this->Homes[sample] = renamed[triangles[home]];
     }
+    for (const std::uint32_t point : made[number].Tried)
+    {
+      this->Homes[point] = None; // may have been removed before
+    }
   }
 }
 

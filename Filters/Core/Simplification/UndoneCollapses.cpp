@@ -13,6 +13,10 @@ void EdgeCollapses::Undo(const Step& step)
   {
     this->UndoFlip(step);
   }
+  else if (step.Successor != None)
+  {
+    this->UndoMove(step);
+  }
   else
   {
     this->UndoCollapse(step);
@@ -95,7 +99,7 @@ void EdgeCollapses::GiveBackSamples(const Step& step)
       continue;
     }
     this->Normals[triangle] = Unit(Across(this->Positions, this->Triangles[triangle]));
-    const bool wasThere = i > 0 && i < step.Count - 1;
+    const bool wasThere = step.Successor != None || (i > 0 && i < step.Count - 1);
     for (std::uint32_t at = wasThere ? this->FirstSample[triangle] : None; at != None;
          at = this->Samples[at].Next)
     {
@@ -233,6 +237,10 @@ void EdgeCollapses::Forget(const std::vector<bool>& isUndone)
       if (step.Vertex != None)
       {
         this->RemovedIn[step.Vertex] = static_cast<std::uint32_t>(kept);
+      }
+      if (step.Successor != None)
+      {
+        this->RemovedIn[step.Successor] = None;
       }
       this->ForEachTriangleOf(step,
         [&](std::uint32_t triangle)
