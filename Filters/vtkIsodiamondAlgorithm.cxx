@@ -5,6 +5,7 @@
 #include "Private/Format.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
+#include "Private/Pieces.h"
 #include "Private/Target.h"
 #include "Private/WorldQuery.h"
 
@@ -21,10 +22,14 @@
 
 //------------------------------------------------------------------------------
 vtkIsodiamondAlgorithm::vtkIsodiamondAlgorithm()
+  : Pieces(std::make_unique<vtkIsodiamond::Pieces>())
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
 }
+
+//------------------------------------------------------------------------------
+vtkIsodiamondAlgorithm::~vtkIsodiamondAlgorithm() = default;
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
@@ -115,9 +120,9 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
 }
 
 //------------------------------------------------------------------------------
-vtkIsodiamond::Share vtkIsodiamondAlgorithm::GetShare() const
+vtkIsodiamond::Share vtkIsodiamondAlgorithm::GetShare()
 {
-  vtkIsodiamond::Share share{ { this->Piece[0], this->Piece[1] }, this->Piece[2], {} };
+  vtkIsodiamond::Share share = this->Pieces->Of(this->GetInputDataObject(0, 0));
   if (this->GenerateGlobalIds)
   {
     share.FirstIds = { 0, 0 };
@@ -183,7 +188,7 @@ vtkTypeBool vtkIsodiamondAlgorithm::ProcessRequest(
 //------------------------------------------------------------------------------
 int vtkIsodiamondAlgorithm::ModifyRequest(vtkInformation* request, int when)
 {
-  vtkIsodiamond::NotePiece(this, request, when, this->Piece);
+  this->Pieces->Note(this, request, when);
   if (when == vtkExecutive::BeforeForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     this->ForgetMesh();

@@ -16,11 +16,14 @@
 #include "vtkAlgorithm.h"
 #include "vtkIsodiamondFiltersModule.h" // for export macro
 
+#include <memory>
+
 class vtkDataObject;
 namespace vtkIsodiamond
 {
 struct CountedTolerance;
 struct Mesh;
+class Pieces;
 struct Share;
 struct WorldQuery;
 }
@@ -211,7 +214,7 @@ public:
 
 protected:
   vtkIsodiamondAlgorithm();
-  ~vtkIsodiamondAlgorithm() override = default;
+  ~vtkIsodiamondAlgorithm() override;
 
   /** Notes the requested piece of the output. */
   int ModifyRequest(vtkInformation* request, int when) override;
@@ -235,8 +238,8 @@ protected:
   /** Puts the angles of a mesh for simulations where users can see them. */
   void NoteDihedralAngles(const vtkIsodiamond::Mesh& mesh, vtkDataObject* output);
 
-  /** The requested share of a mesh. */
-  vtkIsodiamond::Share GetShare() const;
+  /** The share of the mesh of the input, or the block, at hand. */
+  vtkIsodiamond::Share GetShare();
 
   double ErrorTolerance = 0.0;
   bool GenerateGlobalIds = false;
@@ -256,7 +259,7 @@ protected:
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
   double AchievedTolerance = 0.0;
-  int Piece[3] = { 0, 1, 0 }; ///< requested: its number, how many, ghost levels
+  std::unique_ptr<vtkIsodiamond::Pieces> Pieces; ///< of what is requested
 
 private:
   vtkIsodiamondAlgorithm(const vtkIsodiamondAlgorithm&) = delete;

@@ -5,6 +5,7 @@
 #include "Field/SystemMemory.h"
 #include "Private/Input.h"
 #include "Private/Piece.h"
+#include "Private/Pieces.h"
 #include "Private/PointData.h"
 #include "Private/Slabs.h"
 #include "Private/State.h"
@@ -27,7 +28,8 @@ vtkStandardNewMacro(vtkIsodiamondBuilder);
 
 //------------------------------------------------------------------------------
 vtkIsodiamondBuilder::vtkIsodiamondBuilder()
-  : Plan(std::make_unique<vtkIsodiamond::SlabPlan>())
+  : Pieces(std::make_unique<vtkIsodiamond::Pieces>())
+  , Plan(std::make_unique<vtkIsodiamond::SlabPlan>())
 {
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
@@ -144,8 +146,8 @@ vtkTypeBool vtkIsodiamondBuilder::ProcessRequest(
 //------------------------------------------------------------------------------
 int vtkIsodiamondBuilder::ModifyRequest(vtkInformation* request, int when)
 {
-  vtkIsodiamond::NotePiece(this, request, when, this->Piece);
-  this->Plan->Note(this, request, when);
+  this->Pieces->Note(this, request, when);
+  this->Plan->Note(this, request, when, this->Pieces->IsSameGrid());
   return this->Superclass::ModifyRequest(request, when);
 }
 
@@ -180,7 +182,7 @@ int vtkIsodiamondBuilder::RequestData(
     {
       vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
       this->Build(input, task, output);
-      if (this->Piece[0] > 0)
+      if (this->Pieces->Of(input).Piece[0] > 0)
       {
         output->SetPoints(vtkNew<vtkPoints>());
         output->SetLines(nullptr);
@@ -199,7 +201,7 @@ void vtkIsodiamondBuilder::Build(
   const vtkSmartPointer<vtkDataObject> whole = this->Plan->TakeWhole(information);
   if (!slabs)
   {
-    vtkIsodiamond::CheckWhole(whole, information, this->Piece);
+    vtkIsodiamond::CheckWhole(whole, information, *this->Pieces);
   }
   const bool isKnown = this->Built && this->BuiltOf == input &&
     this->BuiltAt > std::max(input->GetMTime(), input->GetUpdateTime()) &&

@@ -46,6 +46,7 @@ namespace vtkIsodiamond
 {
 struct Choice;
 struct InputArray;
+class Pieces;
 class SlabPlan;
 class Slabs;
 class Task;
@@ -277,7 +278,6 @@ protected:
   bool ComputeNormals = false;
   int NumberOfBlocks = 0;
   int NumberOfThreads = 0;
-  int Piece[3] = { 0, 1, 0 }; ///< requested: its number, how many, ghost levels
 
 private:
   vtkIsodiamondBuilder(const vtkIsodiamondBuilder&) = delete;
@@ -296,6 +296,7 @@ private:
   void BuildFromHierarchy(vtkPolyData* input, vtkIsodiamond::Task& task, vtkPolyData* output);
   void Build(vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output);
 
+  std::unique_ptr<vtkIsodiamond::Pieces> Pieces;
   std::unique_ptr<vtkIsodiamond::SlabPlan> Plan;
   /** What was built, from what, and when: in parallel, extractors request the hierarchy as a single
    *  piece, and whatever displays it requests one of several. Both are the same hierarchy. */

@@ -5,6 +5,7 @@
 #include "Private/Cells.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
+#include "Private/Pieces.h"
 #include "Private/State.h"
 #include "Private/Task.h"
 
@@ -43,7 +44,7 @@ void ForEachIsodiamond(const isodiamond::IsodiamondHierarchy& hierarchy, Body&& 
 }
 
 void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
-  const isodiamond::AffineMap& world, const int piece[2], vtkPolyData* output)
+  const isodiamond::AffineMap& world, const vtkIsodiamond::Share& share, vtkPolyData* output)
 {
   vtkIdType count = 0;
   ForEachIsodiamond(hierarchy, [&](const isodiamond::Place&, std::uint32_t) { ++count; });
@@ -76,7 +77,7 @@ void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
   mesh.PointData->AddArray(classes);
   mesh.PointData->AddArray(levels);
   mesh.PointData->AddArray(errors);
-  vtkIsodiamond::KeepShare({ { piece[0], piece[1] }, 0, {} }, mesh);
+  vtkIsodiamond::KeepShare(share, mesh);
   output->SetPoints(mesh.Points);
   output->SetVerts(mesh.Cells);
   output->GetPointData()->ShallowCopy(mesh.PointData);
@@ -85,7 +86,13 @@ void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
 }
 
 //------------------------------------------------------------------------------
-vtkIsodiamondPoints::vtkIsodiamondPoints() = default;
+vtkIsodiamondPoints::vtkIsodiamondPoints()
+  : Pieces(std::make_unique<vtkIsodiamond::Pieces>())
+{
+}
+
+//------------------------------------------------------------------------------
+vtkIsodiamondPoints::~vtkIsodiamondPoints() = default;
 
 //------------------------------------------------------------------------------
 void vtkIsodiamondPoints::PrintSelf(ostream& os, vtkIndent indent)
@@ -103,7 +110,7 @@ int vtkIsodiamondPoints::FillInputPortInformation(int, vtkInformation* info)
 //------------------------------------------------------------------------------
 int vtkIsodiamondPoints::ModifyRequest(vtkInformation* request, int when)
 {
-  vtkIsodiamond::NotePiece(this, request, when, this->Piece);
+  this->Pieces->Note(this, request, when);
   return this->Superclass::ModifyRequest(request, when);
 }
 
@@ -124,13 +131,16 @@ int vtkIsodiamondPoints::RequestData(
     [&](vtkIsodiamond::Task&)
     {
       vtkIsodiamond::RemoveState(output->GetFieldData());
+      vtkPolyData* const input = vtkPolyData::GetData(inputVector[0]);
       const std::shared_ptr<const vtkIsodiamond::State> state =
-        vtkIsodiamondHierarchy::ReadState(vtkPolyData::GetData(inputVector[0]));
+        vtkIsodiamondHierarchy::ReadState(input);
       if (!state->Isodiamonds)
       {
         throw std::invalid_argument("A hierarchy of diamonds (HD) stores no isodiamonds; build a "
                                     "relevant or minimal hierarchy from it.");
       }
-      WritePoints(*state->Isodiamonds, state->World, this->Piece, output);
+      vtkIsodiamond::Share share = this->Pieces->Of(input);
+      share.GhostLevels = 0;
+      WritePoints(*state->Isodiamonds, state->World, share, output);
     });
 }

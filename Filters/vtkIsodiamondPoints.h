@@ -18,6 +18,13 @@
 #include "vtkIsodiamondFiltersModule.h" // for export macro
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory>
+
+namespace vtkIsodiamond
+{
+class Pieces;
+}
+
 class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondPoints : public vtkPolyDataAlgorithm
 {
 public:
@@ -27,7 +34,7 @@ public:
 
 protected:
   vtkIsodiamondPoints();
-  ~vtkIsodiamondPoints() override = default;
+  ~vtkIsodiamondPoints() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   /** Notes the requested piece of the output. */
@@ -37,9 +44,9 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Piece[3] = { 0, 1, 0 }; ///< requested: its number, how many, ghost levels
-
 private:
+  std::unique_ptr<vtkIsodiamond::Pieces> Pieces; ///< of what is requested
+
   vtkIsodiamondPoints(const vtkIsodiamondPoints&) = delete;
   void operator=(const vtkIsodiamondPoints&) = delete;
 };

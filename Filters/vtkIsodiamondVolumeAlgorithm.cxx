@@ -10,6 +10,7 @@
 #include "Private/Input.h"
 #include "Private/Mesh.h"
 #include "Private/Piece.h"
+#include "Private/Pieces.h"
 #include "Private/PointData.h"
 #include "Private/Simplify.h"
 #include "Private/Slabs.h"
@@ -160,8 +161,9 @@ int vtkIsodiamondVolumeAlgorithm::ModifyRequest(vtkInformation* request, int whe
       std::any_of(blocks.begin(), blocks.end(),
         [this](vtkDataSet* block) { return this->FindInputArray(block).Array != nullptr; });
   }
-  this->Plan->Note(this, request, when);
-  return this->Superclass::ModifyRequest(request, when);
+  const int success = this->Superclass::ModifyRequest(request, when);
+  this->Plan->Note(this, request, when, this->Pieces->IsSameGrid());
+  return success;
 }
 
 //------------------------------------------------------------------------------
@@ -239,7 +241,7 @@ bool vtkIsodiamondVolumeAlgorithm::Open(vtkInformation* information, OneInput& i
   }
   input.Whole = this->Plan->TakeWhole(information);
   vtkDataSet* grid = vtkDataSet::SafeDownCast(input.Whole);
-  vtkIsodiamond::CheckWhole(grid, information, this->Piece);
+  vtkIsodiamond::CheckWhole(grid, information, *this->Pieces);
   input.Array = this->FindInputArray(grid);
   if (!input.Array.Array && this->HaveBlocksTheArray)
   {

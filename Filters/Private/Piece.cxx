@@ -6,14 +6,13 @@
 #include "Private/Cells.h"
 #include "Private/Ghosts.h"
 #include "Private/Mesh.h"
+#include "Private/Pieces.h"
 #include "Private/Tuples.h"
 
 #include "vtkAOSDataArrayTemplate.h"
-#include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkExecutive.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -119,22 +118,11 @@ void RequestWhole(vtkInformation* inputInformation)
   inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }
 
-void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[3])
-{
-  if (when == vtkExecutive::AfterForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
-  {
-    vtkInformation* output = filter->GetOutputInformation(0);
-    piece[0] = output->Get(Pipeline::UPDATE_PIECE_NUMBER()); // 0 if there is none
-    piece[1] = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
-    piece[2] = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()), 0);
-  }
-}
-
-void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int piece[2])
+void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const Pieces& pieces)
 {
   vtkInformation* data = volume ? volume->GetInformation() : nullptr;
-  if (piece[1] == 1 || !data || !data->Has(vtkDataObject::DATA_EXTENT()) ||
-    !inputInformation->Has(Pipeline::WHOLE_EXTENT()))
+  if (pieces.Of(volume).Piece[1] == 1 || pieces.IsSameGrid() || !data ||
+    !data->Has(vtkDataObject::DATA_EXTENT()) || !inputInformation->Has(Pipeline::WHOLE_EXTENT()))
   {
     return;
   }
@@ -144,7 +132,9 @@ void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const i
   data->Get(vtkDataObject::DATA_EXTENT(), extent);
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (extent[2 * axis] > whole[2 * axis] || extent[2 * axis + 1] < whole[2 * axis + 1])
+    const bool isKnown = whole[2 * axis] <= whole[2 * axis + 1];
+    if (!isKnown || extent[2 * axis] > whole[2 * axis] ||
+      extent[2 * axis + 1] < whole[2 * axis + 1])
     {
       throw std::invalid_argument("The input is a part of the volume, though all of it was asked "
                                   "for: in parallel every process needs the whole volume.");

@@ -11,7 +11,6 @@
 #include <optional>
 #include <vector>
 
-class vtkAlgorithm;
 class vtkDataObject;
 class vtkInformation;
 
@@ -23,6 +22,7 @@ class vtkInformation;
 namespace vtkIsodiamond
 {
 
+class Pieces;
 struct Ghosts;
 struct Mesh;
 
@@ -46,22 +46,13 @@ struct Share
 void RequestWhole(vtkInformation* inputInformation);
 
 /**
- * Notes the piece and the number of pieces that a filter's output is asked for. For ModifyRequest,
- * which has both: the pipeline iterates over composite inputs, and for each of their blocks
- * RequestData is asked for piece 0 of 1.
- *
- * @param piece its number, number of pieces, and number of ghost levels
- */
-void NotePiece(vtkAlgorithm* filter, vtkInformation* request, int when, int piece[3]);
-
-/**
  * Refuses a part of a volume where several processes are to share its mesh: the meshes of other
  * parts in other processes would not fit. Images of processes that execute together do not come
  * here in parts: see Parts.h.
  *
  * @throws std::invalid_argument
  */
-void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const int piece[2]);
+void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const Pieces& pieces);
 
 /**
  * Reduces a mesh to a share: of its n cells those from n p / N until n (p + 1) / N for piece p of

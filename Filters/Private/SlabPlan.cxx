@@ -97,6 +97,35 @@ bool HasFailed(vtkInformation* input)
     (makes && image->GetUpdateTime() < upstream->GetPipelineMTime());
 }
 
+void Update(vtkInformation* input)
+{
+  vtkExecutive::PRODUCER()->GetExecutive(input)->Update(vtkExecutive::PRODUCER()->GetPort(input));
+}
+
+/** Whether upstream gives the slabs of the whole that it is asked for. Time steps may have extents
+ *  other than it says: then it gives all of a step, whatever it is asked for. */
+bool GivesSlabs(vtkInformation* input, int count)
+{
+  vtkImageData* image = vtkImageData::GetData(input);
+  const auto isGiven = [&] { return IsGiven(input) && !IsBeyondWhole(input); };
+  const std::array<int, 6> whole = WholeExtentOf(input);
+  if (!isGiven() || std::equal(whole.begin(), whole.end(), image->GetExtent()))
+  {
+    return isGiven();
+  }
+  const std::vector<Slices> cut = isodiamond::StreamedBuild::Cut(WholeDimensionsOf(input), count);
+  for (const Slices& end : { cut.front(), cut.back() })
+  {
+    if (image->GetExtent()[4] > whole[4] + end.First || image->GetExtent()[5] < whole[4] + end.Last)
+    {
+      RequestSlab(input, end);
+      Update(input);
+      return isGiven();
+    }
+  }
+  return true;
+}
+
 }
 
 void SlabPlan::Request(vtkInformation* input, vtkInformation* output, int blocks)
@@ -111,9 +140,17 @@ void SlabPlan::Request(vtkInformation* input, vtkInformation* output, int blocks
   this->Blocks = blocks;
   this->IsPeerWithout = false;
   this->AreParts = false;
+  this->AskedForParts = false;
   this->Gathered = nullptr;
   this->Count = 1;
-  if (isImage && MakesParts(input))
+  if (peers > 1 && blocks != 1 && ReadsTogether(input) && RequestPart(input, *this->Peers))
+  {
+    // Slabs would be read whenever a process comes to its own.
+    this->AskedForParts = true;
+    this->IsShared = false;
+    return;
+  }
+  if (isImage && MakesParts(input) && !(peers > 1 && ReadsTogether(input)))
   {
     this->Count = CountShared(input, blocks, peers);
     if (this->Count == 1)
@@ -130,14 +167,21 @@ void SlabPlan::Request(vtkInformation* input, vtkInformation* output, int blocks
   RequestSlab(input, SlabAtHand(input, this->Count, this->IsShared ? &*this->Peers : nullptr));
 }
 
-void SlabPlan::Note(vtkAlgorithm* filter, vtkInformation* request, int when)
+void SlabPlan::Note(vtkAlgorithm* filter, vtkInformation* request, int when, bool isSame)
 {
   if (this->Peers && when == vtkExecutive::AfterForward &&
     request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     vtkInformation* input = filter->GetInputInformation(0, 0);
     this->IsPeerWithout = this->Peers->Any(HasFailed(input));
-    this->AreParts = this->Peers->Any(!IsGiven(input));
+    const bool isOther = this->Peers->Any(!IsGiven(input) || IsBeyondWhole(input));
+    this->AreParts = !isSame && (isOther || this->AskedForParts);
+    if (isSame && isOther)
+    {
+      // All that there is at this time, though upstream says otherwise.
+      this->Count = 1;
+      this->IsShared = false;
+    }
   }
 }
 
@@ -180,17 +224,18 @@ std::unique_ptr<Slabs> SlabPlan::Open(
     return nullptr;
   }
   isodiamond::Peers* const others = this->IsShared ? &*this->Peers : nullptr;
-  bool isHidden = false;
-  isodiamond::InStep(
-    others, [&] { isHidden = HiddenCellsOf(vtkImageData::GetData(input), 0).Any(); });
-  if (isodiamond::IsAnywhere(others, isHidden))
+  // Which diamonds touch hidden cells depends on all such cells, and what is inside on field
+  // errors.
+  bool isWhole = false;
+  isodiamond::InStep(others,
+    [&]
+    {
+      isWhole = HiddenCellsOf(vtkImageData::GetData(input), 0).Any() || ConvertsCells(input) ||
+        (!others && !GivesSlabs(input, this->Count));
+    });
+  if (isodiamond::IsAnywhere(others, isWhole))
   {
-    // Which diamonds touch hidden cells depends on all such cells, and what is inside on field
-    // errors.
-    this->Count = 1;
-    this->IsShared = false;
-    RequestWhole(input);
-    vtkExecutive::PRODUCER()->GetExecutive(input)->Update(vtkExecutive::PRODUCER()->GetPort(input));
+    this->GetAtOnce(input);
     return nullptr;
   }
   std::unique_ptr<Slabs> slabs;
@@ -203,9 +248,24 @@ std::unique_ptr<Slabs> SlabPlan::Open(
   return slabs;
 }
 
+/** Gets the whole input in each process, if that is possible. */
+void SlabPlan::GetAtOnce(vtkInformation* input)
+{
+  this->Count = 1;
+  this->IsShared = false;
+  this->AreParts = false;
+  RequestWhole(input);
+  Update(input);
+}
+
 std::unique_ptr<Slabs> SlabPlan::OpenParts(
   vtkInformation* input, ArrayFinder findArray, bool closeBoundary)
 {
+  if (this->AskedForParts && this->Peers->Any(ConvertsCells(input)))
+  {
+    this->GetAtOnce(input);
+    return nullptr;
+  }
   auto parts = std::make_unique<Parts>(input, *this->Peers);
   this->Count = parts->HaveBlanks() ? 1 : CountShared(input, this->Blocks, this->Peers->Count());
   this->IsShared = this->Count > 1;

@@ -41,8 +41,9 @@ public:
   void Request(vtkInformation* input, vtkInformation* output, int blocks);
 
   /** For ModifyRequest: a process that gets nothing from upstream does not execute, and tells its
-   *  peers, which would wait for it; one that gets another part tells them, too. */
-  void Note(vtkAlgorithm* filter, vtkInformation* request, int when);
+   *  peers, which would wait for it; one that gets another part tells them, too.
+   *  @param isSame whether all processes have got the same image */
+  void Note(vtkAlgorithm* filter, vtkInformation* request, int when, bool isSame);
 
   /**
    * Runs work(task) of RequestData: if it fails in one of the peers, it fails in all. Then the
@@ -78,13 +79,15 @@ public:
 private:
   std::unique_ptr<Slabs> OpenParts(
     vtkInformation* input, ArrayFinder findArray, bool closeBoundary);
+  void GetAtOnce(vtkInformation* input);
 
   std::optional<ControllerPeers> Peers; ///< those that execute the filter together, on images
   int Blocks = 0;                       ///< how many are asked for
   int Count = 1;
   bool IsShared = false;
   bool IsPeerWithout = false; ///< whether one of the peers got nothing
-  bool AreParts = false;      ///< whether one of them got a part other than it asked for
+  bool AreParts = false;      ///< whether each has a part, and not a slab that it asked for
+  bool AskedForParts = false; ///< whether each asked for one
   vtkSmartPointer<vtkImageData> Gathered;
 };
 

@@ -4,10 +4,15 @@
 #include "Private/Piece.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
 #include "vtkExecutive.h"
+#include "vtkExtentTranslator.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationExecutivePortKey.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <cstdint>
@@ -19,6 +24,31 @@ namespace
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+/** The algorithm that an input comes from; null if there is none. */
+vtkAlgorithm* ProducerOf(vtkInformation* input)
+{
+  vtkExecutive* upstream = vtkExecutive::PRODUCER()->GetExecutive(input);
+  return upstream ? upstream->GetAlgorithm() : nullptr;
+}
+
+/** Behind every source ParaView puts a filter that passes requests on, but does not say so.
+ *  @return its input, if an input comes from one; or null */
+vtkInformation* BeforeParaView(vtkInformation* input)
+{
+  vtkAlgorithm* algorithm = ProducerOf(input);
+  return algorithm && algorithm->IsA("vtkPVPostFilter") &&
+      algorithm->GetNumberOfInputConnections(0) == 1
+    ? algorithm->GetInputInformation(0, 0)
+    : nullptr;
+}
+
+/** Whether one extent is within another one. */
+bool IsWithin(const int* inner, const int* outer)
+{
+  return inner[0] >= outer[0] && inner[1] <= outer[1] && inner[2] >= outer[2] &&
+    inner[3] <= outer[3] && inner[4] >= outer[4] && inner[5] <= outer[5];
+}
 
 /** The first of some slabs that a peer has. */
 int FirstOwn(int count, const isodiamond::Peers& peers)
@@ -33,18 +63,33 @@ int FirstOwn(int count, const isodiamond::Peers& peers)
 
 }
 
-// Behind every source ParaView puts a filter that passes requests on, but does not say so.
 bool MakesParts(vtkInformation* input)
 {
-  if (input->Get(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT()) != 0)
+  vtkInformation* before = BeforeParaView(input);
+  return input->Get(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT()) != 0 || (before && MakesParts(before));
+}
+
+// Raw files are read by a reader within one that ParaView has for series of image files.
+bool ReadsTogether(vtkInformation* input)
+{
+  vtkInformation* before = BeforeParaView(input);
+  if (before)
   {
-    return true;
+    return ReadsTogether(before);
   }
-  vtkExecutive* upstream = vtkExecutive::PRODUCER()->GetExecutive(input);
-  vtkAlgorithm* algorithm = upstream ? upstream->GetAlgorithm() : nullptr;
-  return algorithm && algorithm->IsA("vtkPVPostFilter") &&
-    algorithm->GetNumberOfInputConnections(0) == 1 &&
-    MakesParts(algorithm->GetInputInformation(0, 0));
+  vtkAlgorithm* algorithm = ProducerOf(input);
+  return algorithm &&
+    (algorithm->IsA("vtkMPIImageReader") || algorithm->IsA("vtkPNrrdReader") ||
+      algorithm->IsA("vtkImageFileSeriesReader"));
+}
+
+bool ConvertsCells(vtkInformation* input)
+{
+  vtkInformation* beforeInput = BeforeParaView(input);
+  vtkDataSet* before = beforeInput ? vtkDataSet::GetData(beforeInput) : nullptr;
+  vtkDataSet* after = vtkDataSet::GetData(input);
+  return before && after && before->GetCellData()->GetNumberOfArrays() > 0 &&
+    after->GetPointData()->GetNumberOfArrays() > before->GetPointData()->GetNumberOfArrays();
 }
 
 std::array<int, 6> WholeExtentOf(vtkInformation* input)
@@ -62,8 +107,12 @@ std::array<int, 3> WholeDimensionsOf(vtkInformation* input)
 
 bool HasWholeImage(vtkInformation* input)
 {
-  return input != nullptr && vtkImageData::GetData(input) != nullptr &&
-    input->Has(Pipeline::WHOLE_EXTENT());
+  if (!input || !vtkImageData::GetData(input) || !input->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    return false;
+  }
+  const std::array<int, 3> samples = WholeDimensionsOf(input); // none if the source does not say
+  return samples[0] > 0 && samples[1] > 0 && samples[2] > 0;
 }
 
 vtkSmartPointer<vtkImageData> WholeImage(vtkInformation* input)
@@ -116,18 +165,38 @@ void RequestSlab(vtkInformation* input, const Slices& slices)
   input->Set(Pipeline::UPDATE_EXTENT(), extent.data(), 6);
 }
 
+bool RequestPart(vtkInformation* input, const isodiamond::Peers& peers)
+{
+  std::array<int, 6> whole = WholeExtentOf(input);
+  vtkNew<vtkExtentTranslator> translator;
+  std::array<int, 6> own{};
+  bool isThere = true;
+  for (int rank = 0; rank < peers.Count(); ++rank)
+  {
+    std::array<int, 6> part{};
+    translator->PieceToExtentThreadSafe(
+      rank, peers.Count(), 0, whole.data(), part.data(), vtkExtentTranslator::BLOCK_MODE, 0);
+    isThere = isThere && part[0] <= part[1] && part[2] <= part[3] && part[4] <= part[5];
+    own = rank == peers.Rank() ? part : own;
+  }
+  if (isThere)
+  {
+    RequestWhole(input); // as piece 0 of 1: otherwise upstream would cut the part once more
+    input->Set(Pipeline::UPDATE_EXTENT(), own.data(), 6);
+  }
+  return isThere;
+}
+
 bool IsGiven(vtkInformation* input)
 {
-  vtkImageData* image = vtkImageData::GetData(input);
   int asked[6];
   input->Get(Pipeline::UPDATE_EXTENT(), asked);
-  const int* given = image->GetExtent();
-  bool all = true;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    all = all && given[2 * axis] <= asked[2 * axis] && given[2 * axis + 1] >= asked[2 * axis + 1];
-  }
-  return all;
+  return IsWithin(asked, vtkImageData::GetData(input)->GetExtent());
+}
+
+bool IsBeyondWhole(vtkInformation* input)
+{
+  return !IsWithin(vtkImageData::GetData(input)->GetExtent(), WholeExtentOf(input).data());
 }
 
 }

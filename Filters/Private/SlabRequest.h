@@ -26,6 +26,14 @@ using Slices = isodiamond::StreamedBuild::Slices;
 bool MakesParts(vtkInformation* input);
 
 ///@{
+/** Whether upstream reads a file only if all processes read their parts of it at the same time, as
+ *  ParaView's readers of raw and NRRD files do. */
+bool ReadsTogether(vtkInformation* input);
+
+/** Whether upstream makes arrays at points from those of cells, as ParaView does on request: at the
+ *  end of a part these differ from those of the whole. */
+bool ConvertsCells(vtkInformation* input);
+
 /** The whole extent, and its number of samples on each axis. */
 std::array<int, 6> WholeExtentOf(vtkInformation* input);
 std::array<int, 3> WholeDimensionsOf(vtkInformation* input);
@@ -50,8 +58,16 @@ Slices SlabAtHand(vtkInformation* input, int count, const isodiamond::Peers* pee
 /** Asks upstream for a slab, to be given at its next update. */
 void RequestSlab(vtkInformation* input, const Slices& slices);
 
-/** Whether upstream has given what it was asked for. */
+/** Asks upstream for the part of the image that ParaView's own filters want in a process.
+ *  @return whether there is a part for each of the processes: if not, the request is as it was */
+bool RequestPart(vtkInformation* input, const isodiamond::Peers& peers);
+
+///@{
+/** Whether upstream has given what it was asked for; and more than all that it said it has, as
+ *  where time steps have extents of their own. */
 bool IsGiven(vtkInformation* input);
+bool IsBeyondWhole(vtkInformation* input);
+///@}
 
 }
 
