@@ -14,6 +14,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace vtkIsodiamond
@@ -27,6 +28,12 @@ namespace
  * angles are bad in the end, a few more meshes follow, with fewer pins. */
 constexpr int LastRefinement = 10;
 constexpr int LastPinning = 20;
+///@}
+
+///@{
+/** Of progress: of the mesh that is not for simulations, and of each round, of what is left. */
+constexpr double PlainPart = 0.05;
+constexpr double PartOfRound = 0.25;
 ///@}
 
 /** The volume of what a query gives if it is not for simulations. */
@@ -105,32 +112,36 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   asked.KeepsInside = std::isfinite(query.InteriorTolerance);
   isodiamond::Query core =
     CoreQuery(HierarchyQuery(query, measure, options.World), hierarchy, options.World);
+  Task plain = task.Part(0.0, PlainPart);
   asked.VolumeAtTolerance =
-    PlainVolume(hierarchy, CoreQuery(query, hierarchy, options.World), options, task);
+    PlainVolume(hierarchy, CoreQuery(query, hierarchy, options.World), options, plain);
   const isodiamond::RefinedSet* leaves = &refined;
   std::optional<isodiamond::RefinedSet> finer;
-  const auto refine = [&](const std::vector<isodiamond::Place>& diamonds)
+  const auto refine = [&](const std::vector<isodiamond::Place>& diamonds, Task& part)
   {
     core.Also.insert(core.Also.end(), diamonds.begin(), diamonds.end());
-    leaves = &finer.emplace(hierarchy, core, task.For());
+    leaves = &finer.emplace(hierarchy, core, part.For());
   };
   FarDiamondSearch search;
   isodiamond::KnownChanges known;
   asked.Known = &known;
   bool isReleased = false;
+  double done = PlainPart;
   for (int round = 1;; ++round)
   {
+    const double begin = std::exchange(done, done + PartOfRound * (1.0 - done));
+    Task part = task.Part(begin, done);
     for (std::vector<isodiamond::Place> far;
-         far = search.Find(*leaves, asked, task.For()), !far.empty();)
+         far = search.Find(*leaves, asked, part.For()), !far.empty();)
     {
-      refine(far);
+      refine(far, part);
     }
     asked.MayRefine = round < LastRefinement;
     asked.MayPin = !isReleased && round < LastPinning;
-    Mesh mesh = ExtractMesh(*leaves, asked, task);
+    Mesh mesh = ExtractMesh(*leaves, asked, part);
     if (!mesh.FarDiamonds.empty())
     {
-      refine(mesh.FarDiamonds);
+      refine(mesh.FarDiamonds, part);
     }
     else if (mesh.TightVertices.empty())
     {

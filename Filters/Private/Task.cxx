@@ -17,6 +17,9 @@ using Clock = std::chrono::steady_clock;
 
 /** All threads stop together for progress and an abort. */
 constexpr std::chrono::milliseconds BatchLength(30);
+
+/** In this time a phase of many short loops gets through two thirds of its progress. */
+constexpr std::chrono::duration<double> LongPhase(10.0);
 /** A step: long compared to a look at the clock, short compared to a batch. */
 constexpr std::chrono::milliseconds StepLength(1);
 
@@ -121,7 +124,8 @@ isodiamond::ParallelFor Task::For()
     std::atomic<std::int64_t> next(0);
     for (std::int64_t done = 0; done < count;)
     {
-      const Clock::time_point end = Clock::now() + BatchLength;
+      const Clock::time_point start = Clock::now();
+      const Clock::time_point end = start + BatchLength;
       run(count - done > grain ? workers : 1, 1,
         [&](std::int64_t first, std::int64_t last)
         {
@@ -132,8 +136,12 @@ isodiamond::ParallelFor Task::For()
         });
       const std::int64_t before = done;
       done = std::min(next.load(), count);
-      // How many loops a phase has is not known: each takes half of what is left.
-      this->Done += 0.5 * (this->End - this->Done) * static_cast<double>(done - before) / count;
+      // How many loops a phase has is not known: each takes half of what is left, or less if it is
+      // short, as there may be thousands.
+      const std::chrono::duration<double> taken = Clock::now() - start;
+      const double part =
+        std::min(0.5 * static_cast<double>(done - before) / count, taken / LongPhase);
+      this->Done += part * (this->End - this->Done);
       if (Clock::now() - this->Told > BatchLength)
       {
         this->Tell();

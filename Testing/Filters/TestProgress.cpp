@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 #include <thread>
 
@@ -38,6 +39,7 @@ public:
       if (algorithm->GetProgressText())
       {
         this->Phases.insert(algorithm->GetProgressText());
+        this->Begins.emplace(algorithm->GetProgressText(), progress);
       }
     }
     if (this->Count++ == this->AbortAt)
@@ -51,12 +53,14 @@ public:
     this->Count = 0;
     this->AbortAt = abortAt;
     this->Phases.clear();
+    this->Begins.clear();
   }
 
   double Last = 0.0;
   int Count = 0;
   int AbortAt = -1;
   std::set<std::string> Phases;
+  std::map<std::string, double> Begins; ///< of phases
   std::thread::id Thread = std::this_thread::get_id();
 };
 
@@ -125,6 +129,23 @@ TEST(Progress, HasNamedPhasesInOrder)
   builder->AddObserver(vtkCommand::ProgressEvent, ofBuilder);
   builder->Update();
   EXPECT_EQ(ofBuilder->Phases.count("Measuring errors"), 1U);
+}
+
+// The mesh that is not for simulations, which comes first, takes little of the time.
+TEST(Progress, OfSimulationQualityIsNotAtItsEndFromTheStart)
+{
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  volume->SetInputData(test::PhantomImage({ 32, 32, 32 }, 1.0));
+  volume->SetIsorange(50.0, 200.0);
+  volume->SetErrorTolerance(0.5);
+  volume->Update(); // measures errors
+  volume->SimulationQualityOn();
+  vtkNew<Listener> listener;
+  volume->AddObserver(vtkCommand::ProgressEvent, listener);
+  volume->Update();
+  ASSERT_EQ(listener->Begins.count("Improving tetrahedra"), 1U);
+  EXPECT_LT(listener->Begins["Improving tetrahedra"], 0.9);
+  EXPECT_GT(listener->Last, listener->Begins["Improving tetrahedra"]);
 }
 
 TEST(Progress, FullResolutionWaitsForNoErrors)

@@ -16,9 +16,23 @@ namespace
 /** This many tetrahedra are worth a thread. */
 constexpr std::int64_t TetrahedraOfThread = 2048;
 
+///@{
+/** How many tetrahedra may be bad after all single changes, and which part of them. Where there are
+ *  more, as beside missing values, where surfaces lie on each other, there is no room for good
+ *  angles, and looking for it takes long, for worse. */
+constexpr std::size_t ManyBad = 200;
+constexpr double MuchBad = 0.05;
+///@}
+
 /** How often what is held is released in part. */
 constexpr int MostReleases = 3;
 
+}
+
+bool BestAttempt::Attempt::IsHopeless() const
+{
+  const auto all = static_cast<double>(this->Mesh.Tetrahedra.size());
+  return this->Bad > ManyBad && static_cast<double>(this->Bad) > MuchBad * all;
 }
 
 BestAttempt::BestAttempt(const Background& background, const TetrahedronMesh& start,
@@ -42,7 +56,7 @@ BestAttempt::BestAttempt(const Background& background, const TetrahedronMesh& st
 BestAttempt::Attempt BestAttempt::Find()
 {
   Attempt best = this->Try();
-  bool isToTry = best.FarLeaves.empty() && this->HoldIntersecting(best);
+  bool isToTry = best.FarLeaves.empty() && !best.IsHopeless() && this->HoldIntersecting(best);
   for (int releases = 0; isToTry;)
   {
     Attempt held = this->Try();
@@ -50,7 +64,7 @@ BestAttempt::Attempt BestAttempt::Find()
     {
       return held;
     }
-    isToTry = this->HoldIntersecting(held);
+    isToTry = !held.IsHopeless() && this->HoldIntersecting(held);
     if (!isToTry && best.Bad < held.Bad && releases < MostReleases)
     {
       ++releases;
@@ -75,7 +89,7 @@ BestAttempt::Attempt BestAttempt::Try()
     {
       attempt.FarLeaves = FarLeaves(attempt.Mesh, *this->Measured, this->ForAll);
     }
-    if (attempt.FarLeaves.empty())
+    if (attempt.FarLeaves.empty() && !attempt.IsHopeless())
     {
       attempt.Mesh = TakeDetours(std::move(attempt.Mesh), this->Options, this->ForAll);
       attempt.Bad = this->CountBad(attempt.Mesh);

@@ -25,7 +25,7 @@ namespace isodiamond
  * more of them are bad then, what is held near these is released for good, and everything is
  * improved once more. Of all these attempts the one with the fewest bad angles is taken, and of
  * several such the one with the fewest intersections: in white noise there is often no room for
- * both.
+ * both. Where there is no room for angles all over the mesh, the first attempt has to do.
  */
 class BestAttempt
 {
@@ -55,6 +55,8 @@ public:
       return std::tie(this->Bad, this->Intersections) < std::tie(other.Bad, other.Intersections);
     }
     ///@}
+    /** Whether too many are bad to be worth another attempt, or detours. */
+    bool IsHopeless() const;
   };
   Attempt Find();
 
