@@ -106,8 +106,10 @@ def print_hashes(name, image, isovalue):
         extractor.SetInputConnection(builder.GetOutputPort())
         if model == "HierarchyOfDiamonds":
             getattr(extractor, "SetShapeTo" + shape)()
-            extractor.SetIsovalue(isovalue)
-            extractor.SetIsorange(isovalue, math.inf)
+            if shape == "Isosurface":
+                extractor.SetIsovalue(isovalue)
+            else:
+                extractor.SetIsorange(isovalue, math.inf)
         extractor.SetRegionOfInterest(
             *(bounds[2 * axis] + (bounds[2 * axis + 1] - bounds[2 * axis]) * part
               for axis in range(3) for part in (0.3, 0.6))

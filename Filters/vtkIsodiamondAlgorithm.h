@@ -36,8 +36,9 @@ public:
 
   ///@{
   /**
-   * The tolerated error, in the units of the metric. *Distance*: world units; no vertex of the
-   * full-resolution surface is farther than this from the mesh. *Field* (the paper's): field units;
+   * The tolerated error, in the units of the metric. *Distance*: world units; no point of the mesh
+   * is farther than this from the full-resolution surface, and no vertex of that surface is farther
+   * from the mesh. *Field* (the paper's): field units;
    * at every sample in a tetrahedron that carries the surface, the field and its interpolant differ
    * by no more than this. 0 is full resolution, infinity the coarsest mesh. Negative values and NaN
    * are errors. Default: 0.
@@ -118,12 +119,12 @@ public:
   vtkSetVector6Macro(RegionOfInterest, double);
   vtkGetVector6Macro(RegionOfInterest, double);
   void SetRegionOfInterestPosition(double x, double y, double z);
-  void SetRegionOfInterestPosition(double position[3])
+  void SetRegionOfInterestPosition(const double position[3])
   {
     this->SetRegionOfInterestPosition(position[0], position[1], position[2]);
   }
   void SetRegionOfInterestSize(double x, double y, double z);
-  void SetRegionOfInterestSize(double size[3])
+  void SetRegionOfInterestSize(const double size[3])
   {
     this->SetRegionOfInterestSize(size[0], size[1], size[2]);
   }
@@ -142,12 +143,12 @@ public:
 
   ///@{
   /**
-   * Makes the mesh coarser with the distance from a viewpoint: no vertex of the full-resolution
-   * surface is farther from the mesh than PixelTolerance pixels, seen from ViewPosition by a
-   * perspective camera with a view ViewAngle degrees and ViewHeight pixels high, or than
-   * ErrorTolerance, whichever is more. This holds in all directions, so turning the camera needs no
-   * new mesh. Needs the distance metric. Defaults: off; (0, 0, 1), 30 degrees, 1000 pixels,
-   * 1 pixel. ViewAngle must be more than 0 and less than 180, ViewHeight more than 0,
+   * Makes the mesh coarser with the distance from a viewpoint: mesh and full-resolution surface, as
+   * ErrorTolerance compares them, are no farther apart than PixelTolerance pixels, seen from
+   * ViewPosition by a perspective camera with a view ViewAngle degrees and ViewHeight pixels high,
+   * or than ErrorTolerance, whichever is more. This holds in all directions, so turning the camera
+   * needs no new mesh. Needs the distance metric. Defaults: off; (0, 0, 1), 30 degrees, 1000
+   * pixels, 1 pixel. ViewAngle must be more than 0 and less than 180, ViewHeight more than 0,
    * PixelTolerance at least 0.
    */
   vtkSetMacro(ViewDependent, bool);

@@ -6,7 +6,8 @@
  * A drop-in replacement for a contour filter, with an error tolerance: a volume in, vtkPolyData of
  * triangles out. The filter keeps one minimal isodiamond hierarchy per isovalue: for a new
  * tolerance, region of interest or viewpoint it only extracts again. For a new input, array,
- * isovalue, boundary option or error metric, for other isovertices or features, and with the
+ * isovalue, boundary option or error metric, for other isovertices, features, topology or smallest
+ * pieces, and with the
  * distance metric for another spacing or direction, it builds what is missing; see
  * vtkIsodiamondVolumeAlgorithm.
  *

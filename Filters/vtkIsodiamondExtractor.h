@@ -127,7 +127,7 @@ public:
    * MI are of one isorange: with them this warns and has no effect. Default: off.
    */
   void SetIsorange(double lower, double upper);
-  void SetIsorange(double isorange[2]) { this->SetIsorange(isorange[0], isorange[1]); }
+  void SetIsorange(const double isorange[2]) { this->SetIsorange(isorange[0], isorange[1]); }
   /** The same, but leaves UseIsorange as it is: for user interfaces that set both, first to their
    *  initial values. */
   void StoreIsorange(double lower, double upper);

@@ -51,6 +51,10 @@ void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
   vtkIsodiamond::Mesh mesh;
   mesh.Points = vtkSmartPointer<vtkPoints>::New();
   vtkPoints* const points = mesh.Points;
+  const isodiamond::Grid& grid = hierarchy.SampleGrid();
+  const isodiamond::Point last = { grid.Last(0), grid.Last(1), grid.Last(2) };
+  const bool areFloats = isodiamond::GridGeometry(world).FitsFloats(last);
+  points->SetDataType(areFloats ? VTK_FLOAT : VTK_DOUBLE);
   points->GetData()->SetNumberOfComponents(3);
   vtkIsodiamond::AllocateTuples(points->GetData(), count);
   const auto kinds = vtkIsodiamond::NewArray<vtkShortArray>("Kind", count);

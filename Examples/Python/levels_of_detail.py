@@ -18,6 +18,7 @@ builder = vtkIsodiamondBuilder()
 builder.SetInputConnection(volume.GetOutputPort())
 builder.SetIsovalue(157)
 builder.SetErrorMetricToDistance()
+builder.PreserveTopologyOn()
 
 extractor = vtkIsodiamondExtractor()
 extractor.SetInputConnection(builder.GetOutputPort())

@@ -36,8 +36,8 @@ inline constexpr const char* Errors = "IsodiamondErrors";
 inline constexpr const char* Minima = "IsodiamondMinima";
 inline constexpr const char* Maxima = "IsodiamondMaxima";
 
-/** Numbers for users who look at the field data: the first three of any hierarchy, the others of RI
- * and MI. Nothing reads them. */
+/** Numbers for users who look at the field data: the first three of any hierarchy, with which
+ * ParaView's panels start; the others of RI and MI. No mesh depends on them. */
 inline constexpr const char* LargestErrorTolerance = "LargestErrorTolerance";
 inline constexpr const char* Isovalue = "Isovalue";
 inline constexpr const char* Isorange = "Isorange";
@@ -51,7 +51,8 @@ inline constexpr const char* StorageSize = "StorageSize";
 /** Whether an array, which may have no name, is a part of what a hierarchy is made of. */
 inline bool IsOfHierarchy(const char* name)
 {
-  return name != nullptr && std::string_view(name).substr(0, 10) == "Isodiamond";
+  constexpr std::string_view prefix = "Isodiamond"; // of all of the above
+  return name != nullptr && std::string_view(name).substr(0, prefix.size()) == prefix;
 }
 
 /** Such numbers beside a mesh. */

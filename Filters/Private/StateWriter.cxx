@@ -67,12 +67,14 @@ void AddSamples(vtkFieldData* fieldData, const char* name, const isodiamond::Any
 void WriteOutline(
   const std::array<int, 3>& dimensions, const isodiamond::AffineMap& world, vtkPolyData* output)
 {
+  const isodiamond::Point last = { dimensions[0] - 1, dimensions[1] - 1, dimensions[2] - 1 };
   vtkNew<vtkPoints> points;
+  points->SetDataType(isodiamond::GridGeometry(world).FitsFloats(last) ? VTK_FLOAT : VTK_DOUBLE);
   vtkNew<vtkCellArray> lines;
   for (int corner = 0; corner < 8; ++corner)
   {
-    const std::array<double, 3> point = world((corner & 1) != 0 ? dimensions[0] - 1 : 0,
-      (corner & 2) != 0 ? dimensions[1] - 1 : 0, (corner & 4) != 0 ? dimensions[2] - 1 : 0);
+    const std::array<double, 3> point = world((corner & 1) != 0 ? last[0] : 0,
+      (corner & 2) != 0 ? last[1] : 0, (corner & 4) != 0 ? last[2] : 0);
     points->InsertNextPoint(point.data());
     for (int axis = 1; axis < 8; axis *= 2)
     {

@@ -590,3 +590,34 @@ TEST(DiamondMesh, HasThePrecisionThatIsAskedFor)
     EXPECT_EQ(mesh->GetOutput()->GetPoints()->GetDataType(), type);
   }
 }
+
+// At coordinates of maps: floats that are 5 million are half a voxel apart.
+TEST(Hierarchy, HasItsPlaceFarFromTheOrigin)
+{
+  const auto image = test::BallImage({ 17, 18, 19 });
+  image->SetSpacing(0.1, 0.1, 0.1);
+  image->SetOrigin(500000.0, -5400000.0, 250.0);
+  vtkNew<vtkIsodiamondBuilder> builder;
+  builder->SetInputData(image);
+  vtkNew<vtkIsodiamondPoints> points;
+  points->SetInputConnection(builder->GetOutputPort());
+  points->Update();
+  double bounds[6];
+  builder->GetOutput()->GetBounds(bounds);
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_NEAR(bounds[i], image->GetBounds()[i], 1e-6) << i;
+  }
+  std::set<std::array<double, 3>> places;
+  for (vtkIdType i = 0; i < points->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    std::array<double, 3> place;
+    points->GetOutput()->GetPoint(i, place.data());
+    places.insert(place);
+  }
+  EXPECT_GT(places.size(), 100U);
+  EXPECT_EQ(places.size(), static_cast<std::size_t>(points->GetOutput()->GetNumberOfPoints()));
+  image->SetOrigin(0.0, 0.0, 0.0);
+  points->Update();
+  EXPECT_EQ(points->GetOutput()->GetPoints()->GetDataType(), VTK_FLOAT);
+}

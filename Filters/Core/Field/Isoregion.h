@@ -56,7 +56,6 @@ public:
     return this->TheShape == other.TheShape && this->Limits == other.Limits;
   }
 
-  Shape Form() const { return this->TheShape; }
   bool IsVolume() const { return this->TheShape == Shape::IntervalVolume; }
   int SurfaceCount() const { return this->IsVolume() ? 2 : 1; }
 
