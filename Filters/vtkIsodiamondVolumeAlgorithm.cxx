@@ -116,7 +116,7 @@ double* vtkIsodiamondVolumeAlgorithm::GetErrorToleranceRange()
   vtkSmartPointer<vtkDataObject> input = this->GetInput();
   vtkInformation* information =
     this->GetNumberOfInputConnections(0) > 0 ? this->GetInputInformation(0, 0) : nullptr;
-  // Not what the plan was made for, if there is another input since.
+  // The plan may have been made for another input.
   if (this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE && this->Plan->IsAPart() &&
     vtkIsodiamond::HasWholeImage(information))
   {
@@ -367,8 +367,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
     std::int64_t cells = 0;
     for (const isodiamond::IsodiamondHierarchy* hierarchy : hierarchies)
     {
-      cells += vtkIsodiamond::ExtractAsAsked(*hierarchy, tried, options, counting)
-                 .Cells->GetNumberOfCells();
+      cells += vtkIsodiamond::CountAsAsked(*hierarchy, tried, options, counting);
     }
     return cells;
   };
@@ -398,7 +397,7 @@ void vtkIsodiamondVolumeAlgorithm::ExtractAtTolerance(const vtkIsodiamond::Volum
   vtkIsodiamond::Task extracting = task.Part(found ? aimPart : 0.0, 1.0);
   this->Extract(volume, aimed, extracting, output);
   this->WriteTable(volume, aimed, unit, extracting, output);
-  // What is told gives the same mesh if it is set.
+  // AchievedTolerance, set as ErrorTolerance, has to give this mesh.
   double achieved = aimed.ErrorTolerance / unit;
   while (achieved * unit < aimed.ErrorTolerance)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Simplify.h"
 
+#include "Mesh/CellCounts.h"
 #include "Private/HierarchyQuery.h"
 #include "Private/Piece.h"
 #include "Private/PlacedTolerance.h"
@@ -156,6 +157,20 @@ Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& que
   SimplifyMesh(query, refined.Hierarchy(), options, task.For(), mesh);
   KeepShare(options.Wanted, mesh);
   return mesh;
+}
+
+std::int64_t CountAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const WorldQuery& query,
+  const MeshOptions& options, Task& task)
+{
+  const Measure measure(hierarchy);
+  if (GetsCoarser(query, measure.Metric) || (options.Hidden && options.Hidden->Any()))
+  {
+    return ExtractAsAsked(hierarchy, query, options, task).Cells->GetNumberOfCells();
+  }
+  const WorldQuery extracted = HierarchyQuery(query, measure, options.World);
+  return isodiamond::CountCells(
+    isodiamond::RefinedSet(hierarchy, CoreQuery(extracted, hierarchy, options.World), task.For()),
+    task.For());
 }
 
 Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const WorldQuery& query,

@@ -5,6 +5,8 @@
 #include "Private/Mesh.h"
 #include "Private/WorldQuery.h"
 
+#include <cstdint>
+
 /**
  * @file Simplify.h
  * Meshes within a tolerance, of which the hierarchy uses a part, and simplification the rest.
@@ -24,9 +26,13 @@ void CheckSimplify(const WorldQuery& query, isodiamond::ErrorMetric metric, bool
 Mesh ExtractAsAsked(const isodiamond::RefinedSet& refined, const WorldQuery& query,
   const MeshOptions& options, Task& task);
 
-/** The same for a hierarchy. */
+///@{
+/** The same for a hierarchy; and how many cells the mesh has. */
 Mesh ExtractAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const WorldQuery& query,
   const MeshOptions& options, Task& task);
+std::int64_t CountAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, const WorldQuery& query,
+  const MeshOptions& options, Task& task);
+///@}
 
 }
 

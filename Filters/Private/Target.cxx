@@ -238,6 +238,7 @@ void WriteCounts(const std::vector<const isodiamond::CellCounts*>& counts, const
 {
   constexpr int steps = 9;
   const std::string prefix = std::string(cells) + " at tolerance ";
+  AddNumber<vtkTypeInt64Array>(output, (prefix + "0").c_str(), CellsAt(counts, 0.0));
   for (int i = steps - 1; i >= 0; --i)
   {
     const double tolerance = RoundTolerance(largest / unit, i);
@@ -246,7 +247,6 @@ void WriteCounts(const std::vector<const isodiamond::CellCounts*>& counts, const
     AddNumber<vtkTypeInt64Array>(
       output, (prefix + number.str()).c_str(), CellsAt(counts, tolerance * unit));
   }
-  AddNumber<vtkTypeInt64Array>(output, (prefix + "0").c_str(), CellsAt(counts, 0.0));
 }
 
 }
