@@ -36,6 +36,13 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuar
   {
     position = position - origin;
   }
+  this->AddTriangles();
+  this->AddSamples(part.Samples, origin, usedPart);
+}
+
+/** Finds what triangles tell of their points, and whether those at a point are one fan. */
+void EdgeCollapses::AddTriangles()
+{
   std::vector<int> counts(this->Positions.size());
   for (std::uint32_t i = 0; i < this->Triangles.size(); ++i)
   {
@@ -59,18 +66,6 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuar
       }
     }
   }
-  this->Samples.reserve(part.Samples.size());
-  for (std::uint32_t i = 0; i < part.Samples.size(); ++i)
-  {
-    const Vector place = part.Samples[i].Position - origin;
-    this->Samples.push_back({ { static_cast<float>(place[0]), static_cast<float>(place[1]),
-                                static_cast<float>(place[2]) },
-      static_cast<float>(usedPart * part.Samples[i].Allowance), None, None });
-    if (part.Samples[i].Home != None)
-    {
-      this->PutOver(part.Samples[i].Home, i);
-    }
-  }
   for (std::uint32_t point = 0; point < this->Positions.size(); ++point)
   {
     if (this->AnyTriangle[point] != None)
@@ -79,6 +74,25 @@ EdgeCollapses::EdgeCollapses(const MeshPart& part, double usedPart, CollapseGuar
       this->ForEachNeighbour(
         point, [&](std::uint32_t, std::uint32_t triangle) { seen += triangle != None ? 1 : 0; });
       this->IsLeftAlone[point] = seen != counts[point];
+    }
+  }
+}
+
+/** @param origin of this mesh */
+void EdgeCollapses::AddSamples(
+  const std::vector<SurfaceSample>& samples, const Vector& origin, double usedPart)
+{
+  this->Samples.reserve(samples.size());
+  for (const SurfaceSample& sample : samples)
+  {
+    const Vector place = sample.Position - origin;
+    const auto number = static_cast<std::uint32_t>(this->Samples.size());
+    this->Samples.push_back({ { static_cast<float>(place[0]), static_cast<float>(place[1]),
+                                static_cast<float>(place[2]) },
+      static_cast<float>(usedPart * sample.Allowance), None, None });
+    if (sample.Home != None)
+    {
+      this->PutOver(sample.Home, number);
     }
   }
 }

@@ -171,6 +171,8 @@ private:
     }
   };
 
+  void AddTriangles();
+  void AddSamples(const std::vector<SurfaceSample>& samples, const Vector& origin, double usedPart);
   bool IsWorthATry(std::uint32_t vertex) const;
   bool FindHole(std::uint32_t vertex, std::uint32_t first, Hole& hole) const;
   bool KeepsTopology(const Hole& hole);
