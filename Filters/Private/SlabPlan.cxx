@@ -16,6 +16,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationExecutivePortKey.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <vtksys/SystemInformation.hxx>
 
@@ -106,24 +107,29 @@ void Update(vtkInformation* input)
  *  other than it says: then it gives all of a step, whatever it is asked for. */
 bool GivesSlabs(vtkInformation* input, int count)
 {
-  vtkImageData* image = vtkImageData::GetData(input);
-  const auto isGiven = [&] { return IsGiven(input) && !IsBeyondWhole(input); };
-  const std::array<int, 6> whole = WholeExtentOf(input);
-  if (!isGiven() || std::equal(whole.begin(), whole.end(), image->GetExtent()))
+  if (!IsGiven(input) || IsBeyondWhole(input))
   {
-    return isGiven();
+    return false;
   }
-  const std::vector<Slices> cut = isodiamond::StreamedBuild::Cut(WholeDimensionsOf(input), count);
-  for (const Slices& end : { cut.front(), cut.back() })
+  const std::array<int, 6> whole = WholeExtentOf(input);
+  std::array<int, 6> asked{};
+  input->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), asked.data());
+  std::array<int, 6> given{};
+  vtkImageData::GetData(input)->GetExtent(given.data());
+  if (given == asked || given == whole)
   {
-    if (image->GetExtent()[4] > whole[4] + end.First || image->GetExtent()[5] < whole[4] + end.Last)
+    return true;
+  }
+  // It may just give more, or still have that; if so, both ends can be had, the first one last.
+  const std::vector<Slices> cut = isodiamond::StreamedBuild::Cut(WholeDimensionsOf(input), count);
+  const std::array<Slices, 2> ends = { cut.back(), cut.front() };
+  return std::all_of(ends.begin(), ends.end(),
+    [&](const Slices& end)
     {
       RequestSlab(input, end);
       Update(input);
-      return isGiven();
-    }
-  }
-  return true;
+      return IsGiven(input);
+    });
 }
 
 }

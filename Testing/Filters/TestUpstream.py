@@ -183,6 +183,7 @@ def check_time_steps():
             if rank == 0:
                 for i, step in enumerate(steps):
                     output = writer()
+                    output.SetDataModeToBinary()  # see README.md on files
                     output.SetInputData(grid(step))
                     output.SetFileName(os.path.join(FOLDER, f"step{ends[0]}{i}.{ending}"))
                     output.Write()
@@ -204,6 +205,7 @@ def check_cells():
     path = os.path.join(FOLDER, "cells.vti")
     if rank == 0:
         output = vtkXMLImageDataWriter()
+        output.SetDataModeToBinary()
         converter = vtkPointDataToCellData()
         converter.SetInputData(wavelet((-10, 10, -10, 10, 0, 8 * max(ranks, 3))))
         output.SetInputConnection(converter.GetOutputPort())
