@@ -151,7 +151,7 @@ void SlabPlan::Request(vtkInformation* input, vtkInformation* output, int blocks
   this->Count = 1;
   if (peers > 1 && blocks != 1 && ReadsTogether(input) && RequestPart(input, *this->Peers))
   {
-    // Slabs would be read whenever a process comes to its own.
+    // Slabs are read by one process or another, but here all of them have to read together.
     this->AskedForParts = true;
     this->IsShared = false;
     return;

@@ -304,7 +304,7 @@ void EdgeCollapses::Collapse(std::uint32_t vertex, const Hole& hole)
   }
 }
 
-/** Notes that a vertex is about to be removed. */
+/** Notes that a vertex is about to be removed, or moved. */
 void EdgeCollapses::Note(std::uint32_t vertex, const Hole& hole)
 {
   const auto number = static_cast<std::uint32_t>(this->Steps.size());
