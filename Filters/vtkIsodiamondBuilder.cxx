@@ -201,7 +201,7 @@ void vtkIsodiamondBuilder::Build(
   const vtkSmartPointer<vtkDataObject> whole = this->Plan->TakeWhole(information);
   if (!slabs)
   {
-    vtkIsodiamond::CheckWhole(whole, information, *this->Pieces);
+    this->Pieces->CheckWhole(whole, information);
   }
   const bool isKnown = this->Built && this->BuiltOf == input &&
     this->BuiltAt > std::max(input->GetMTime(), input->GetUpdateTime()) &&

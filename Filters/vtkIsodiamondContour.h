@@ -7,9 +7,8 @@
  * triangles out. The filter keeps one minimal isodiamond hierarchy per isovalue: for a new
  * tolerance, region of interest or viewpoint it only extracts again. For a new input, array,
  * isovalue, boundary option or error metric, for other isovertices, features, topology or smallest
- * pieces, and with the
- * distance metric for another spacing or direction, it builds what is missing; see
- * vtkIsodiamondVolumeAlgorithm.
+ * pieces, and with the distance metric for another spacing or direction, it builds what is missing;
+ * see vtkIsodiamondVolumeAlgorithm.
  *
  * Point data: the isovalue under the input array's name (ComputeScalars), "Normals" toward lower
  * values (ComputeNormals) and "Gradient" (ComputeGradients), both from the full-resolution field,

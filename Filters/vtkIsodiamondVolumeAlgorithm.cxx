@@ -241,7 +241,7 @@ bool vtkIsodiamondVolumeAlgorithm::Open(vtkInformation* information, OneInput& i
   }
   input.Whole = this->Plan->TakeWhole(information);
   vtkDataSet* grid = vtkDataSet::SafeDownCast(input.Whole);
-  vtkIsodiamond::CheckWhole(grid, information, *this->Pieces);
+  this->Pieces->CheckWhole(grid, information);
   input.Array = this->FindInputArray(grid);
   if (!input.Array.Array && this->HaveBlocksTheArray)
   {

@@ -6,12 +6,10 @@
 #include "Private/Cells.h"
 #include "Private/Ghosts.h"
 #include "Private/Mesh.h"
-#include "Private/Pieces.h"
 #include "Private/Tuples.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
-#include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -25,7 +23,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 #include <vector>
 
 namespace vtkIsodiamond
@@ -116,30 +113,6 @@ void RequestWhole(vtkInformation* inputInformation)
   inputInformation->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
   inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
   inputInformation->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-}
-
-void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const Pieces& pieces)
-{
-  vtkInformation* data = volume ? volume->GetInformation() : nullptr;
-  if (pieces.Of(volume).Piece[1] == 1 || pieces.IsSameGrid() || !data ||
-    !data->Has(vtkDataObject::DATA_EXTENT()) || !inputInformation->Has(Pipeline::WHOLE_EXTENT()))
-  {
-    return;
-  }
-  int whole[6];
-  int extent[6];
-  inputInformation->Get(Pipeline::WHOLE_EXTENT(), whole);
-  data->Get(vtkDataObject::DATA_EXTENT(), extent);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const bool isKnown = whole[2 * axis] <= whole[2 * axis + 1];
-    if (!isKnown || extent[2 * axis] > whole[2 * axis] ||
-      extent[2 * axis + 1] < whole[2 * axis + 1])
-    {
-      throw std::invalid_argument("The input is a part of the volume, though all of it was asked "
-                                  "for: in parallel every process needs the whole volume.");
-    }
-  }
 }
 
 void KeepShare(const Share& share, Mesh& mesh)

@@ -11,7 +11,6 @@
 #include <optional>
 #include <vector>
 
-class vtkDataObject;
 class vtkInformation;
 
 /**
@@ -22,7 +21,6 @@ class vtkInformation;
 namespace vtkIsodiamond
 {
 
-class Pieces;
 struct Ghosts;
 struct Mesh;
 
@@ -44,15 +42,6 @@ struct Share
 /** Asks for the whole input: a part of a volume has another hierarchy, and a part of a hierarchy
  *  has no mesh. */
 void RequestWhole(vtkInformation* inputInformation);
-
-/**
- * Refuses a part of a volume where several processes are to share its mesh: the meshes of other
- * parts in other processes would not fit. Images of processes that execute together do not come
- * here in parts: see Parts.h.
- *
- * @throws std::invalid_argument
- */
-void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation, const Pieces& pieces);
 
 /**
  * Reduces a mesh to a share: of its n cells those from n p / N until n (p + 1) / N for piece p of

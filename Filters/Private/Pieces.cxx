@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <functional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 namespace vtkIsodiamond
@@ -120,10 +121,9 @@ void Pieces::Compare(vtkDataObject* input)
     }
     this->OfBlocks.emplace_back(blocks[i], share);
   }
-  this->Same = !vtkCompositeDataSet::SafeDownCast(input) && blocks.size() == 1 &&
-    this->OfBlocks.front().second.Piece[1] == peers.Count();
   if (!vtkCompositeDataSet::SafeDownCast(input))
   {
+    this->Same = blocks.size() == 1 && this->OfBlocks.front().second.Piece[1] == peers.Count();
     this->OfBlocks.clear(); // parts of one grid are put together
   }
 }
@@ -133,6 +133,30 @@ Share Pieces::Of(vtkDataObject* input) const
   const auto found = std::find_if(this->OfBlocks.begin(), this->OfBlocks.end(),
     [&](const auto& block) { return block.first == input; });
   return found != this->OfBlocks.end() ? found->second : this->Asked;
+}
+
+void Pieces::CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation) const
+{
+  vtkInformation* data = volume ? volume->GetInformation() : nullptr;
+  if (this->Of(volume).Piece[1] == 1 || this->Same || !data ||
+    !data->Has(vtkDataObject::DATA_EXTENT()) || !inputInformation->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    return;
+  }
+  int whole[6];
+  int extent[6];
+  inputInformation->Get(Pipeline::WHOLE_EXTENT(), whole);
+  data->Get(vtkDataObject::DATA_EXTENT(), extent);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const bool isKnown = whole[2 * axis] <= whole[2 * axis + 1];
+    if (!isKnown || extent[2 * axis] > whole[2 * axis] ||
+      extent[2 * axis + 1] < whole[2 * axis + 1])
+    {
+      throw std::invalid_argument("The input is a part of the volume, though all of it was asked "
+                                  "for: in parallel every process needs the whole volume.");
+    }
+  }
 }
 
 }

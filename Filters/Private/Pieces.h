@@ -37,6 +37,15 @@ public:
   /** Whether the filter's input is one grid, and all processes have the same. */
   bool IsSameGrid() const { return this->Same; }
 
+  /**
+   * Refuses a part of a volume where several processes are to share its mesh: the meshes of other
+   * parts in other processes would not fit. Images of processes that execute together do not come
+   * here in parts: see Parts.h.
+   *
+   * @throws std::invalid_argument
+   */
+  void CheckWhole(vtkDataObject* volume, vtkInformation* inputInformation) const;
+
 private:
   void Compare(vtkDataObject* input);
 

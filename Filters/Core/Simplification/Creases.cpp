@@ -29,38 +29,55 @@ private:
 
 }
 
-/** Whether filling a hole makes a crease, in it or at its border, sharper than any before. */
-bool EdgeCollapses::MakesCrease(std::uint32_t vertex, const Hole& hole) const
+/** Whether new triangles in a hole make a crease, among them or at its border, sharper than any
+ *  before.
+ *  @param goesRound whether the last of them is beside the first
+ *  @param newNormal (i) of what will be at the border from the hole's point i to the next */
+template <typename NewNormal>
+bool EdgeCollapses::MakesCrease(const Hole& hole, bool goesRound, NewNormal&& newNormal) const
 {
   Sharpest before(SharpestCosine);
   Sharpest after(1.0);
-  const int last = hole.Count - 1;
-  for (int i = 0; i <= last; ++i)
+  for (int i = 0; i < hole.Count; ++i)
   {
+    const int next = i + 1 < hole.Count ? i + 1 : 0;
+    if (next > 0 || goesRound)
+    {
+      after.Add(newNormal(i), newNormal(next));
+    }
     const std::uint32_t triangle = hole.Triangles[i];
     if (triangle == None)
     {
       continue;
     }
-    const Triangle& neighbours = this->Neighbours[triangle];
-    const int place = PlaceOf(this->Triangles[triangle], vertex);
-    const std::uint32_t next = neighbours[(place + 2) % 3];
-    if (next != None)
+    if (hole.Triangles[next] != None)
     {
-      before.Add(this->Normals[triangle], this->Normals[next]);
+      before.Add(this->Normals[triangle], this->Normals[hole.Triangles[next]]);
     }
-    const std::uint32_t outer = neighbours[(place + 1) % 3];
+    const std::uint32_t outer =
+      this->Neighbours[triangle][PlaceOf(this->Triangles[triangle], hole.Points[i])];
     if (outer != None)
     {
       before.Add(this->Normals[triangle], this->Normals[outer]);
-      after.Add(this->Fillings[std::clamp(i, 1, last - 1)].Normal, this->Normals[outer]);
+      after.Add(newNormal(i), this->Normals[outer]);
     }
   }
-  for (int i = 1; i + 1 < last; ++i)
-  {
-    after.Add(this->Fillings[i].Normal, this->Fillings[i + 1].Normal);
-  }
   return after.IsSharperThan(before);
+}
+
+/** The same for what fills the hole of a vertex: the first triangle and the last are gone. */
+bool EdgeCollapses::MakesCrease(const Hole& hole) const
+{
+  return this->MakesCrease(hole, false,
+    [&](int i) -> const Vector&
+    { return this->Fillings[std::clamp(i, 1, hole.Count - 2)].Normal; });
+}
+
+/** The same for a vertex that moves. */
+bool EdgeCollapses::MakesCrease(const Fan& fan) const
+{
+  return this->MakesCrease(
+    fan.Border(), true, [&](int i) -> const Vector& { return fan.NewNormal(i); });
 }
 
 /** The same for a flip. */
@@ -84,28 +101,6 @@ bool EdgeCollapses::MakesCrease(const Flip& flip) const
         before.Add(this->Normals[triangle], this->Normals[outer]);
         after.Add(hasA ? flip.FirstNormal : flip.SecondNormal, this->Normals[outer]);
       }
-    }
-  }
-  return after.IsSharperThan(before);
-}
-
-/** The same for a vertex that moves. */
-bool EdgeCollapses::MakesCrease(const Fan& fan) const
-{
-  Sharpest before(SharpestCosine);
-  Sharpest after(1.0);
-  const Hole& hole = fan.Border();
-  for (int i = 0; i < hole.Count; ++i)
-  {
-    const std::uint32_t triangle = hole.Triangles[i];
-    before.Add(this->Normals[triangle], this->Normals[hole.Triangles[fan.After(i)]]);
-    after.Add(fan.NewNormal(i), fan.NewNormal(fan.After(i)));
-    const std::uint32_t outer =
-      this->Neighbours[triangle][PlaceOf(this->Triangles[triangle], hole.Points[i])];
-    if (outer != None)
-    {
-      before.Add(this->Normals[triangle], this->Normals[outer]);
-      after.Add(fan.NewNormal(i), this->Normals[outer]);
     }
   }
   return after.IsSharperThan(before);

@@ -249,6 +249,13 @@ void EdgeCollapses::Offer(std::uint32_t vertex, double cost, std::uint32_t targe
   }
 }
 
+/** Offers a vertex's best collapse, in place of what has been offered so far. */
+void EdgeCollapses::OfferAnew(std::uint32_t vertex)
+{
+  ++this->Versions[vertex];
+  this->Offer(vertex, -HUGE_VAL, 0);
+}
+
 /** The best collapse of a vertex may be another one after a neighbour collapsed into a target. */
 void EdgeCollapses::OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::uint32_t target)
 {
@@ -256,8 +263,7 @@ void EdgeCollapses::OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::ui
   if (best.Target == None || best.WasRefused ||
     (vertex != target && this->Quadrics[vertex].At(this->Positions[target]) < best.Cost))
   {
-    ++this->Versions[vertex];
-    this->Offer(vertex, -HUGE_VAL, 0);
+    this->OfferAnew(vertex);
   }
   else if (vertex == target || best.Target == gone)
   {

@@ -188,9 +188,11 @@ private:
   bool TakesSamples(std::uint32_t vertex, const Hole& hole);
   bool FillRidge(std::uint32_t vertex, const Hole& hole);
   void FillWithTheSame(std::uint32_t vertex, const Hole& hole);
-  bool MakesCrease(std::uint32_t vertex, const Hole& hole) const;
+  bool MakesCrease(const Hole& hole) const;
   bool MakesCrease(const Flip& flip) const;
   bool MakesCrease(const Fan& fan) const;
+  template <typename NewNormal>
+  bool MakesCrease(const Hole& hole, bool goesRound, NewNormal&& newNormal) const;
   bool MayGo(std::uint32_t vertex) const
   {
     return this->AnyTriangle[vertex] != None && !this->IsFixed[vertex] &&
@@ -233,6 +235,7 @@ private:
   void Note(std::uint32_t vertex, const Hole& hole);
   void Close(std::uint32_t vertex, std::uint32_t gone, std::uint32_t stays, int edge);
   void Offer(std::uint32_t vertex, double cost, std::uint32_t target);
+  void OfferAnew(std::uint32_t vertex);
   void OfferAgain(std::uint32_t vertex, std::uint32_t gone, std::uint32_t target);
 
   /** Calls visit(triangle) for those that a step changed or removed. */

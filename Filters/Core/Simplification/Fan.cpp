@@ -57,9 +57,8 @@ bool Fan::FindBetter(double leastSine)
   for (auto at = candidates.begin(); at != candidates.end(); ++at)
   {
     const bool isNew = *at != Nothing && std::find(candidates.begin(), at, *at) == at;
-    if (isNew && this->Draw(this->Samples[*at]) &&
-      this->New.Sine >= std::min(this->Now.Sine, leastSine) &&
-      this->TakesSamples(this->Samples[*at], most) && this->New.IsBetterThan(this->Now))
+    if (isNew && this->Draw(*at) && this->New.Sine >= std::min(this->Now.Sine, leastSine) &&
+      this->TakesSamples(*at, most) && this->New.IsBetterThan(this->Now))
     {
       most = this->New.Squares;
       this->Best = *at;
@@ -147,43 +146,42 @@ Hole::Place Fan::Centre() const
   return { sum[0] / area, sum[1] / area };
 }
 
-/** Draws the triangles around another point. @return whether all are seen from above */
-bool Fan::Draw(const Sample& point)
+/** Draws the triangles around another point, a sample. @return whether all are seen from above */
+bool Fan::Draw(std::size_t point)
 {
-  const Hole::Place seen = this->Around.See(point.From);
+  const Vector& from = this->Samples[point].From;
   this->New = {};
   for (int i = 0; i < this->Around.Count; ++i)
   {
     const Vector& a = this->Ring[i];
     const Vector& b = this->Ring[this->After(i)];
-    const Vector across = Cross(a - point.From, b - point.From);
+    const Vector across = Cross(a - from, b - from);
     const double length = std::sqrt(Dot(across, across));
     if (!(Dot(across, this->Around.Normal) > this->Around.LeastCosine * length))
     {
       return false;
     }
     this->NewNormals[i] = (1.0 / length) * across;
-    this->Spokes[i] = Between(seen, this->Around.Places[i]);
-    this->New.Sine = std::min(this->New.Sine, SmallestSine(point.From, a, b));
+    this->Spokes[i] = Between(this->Seen[point], this->Around.Places[i]);
+    this->New.Sine = std::min(this->New.Sine, SmallestSine(from, a, b));
   }
   return true;
 }
 
 /** Puts all samples over what was drawn around a point. @param most squares
  *  @return whether each is near enough, and all of them together are */
-bool Fan::TakesSamples(const Sample& point, double most)
+bool Fan::TakesSamples(std::size_t point, double most)
 {
-  const Hole::Place seen = this->Around.See(point.From);
   ByTriangle<double> heights;
   for (int i = 0; i < this->Around.Count; ++i)
   {
-    heights[i] = Dot(point.From, this->NewNormals[i]);
+    heights[i] = Dot(this->Samples[point].From, this->NewNormals[i]);
   }
   this->NewTriangles.resize(this->Samples.size());
   for (std::size_t k = 0; k < this->Samples.size(); ++k)
   {
     const Sample& sample = this->Samples[k];
-    const Hole::Place from = Between(seen, this->Seen[k]);
+    const Hole::Place from = Between(this->Seen[point], this->Seen[k]);
     const auto isOver = [&](int i)
     {
       return Cross2(this->Spokes[i], from) >= 0.0 &&

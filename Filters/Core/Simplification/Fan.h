@@ -81,8 +81,8 @@ private:
   Candidates FindCandidates() const;
   Vector LeastSquaresMove() const;
   Hole::Place Centre() const;
-  bool Draw(const Sample& point);
-  bool TakesSamples(const Sample& point, double most);
+  bool Draw(std::size_t point);
+  bool TakesSamples(std::size_t point, double most);
 
   Hole Around;
   ByTriangle<Vector> Ring;

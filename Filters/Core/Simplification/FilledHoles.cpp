@@ -235,7 +235,7 @@ bool EdgeCollapses::CanFill(std::uint32_t vertex, Hole& hole)
   const bool isRidge = !isSeen || hole.LeastCosine < Hole::UsualCosine;
   return (isFilled || isRidge) && this->KeepsShape(vertex, hole) &&
     (isFilled ? this->TakesSamples(vertex, hole) : this->FillRidge(vertex, hole)) &&
-    !this->MakesCrease(vertex, hole);
+    !this->MakesCrease(hole);
 }
 
 }

@@ -21,7 +21,8 @@ struct Fit
   /** Whether samples are nearer overall, or not much farther if a bad shape gets better. */
   bool IsBetterThan(const Fit& before) const
   {
-    if (before.Sine<ShapelySine&& this->Sine> BetterShape * before.Sine)
+    const bool isBetterShape = this->Sine > BetterShape * before.Sine;
+    if (isBetterShape && before.Sine < ShapelySine)
     {
       return this->Squares <= before.MostSquares();
     }

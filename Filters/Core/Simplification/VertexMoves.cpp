@@ -2,7 +2,6 @@
 #include "Simplification/EdgeCollapses.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace isodiamond
 {
@@ -82,8 +81,7 @@ void EdgeCollapses::Move(std::uint32_t vertex, const Fan& fan)
   {
     if (this->MayGo(other))
     {
-      ++this->Versions[other];
-      this->Offer(other, -HUGE_VAL, 0);
+      this->OfferAnew(other);
     }
   };
   offer(point);

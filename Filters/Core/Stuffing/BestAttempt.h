@@ -48,14 +48,14 @@ public:
     ///@{
     /** If there are none of these: how many are left. */
     std::size_t Bad = 0;           ///< tetrahedra whose angles are not as wanted
-    std::size_t Intersections = 0; ///< pairs of a surface's triangles
+    std::size_t Intersections = 0; ///< pairs of a surface's triangles; not counted if hopeless
 
     bool IsBetterThan(const Attempt& other) const
     {
       return std::tie(this->Bad, this->Intersections) < std::tie(other.Bad, other.Intersections);
     }
     ///@}
-    /** Whether too many are bad to be worth another attempt, or detours. */
+    /** Whether too many are bad for detours to be worth it, or for surfaces to be held. */
     bool IsHopeless() const;
   };
   Attempt Find();
