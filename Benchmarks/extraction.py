@@ -6,8 +6,8 @@
 Prints medians of interleaved runs and their ratios; only the ratios can be compared between
 machines. Fields: a smooth ball, a ball with noise, and a gyroid that fills the volume.
 """
+import argparse
 import statistics
-import sys
 import time
 
 import numpy
@@ -44,7 +44,9 @@ def timed(algorithm):
 
 
 def main():
-    size = int(sys.argv[1]) if len(sys.argv) > 1 else 256
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("size", nargs="?", type=int, default=256, help="samples on each axis (%(default)s)")
+    size = parser.parse_args().size
     print(f"{size}^3, medians of {RUNS}, milliseconds; ratios to vtkFlyingEdges3D")
     for name, field in fields(size):
         image = image_of(field)

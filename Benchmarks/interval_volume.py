@@ -7,10 +7,10 @@ One thread each, each in a process of its own, build (by the field metric) inclu
 seconds, and of the peak memory above what the input took. vtkIsoVolume returns cells of several
 kinds, Isodiamonds only tetrahedra.
 """
+import argparse
 import json
 import statistics
 import subprocess
-import sys
 import time
 
 import numpy
@@ -67,16 +67,20 @@ def measure(kind, name, size):
 
 
 def main():
-    if len(sys.argv) == 4:
-        print(json.dumps(measure(sys.argv[1], sys.argv[2], int(sys.argv[3]))))
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("size", nargs="?", type=int, default=128, help="samples on each axis (%(default)s)")
+    parser.add_argument("--run", nargs=2, help=argparse.SUPPRESS)  # of a process of its own
+    arguments = parser.parse_args()
+    size = arguments.size
+    if arguments.run:
+        print(json.dumps(measure(*arguments.run, size)))
         return
-    size = int(sys.argv[1]) if len(sys.argv) > 1 else 128
     print(f"{size}^3 floats, medians of {RUNS}")
     for name in FIELDS:
         results = {"Isodiamonds": [], "vtkIsoVolume": []}
         for _ in range(RUNS):
             for kind, rows in results.items():
-                command = ["pvpython", __file__, kind, name, str(size)]
+                command = ["pvpython", __file__, str(size), "--run", kind, name]
                 output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
                 rows.append(json.loads(output.splitlines()[-1]))
         seconds = {k: statistics.median(r[0] for r in rows) for k, rows in results.items()}

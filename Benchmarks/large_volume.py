@@ -1,11 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Builds and extracts a surface of a 1024^3 volume of bytes, and prints how much memory that took.
-
-Usage: large_volume.py [SIZE [field|distance]]
-"""
+"""Builds and extracts a surface of a 1024^3 volume of bytes, and prints how much memory that took."""
+import argparse
 import resource
-import sys
 import time
 
 import numpy as np
@@ -13,8 +10,11 @@ from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 
-size = int(sys.argv[1]) if len(sys.argv) > 1 else 1024
-metric = sys.argv[2] if len(sys.argv) > 2 else "field"
+parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+parser.add_argument("size", nargs="?", type=int, default=1024, help="samples on each axis (%(default)s)")
+parser.add_argument("metric", nargs="?", choices=["field", "distance"], default="field")
+arguments = parser.parse_args()
+size, metric = arguments.size, arguments.metric
 
 
 def peak():

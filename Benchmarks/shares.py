@@ -10,6 +10,7 @@ beyond the hierarchy, a process of its own makes it (Linux only). All run in Pyt
 `pvpython` cannot start another one. The field is the gyroid of extraction.py, by the field metric,
 at full resolution and at a tolerance that leaves a quarter of the triangles.
 """
+import argparse
 import statistics
 import subprocess
 import sys
@@ -46,7 +47,7 @@ def print_peak(size, tolerance, count):
 
 
 def peak(size, tolerance, count):
-    command = [sys.executable, __file__, str(size), str(tolerance), str(count)]
+    command = [sys.executable, __file__, str(size), "--peak", str(tolerance), str(count)]
     return float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 
@@ -60,9 +61,14 @@ def timed(extractor, share, count):
 
 
 def main():
-    size = int(sys.argv[1]) if len(sys.argv) > 1 else 256
-    if len(sys.argv) > 2:
-        print_peak(size, float(sys.argv[2]), int(sys.argv[3]))
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("size", nargs="?", type=int, default=256, help="samples on each axis (%(default)s)")
+    parser.add_argument("--peak", nargs=2, help=argparse.SUPPRESS)  # of a process of its own
+    arguments = parser.parse_args()
+    size = arguments.size
+    if arguments.peak:
+        tolerance, count = arguments.peak
+        print_peak(size, float(tolerance), int(count))
         return
     extractor = make_extractor(size)
     for tolerance in (0.0, 0.05):

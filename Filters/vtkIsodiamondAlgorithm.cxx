@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondAlgorithm.h"
 
-#include "Private/Arrays.h"
-#include "Private/Format.h"
-#include "Private/Mesh.h"
-#include "Private/Piece.h"
-#include "Private/Pieces.h"
-#include "Private/Target.h"
-#include "Private/WorldQuery.h"
+#include "Private/Common/Arrays.h"
+#include "Private/Extraction/Mesh.h"
+#include "Private/Extraction/Share.h"
+#include "Private/Parallel/InputShares.h"
+#include "Private/Query/Target.h"
+#include "Private/Query/WorldQuery.h"
+#include "Private/State/Format.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
@@ -22,7 +22,7 @@
 
 //------------------------------------------------------------------------------
 vtkIsodiamondAlgorithm::vtkIsodiamondAlgorithm()
-  : Pieces(std::make_unique<vtkIsodiamond::Pieces>())
+  : Shares(std::make_unique<vtkIsodiamond::InputShares>())
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
@@ -122,7 +122,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondAlgorithm::GetQuery() const
 //------------------------------------------------------------------------------
 vtkIsodiamond::Share vtkIsodiamondAlgorithm::GetShare()
 {
-  vtkIsodiamond::Share share = this->Pieces->Of(this->GetInputDataObject(0, 0));
+  vtkIsodiamond::Share share = this->Shares->Of(this->GetInputDataObject(0, 0));
   if (this->GenerateGlobalIds)
   {
     share.FirstIds = { 0, 0 };
@@ -188,7 +188,7 @@ vtkTypeBool vtkIsodiamondAlgorithm::ProcessRequest(
 //------------------------------------------------------------------------------
 int vtkIsodiamondAlgorithm::ModifyRequest(vtkInformation* request, int when)
 {
-  this->Pieces->Note(this, request, when);
+  this->Shares->Note(this, request, when);
   if (when == vtkExecutive::BeforeForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     this->ForgetMesh();

@@ -23,7 +23,7 @@ namespace vtkIsodiamond
 {
 struct CountedTolerance;
 struct Mesh;
-class Pieces;
+class InputShares;
 struct Share;
 struct WorldQuery;
 }
@@ -260,7 +260,7 @@ protected:
   int NumberOfThreads = 0;
   double ErrorToleranceRange[2] = { 0.0, 1.0 };
   double AchievedTolerance = 0.0;
-  std::unique_ptr<vtkIsodiamond::Pieces> Pieces; ///< of what is requested
+  std::unique_ptr<vtkIsodiamond::InputShares> Shares; ///< of what is requested
 
 private:
   vtkIsodiamondAlgorithm(const vtkIsodiamondAlgorithm&) = delete;

@@ -3,14 +3,14 @@
 
 #include "Build/Builder.h"
 #include "Field/SystemMemory.h"
-#include "Private/Input.h"
-#include "Private/Piece.h"
-#include "Private/Pieces.h"
-#include "Private/PointData.h"
-#include "Private/Slabs.h"
-#include "Private/State.h"
-#include "Private/Task.h"
-#include "Private/Threads.h"
+#include "Private/Build/Slabs.h"
+#include "Private/Common/Task.h"
+#include "Private/Common/Threads.h"
+#include "Private/Extraction/Share.h"
+#include "Private/Input/PointData.h"
+#include "Private/Input/Volume.h"
+#include "Private/Parallel/InputShares.h"
+#include "Private/State/State.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -28,7 +28,7 @@ vtkStandardNewMacro(vtkIsodiamondBuilder);
 
 //------------------------------------------------------------------------------
 vtkIsodiamondBuilder::vtkIsodiamondBuilder()
-  : Pieces(std::make_unique<vtkIsodiamond::Pieces>())
+  : Shares(std::make_unique<vtkIsodiamond::InputShares>())
   , Plan(std::make_unique<vtkIsodiamond::SlabPlan>())
 {
   this->SetInputArrayToProcess(
@@ -146,8 +146,8 @@ vtkTypeBool vtkIsodiamondBuilder::ProcessRequest(
 //------------------------------------------------------------------------------
 int vtkIsodiamondBuilder::ModifyRequest(vtkInformation* request, int when)
 {
-  this->Pieces->Note(this, request, when);
-  this->Plan->Note(this, request, when, this->Pieces->IsSameGrid());
+  this->Shares->Note(this, request, when);
+  this->Plan->Note(this, request, when, this->Shares->IsSameGrid());
   return this->Superclass::ModifyRequest(request, when);
 }
 
@@ -182,7 +182,7 @@ int vtkIsodiamondBuilder::RequestData(
     {
       vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
       this->Build(input, task, output);
-      if (this->Pieces->Of(input).Piece[0] > 0)
+      if (this->Shares->Of(input).Piece[0] > 0)
       {
         output->SetPoints(vtkNew<vtkPoints>());
         output->SetLines(nullptr);
@@ -201,7 +201,7 @@ void vtkIsodiamondBuilder::Build(
   const vtkSmartPointer<vtkDataObject> whole = this->Plan->TakeWhole(information);
   if (!slabs)
   {
-    this->Pieces->CheckWhole(whole, information);
+    this->Shares->CheckWhole(whole, information);
   }
   const bool isKnown = this->Built && this->BuiltOf == input &&
     this->BuiltAt > std::max(input->GetMTime(), input->GetUpdateTime()) &&

@@ -46,7 +46,7 @@ namespace vtkIsodiamond
 {
 struct Choice;
 struct InputArray;
-class Pieces;
+class InputShares;
 class SlabPlan;
 class Slabs;
 class Task;
@@ -296,7 +296,7 @@ private:
   void BuildFromHierarchy(vtkPolyData* input, vtkIsodiamond::Task& task, vtkPolyData* output);
   void Build(vtkDataObject* input, vtkIsodiamond::Task& task, vtkPolyData* output);
 
-  std::unique_ptr<vtkIsodiamond::Pieces> Pieces;
+  std::unique_ptr<vtkIsodiamond::InputShares> Shares;
   std::unique_ptr<vtkIsodiamond::SlabPlan> Plan;
   /** What was built, from what, and when: in parallel, extractors request the hierarchy as a single
    *  piece, and whatever displays it requests one of several. Both are the same hierarchy. */

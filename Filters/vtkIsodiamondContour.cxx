@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondContour.h"
 
-#include "Private/Mesh.h"
-#include "Private/Threads.h"
-#include "Private/WorldQuery.h"
+#include "Private/Common/Threads.h"
+#include "Private/Extraction/Mesh.h"
+#include "Private/Query/WorldQuery.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellData.h"

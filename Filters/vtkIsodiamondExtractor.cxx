@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondExtractor.h"
 
-#include "Private/HierarchyQuery.h"
-#include "Private/Input.h"
-#include "Private/Mesh.h"
-#include "Private/Simplify.h"
-#include "Private/Target.h"
-#include "Private/WorldQuery.h"
+#include "Private/Extraction/Extraction.h"
+#include "Private/Extraction/Mesh.h"
+#include "Private/Input/Volume.h"
+#include "Private/Query/HierarchyQuery.h"
+#include "Private/Query/Target.h"
+#include "Private/Query/WorldQuery.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataObjectTypes.h"

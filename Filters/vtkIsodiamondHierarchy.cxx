@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondHierarchy.h"
 
-#include "Private/State.h"
+#include "Private/State/State.h"
 
 #include "vtkFieldData.h"
 #include "vtkObjectFactory.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondIntervalVolume.h"
 
-#include "Private/Mesh.h"
-#include "Private/WorldQuery.h"
+#include "Private/Extraction/Mesh.h"
+#include "Private/Query/WorldQuery.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIsodiamondPoints.h"
 
-#include "Private/Arrays.h"
-#include "Private/Cells.h"
-#include "Private/Mesh.h"
-#include "Private/Piece.h"
-#include "Private/Pieces.h"
-#include "Private/State.h"
-#include "Private/Task.h"
+#include "Private/Common/Arrays.h"
+#include "Private/Common/Cells.h"
+#include "Private/Common/Task.h"
+#include "Private/Extraction/Mesh.h"
+#include "Private/Extraction/Share.h"
+#include "Private/Parallel/InputShares.h"
+#include "Private/State/State.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -91,7 +91,7 @@ void WritePoints(const isodiamond::IsodiamondHierarchy& hierarchy,
 
 //------------------------------------------------------------------------------
 vtkIsodiamondPoints::vtkIsodiamondPoints()
-  : Pieces(std::make_unique<vtkIsodiamond::Pieces>())
+  : Shares(std::make_unique<vtkIsodiamond::InputShares>())
 {
 }
 
@@ -114,7 +114,7 @@ int vtkIsodiamondPoints::FillInputPortInformation(int, vtkInformation* info)
 //------------------------------------------------------------------------------
 int vtkIsodiamondPoints::ModifyRequest(vtkInformation* request, int when)
 {
-  this->Pieces->Note(this, request, when);
+  this->Shares->Note(this, request, when);
   return this->Superclass::ModifyRequest(request, when);
 }
 
@@ -143,7 +143,7 @@ int vtkIsodiamondPoints::RequestData(
         throw std::invalid_argument("A hierarchy of diamonds (HD) stores no isodiamonds; build a "
                                     "relevant or minimal hierarchy from it.");
       }
-      vtkIsodiamond::Share share = this->Pieces->Of(input);
+      vtkIsodiamond::Share share = this->Shares->Of(input);
       share.GhostLevels = 0;
       WritePoints(*state->Isodiamonds, state->World, share, output);
     });

@@ -22,7 +22,7 @@
 
 namespace vtkIsodiamond
 {
-class Pieces;
+class InputShares;
 }
 
 class VTKISODIAMONDFILTERS_EXPORT vtkIsodiamondPoints : public vtkPolyDataAlgorithm
@@ -45,7 +45,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
 private:
-  std::unique_ptr<vtkIsodiamond::Pieces> Pieces; ///< of what is requested
+  std::unique_ptr<vtkIsodiamond::InputShares> Shares; ///< of what is requested
 
   vtkIsodiamondPoints(const vtkIsodiamondPoints&) = delete;
   void operator=(const vtkIsodiamondPoints&) = delete;

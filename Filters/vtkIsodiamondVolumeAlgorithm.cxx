@@ -3,21 +3,21 @@
 
 #include "Mesh/CellCounts.h"
 #include "Patches/WorldLengths.h"
-#include "Private/Arrays.h"
-#include "Private/Cache.h"
-#include "Private/Format.h"
-#include "Private/HierarchyQuery.h"
-#include "Private/Input.h"
-#include "Private/Mesh.h"
-#include "Private/Piece.h"
-#include "Private/Pieces.h"
-#include "Private/PointData.h"
-#include "Private/Simplify.h"
-#include "Private/Slabs.h"
-#include "Private/Target.h"
-#include "Private/Task.h"
-#include "Private/Threads.h"
-#include "Private/WorldQuery.h"
+#include "Private/Build/Cache.h"
+#include "Private/Build/Slabs.h"
+#include "Private/Common/Arrays.h"
+#include "Private/Common/Task.h"
+#include "Private/Common/Threads.h"
+#include "Private/Extraction/Extraction.h"
+#include "Private/Extraction/Mesh.h"
+#include "Private/Extraction/Share.h"
+#include "Private/Input/PointData.h"
+#include "Private/Input/Volume.h"
+#include "Private/Parallel/InputShares.h"
+#include "Private/Query/HierarchyQuery.h"
+#include "Private/Query/Target.h"
+#include "Private/Query/WorldQuery.h"
+#include "Private/State/Format.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataSet.h"
@@ -162,7 +162,7 @@ int vtkIsodiamondVolumeAlgorithm::ModifyRequest(vtkInformation* request, int whe
         [this](vtkDataSet* block) { return this->FindInputArray(block).Array != nullptr; });
   }
   const int success = this->Superclass::ModifyRequest(request, when);
-  this->Plan->Note(this, request, when, this->Pieces->IsSameGrid());
+  this->Plan->Note(this, request, when, this->Shares->IsSameGrid());
   return success;
 }
 
@@ -241,7 +241,7 @@ bool vtkIsodiamondVolumeAlgorithm::Open(vtkInformation* information, OneInput& i
   }
   input.Whole = this->Plan->TakeWhole(information);
   vtkDataSet* grid = vtkDataSet::SafeDownCast(input.Whole);
-  this->Pieces->CheckWhole(grid, information);
+  this->Shares->CheckWhole(grid, information);
   input.Array = this->FindInputArray(grid);
   if (!input.Array.Array && this->HaveBlocksTheArray)
   {

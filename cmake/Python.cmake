@@ -22,3 +22,10 @@ if(ISODIAMONDS_BUILD_PARAVIEW_PLUGIN)
   list(APPEND python_files "${python_package}/view.py")
 endif()
 install(FILES ${python_files} DESTINATION "${python_destination}/isodiamonds" COMPONENT python)
+
+# What runs it, for tests: ParaView's interpreter, or that of a plain VTK.
+if(ISODIAMONDS_BUILD_PARAVIEW_PLUGIN)
+  set(python "$<TARGET_FILE:ParaView::pvpython>")
+else()
+  set(python "${Python3_EXECUTABLE}")
+endif()

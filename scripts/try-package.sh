@@ -11,7 +11,7 @@ package=$(realpath "$1")
 as_root apt-get update -qq
 as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "$package" >/dev/null
 cd /
-pvpython "$root/Testing/Filters/TestPackage.py"
+pvpython "$root/Testing/Python/TestPackage.py"
 
 install_build_packages # a program needs ParaView's development files
 example=$(mktemp -d)
