@@ -4,6 +4,7 @@
 #include "Private/Common/Arrays.h"
 #include "Private/Extraction/Mesh.h"
 #include "Private/Extraction/Share.h"
+#include "Private/Input/Request.h"
 #include "Private/Parallel/InputShares.h"
 #include "Private/Query/Target.h"
 #include "Private/Query/WorldQuery.h"

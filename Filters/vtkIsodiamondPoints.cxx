@@ -6,6 +6,7 @@
 #include "Private/Common/Task.h"
 #include "Private/Extraction/Mesh.h"
 #include "Private/Extraction/Share.h"
+#include "Private/Input/Request.h"
 #include "Private/Parallel/InputShares.h"
 #include "Private/State/State.h"
 
