@@ -11,8 +11,7 @@
  * that it has seen before, while their hierarchies are kept (CacheSize).
  *
  * Blanked cells, cells at blanked points and ghost cells count as absent. Distances are the world's
- * on images and rectilinear grids, whatever their spacing; on structured grids only the field
- * metric can simplify. Full resolution needs no metric.
+ * on all of these grids, whatever their spacing and however they are bent.
  *
  * The whole input is requested, or slab after slab of it if memory is short (NumberOfBlocks). In
  * parallel every process makes its share of the cells of each isosurface, or of the interval

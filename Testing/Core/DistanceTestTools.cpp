@@ -27,6 +27,31 @@ double LongestSide(const reference::SurfaceTriangle& triangle)
 
 }
 
+namespace
+{
+
+/** @param at maps [0, 1] on each axis to the world */
+World CurvedWorld(const std::array<int, 3>& dims,
+  const std::function<isodiamond::Vector(double, double, double)>& at)
+{
+  std::vector<double> positions;
+  for (int z = 0; z < dims[2]; ++z)
+  {
+    for (int y = 0; y < dims[1]; ++y)
+    {
+      for (int x = 0; x < dims[0]; ++x)
+      {
+        const isodiamond::Vector place =
+          at(x / (dims[0] - 1.0), y / (dims[1] - 1.0), z / (dims[2] - 1.0));
+        positions.insert(positions.end(), place.begin(), place.end());
+      }
+    }
+  }
+  return { std::move(positions), dims };
+}
+
+}
+
 isodiamond::AffineMap Spacing(double x, double y, double z)
 {
   isodiamond::AffineMap world;
@@ -51,6 +76,43 @@ isodiamond::AxisCoordinates UnevenCoordinates(const std::array<int, 3>& dims, do
     }
   }
   return coordinates;
+}
+
+World Bent(const std::array<int, 3>& dims)
+{
+  return CurvedWorld(dims,
+    [](double x, double y, double z) -> isodiamond::Vector
+    {
+      const double turn = 0.3 + 0.8 * z;
+      const double u = 5.0 * x + 1.5 * std::sin(3.0 * y);
+      const double v = 7.0 * y - 1.5 * std::sin(3.0 * x);
+      return { std::cos(turn) * u - std::sin(turn) * v + 5.0,
+        std::sin(turn) * u + std::cos(turn) * v - 40.0, 6.0 * z + std::sin(2.0 * x * y) };
+    });
+}
+
+World Wound(const std::array<int, 3>& dims)
+{
+  return CurvedWorld(dims,
+    [](double x, double y, double z) -> isodiamond::Vector
+    {
+      const double angle = 6.283185307179586 * (x < 1.0 ? x : 0.0);
+      return { 5.0 * y * std::cos(angle), 5.0 * y * std::sin(angle), 8.0 * z };
+    });
+}
+
+std::vector<World> StraightWorldsFor(const std::array<int, 3>& dims)
+{
+  return { { Spacing(0.5, 2.0, 1.25) },
+    { isodiamond::GridGeometry(UnevenCoordinates(dims, 20.0)) } };
+}
+
+std::vector<World> WorldsFor(const std::array<int, 3>& dims)
+{
+  std::vector<World> worlds = StraightWorldsFor(dims);
+  worlds.push_back(Bent(dims));
+  worlds.push_back(Wound(dims));
+  return worlds;
 }
 
 SurfaceTriangles Placed(const SurfaceTriangles& triangles, const isodiamond::GridGeometry& world)
@@ -251,7 +313,7 @@ public:
         largest = std::max(largest, std::abs(coordinate));
       }
     }
-    this->Farthest += 1e-13 * largest; // rounding
+    this->Farthest += 1e-12 * largest; // rounding, also of corners that a grid has turned
   }
 
   void operator()(const std::array<double, 3>& point)

@@ -10,7 +10,9 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 /** Distances between surfaces by brute force, and worlds to measure them in. */
@@ -27,6 +29,32 @@ isodiamond::AffineMap Spacing(double x, double y, double z);
  *  steps on z. Steps differ by this ratio at most; they are multiples of a power of 2, so that
  *  little is rounded. */
 isodiamond::AxisCoordinates UnevenCoordinates(const std::array<int, 3>& dims, double ratio);
+
+/** A world, with the positions that a curvilinear one looks at. */
+struct World : isodiamond::GridGeometry
+{
+  World(isodiamond::GridGeometry other) // NOLINT(google-explicit-constructor)
+    : GridGeometry(std::move(other))
+  {
+  }
+  World(std::vector<double> positions, const std::array<int, 3>& dims)
+    : GridGeometry(isodiamond::SamplePositions{ positions.data(), dims })
+    , Positions(std::make_shared<std::vector<double>>(std::move(positions)))
+  {
+  }
+
+  std::shared_ptr<std::vector<double>> Positions;
+};
+
+/** A grid that is bent smoothly, and twisted. */
+World Bent(const std::array<int, 3>& dims);
+/** A grid that is wound around an axis once: all samples of the first column of a slice are on the
+ *  axis, and its two ends meet. */
+World Wound(const std::array<int, 3>& dims);
+/** A spacing, and uneven axes: boxes of index space are boxes in the world. */
+std::vector<World> StraightWorldsFor(const std::array<int, 3>& dims);
+/** The same, and two curvilinear grids. */
+std::vector<World> WorldsFor(const std::array<int, 3>& dims);
 
 /** Triangles with their corners moved to the world. */
 SurfaceTriangles Placed(const SurfaceTriangles& triangles, const isodiamond::GridGeometry& world);

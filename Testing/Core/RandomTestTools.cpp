@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RandomTestTools.h"
 
+#include "DistanceTestTools.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,9 +115,14 @@ AnyValues CutAll(const std::vector<double>& pattern)
   return cut;
 }
 
-GridGeometry RandomWorld(Random& random, const std::array<int, 3>& dimensions)
+World RandomWorld(Random& random, const std::array<int, 3>& dimensions)
 {
-  if (Pick(random, 3) == 0)
+  const int kind = Pick(random, 9);
+  if (kind < 2)
+  {
+    return kind == 0 ? Bent(dimensions) : Wound(dimensions);
+  }
+  if (kind < 5)
   {
     AxisCoordinates axes;
     for (int axis = 0; axis < 3; ++axis)
@@ -134,7 +141,7 @@ GridGeometry RandomWorld(Random& random, const std::array<int, 3>& dimensions)
   {
     map.Rows[axis][axis] = Uniform(random, 0.1, 4.0);
   }
-  return map;
+  return GridGeometry(map);
 }
 
 double RandomTolerance(Random& random, double scale)
@@ -238,10 +245,12 @@ Isoregion RandomRegion(Random& random, const RandomSamples& samples)
   return { std::min(a, b), std::max(a, b) };
 }
 
-BuildOptions RandomOptions(Random& random, const std::array<int, 3>& dimensions)
+OwningOptions RandomOptions(Random& random, const std::array<int, 3>& dimensions)
 {
-  BuildOptions options;
-  options.World = RandomWorld(random, dimensions);
+  OwningOptions options;
+  const World world = RandomWorld(random, dimensions);
+  options.World = world;
+  options.Positions = world.Positions;
   options.Metric = Pick(random, 2) == 0 ? ErrorMetric::Field : ErrorMetric::Distance;
   options.ExactIsovertices = Pick(random, 2) == 0;
   options.PreserveFeatures = Pick(random, 2) == 0;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -41,8 +42,15 @@ double RandomValue(Random& random, const RandomSamples& samples);
 
 isodiamond::Isoregion RandomRegion(Random& random, const RandomSamples& samples);
 
-/** Random options but for hidden cells: either metric, affine and uneven worlds, and so on. */
-isodiamond::BuildOptions RandomOptions(Random& random, const std::array<int, 3>& dimensions);
+/** Options, with the positions that a curvilinear world looks at. */
+struct OwningOptions : isodiamond::BuildOptions
+{
+  std::shared_ptr<const std::vector<double>> Positions;
+};
+
+/** Random options but for hidden cells: either metric, affine, uneven and curvilinear worlds, and
+ * so on. */
+OwningOptions RandomOptions(Random& random, const std::array<int, 3>& dimensions);
 
 /** Single cells, one block of them, or none. */
 isodiamond::HiddenCells RandomHidden(Random& random, const std::array<int, 3>& dimensions);

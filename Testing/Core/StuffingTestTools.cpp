@@ -298,7 +298,7 @@ void ForRandomVolumes(
         return;
       }
       const Isoregion region = any.IsVolume() ? any : Isoregion(any.Isovalue(), HUGE_VAL);
-      const BuildOptions options = RandomOptions(random, samples.Dimensions);
+      const OwningOptions options = RandomOptions(random, samples.Dimensions);
       SCOPED_TRACE(Describe(samples, region));
       const Built built(
         BuildIsodiamonds(Model::Minimal, samples.View(), region, SerialFor, options), SerialFor);

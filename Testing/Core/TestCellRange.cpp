@@ -190,7 +190,7 @@ void Check(std::uint32_t seed)
   const test::RandomSamples field(random, 40, 6000);
   const Isoregion region = test::RandomRegion(random, field);
   SCOPED_TRACE(test::Describe(field, region));
-  const BuildOptions options = test::RandomOptions(random, field.Dimensions);
+  const test::OwningOptions options = test::RandomOptions(random, field.Dimensions);
   const test::Built built(
     BuildIsodiamonds(Model::Minimal, field.View(), region, SerialFor, options), SerialFor);
   const ParallelFor threads = test::ThreadedFor(3);

@@ -69,12 +69,6 @@ AxisCoordinates EvenCoordinates(const std::array<int, 3>& dims, const AffineMap&
   return coordinates;
 }
 
-/** A spacing, and uneven axes. */
-std::vector<GridGeometry> WorldsFor(const std::array<int, 3>& dims)
-{
-  return { test::Spacing(0.5, 2.0, 1.25), GridGeometry(test::UnevenCoordinates(dims, 20.0)) };
-}
-
 /** Expects all diamonds' errors to be the reference's, and counts the finite and infinite ones.
  *  @param inReference the same world */
 template <typename ReferenceWorld>
@@ -146,6 +140,21 @@ TEST(DistanceError, IsTheReferencesAlongUnevenAxes)
   EXPECT_GT(seen[false], 1000);
 }
 
+TEST(DistanceError, IsTheReferencesOnCurvilinearGrids)
+{
+  std::map<bool, int> seen;
+  for (const test::Field& field : Fields())
+  {
+    for (const test::World& world : { test::Bent(field.Dims), test::Wound(field.Dims) })
+    {
+      ExpectReferencesErrors(
+        field, world, reference::SamplePlaces{ field.Dims, *world.Positions }, seen);
+    }
+  }
+  EXPECT_GT(seen[true], 1000);
+  EXPECT_GT(seen[false], 1000);
+}
+
 TEST(DistanceError, IsThatOfTheMapAlongEvenAxes)
 {
   const AffineMap world = test::Spacing(0.5, -2.0, 1.25); // sums of these are exact
@@ -194,12 +203,44 @@ TEST(DistanceError, GoesOnInPaddingAsInTheOutermostCells)
   }
 }
 
+TEST(DistanceError, GoesOnInPaddingOfCurvilinearGrids)
+{
+  const test::Field field = test::WaveField({ 12, 10, 13 });
+  const test::World inner = test::Bent({ 10, 8, 11 });
+  const GridGeometry world(SamplePositions{ inner.Positions->data(), { 10, 8, 11 } }, 1);
+  std::vector<double> padded;
+  for (int z = 0; z < 13; ++z)
+  {
+    for (int y = 0; y < 10; ++y)
+    {
+      for (int x = 0; x < 12; ++x)
+      {
+        const Vector place = world({ 1.0 * x, 1.0 * y, 1.0 * z });
+        padded.insert(padded.end(), place.begin(), place.end());
+      }
+    }
+  }
+  const test::Built relevant = test::Build(Model::Relevant, field);
+  const auto errors = [&](const GridGeometry& geometry)
+  {
+    return DistanceErrors(
+      *relevant.Hierarchy, Finiteness(field.View()), geometry, false, SerialFor);
+  };
+  const std::vector<ErrorCode::Type> found = errors(world);
+  const std::vector<ErrorCode::Type> expected = errors(test::World(padded, field.Dims));
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    ASSERT_NEAR(found[i], expected[i], 1); // rounding only
+  }
+}
+
 TEST(DistanceError, IsAPromise)
 {
   for (const test::Field& field : Fields())
   {
     SCOPED_TRACE(field.Name);
-    for (const GridGeometry& world : WorldsFor(field.Dims))
+    for (const GridGeometry& world : test::WorldsFor(field.Dims))
     {
       const test::Built built = test::Build(Model::Minimal, field, test::Distance(world));
       const test::SurfaceTriangles full = test::Placed(test::Extract(*built.Hierarchy, 0.0), world);
@@ -222,7 +263,7 @@ TEST(DistanceError, IsAPromiseWithinRegionsOfInterest)
   {
     SCOPED_TRACE(field.Name);
     Box box{ { 1.5, 2.0, 2.25 }, { 5.0, 4.5, 6.5 } };
-    for (const GridGeometry& world : WorldsFor(field.Dims))
+    for (const GridGeometry& world : test::StraightWorldsFor(field.Dims))
     {
       const test::Built built = test::Build(Model::Minimal, field, test::Distance(world));
       const test::SurfaceTriangles full = test::Placed(test::Extract(*built.Hierarchy, 0.0), world);
@@ -351,7 +392,7 @@ TEST(DistanceError, OfEveryLeafIsTolerated)
     test::Random numbers(seed);
     const test::RandomSamples field(numbers, 40, 2000);
     const Isoregion region = test::RandomRegion(numbers, field);
-    BuildOptions options = test::RandomOptions(numbers, field.Dimensions);
+    test::OwningOptions options = test::RandomOptions(numbers, field.Dimensions);
     options.Metric = ErrorMetric::Distance;
     options.PreserveFeatures = true;
     const test::Built built(
@@ -375,7 +416,7 @@ TEST(DistanceError, IsAPromiseOfTheWayBackWithoutFeatures)
   for (const test::Field& field : Fields())
   {
     SCOPED_TRACE(field.Name);
-    for (const GridGeometry& world : WorldsFor(field.Dims))
+    for (const GridGeometry& world : test::WorldsFor(field.Dims))
     {
       BuildOptions options = test::Distance(world);
       options.PreserveFeatures = false;
@@ -400,7 +441,7 @@ TEST(DistanceError, IsAPromiseOfBothSurfaces)
          test::WaveField({ 14, 11, 13 }), test::NoiseField({ 9, 9, 9 }, 61) })
   {
     SCOPED_TRACE(field.Name);
-    for (const GridGeometry& world : WorldsFor(field.Dims))
+    for (const GridGeometry& world : test::WorldsFor(field.Dims))
     {
       const test::Built built(
         BuildIsodiamonds(Model::Minimal, field.View(), test::RegionOf(test::RangesOf(field)[0]),
@@ -680,10 +721,23 @@ TEST(DistanceError, RefusesAxesWithoutLengths)
       EXPECT_THROW(DistanceErrorScale(grid, GridGeometry(axes)), std::invalid_argument);
     }
   }
-  const std::vector<float> positions(3 * 4 * 4 * 4);
-  EXPECT_THROW(
-    DistanceErrorScale(grid, GridGeometry(SamplePositions{ positions.data(), { 4, 4, 4 } })),
+}
+
+TEST(DistanceError, RefusesCurvilinearGridsWithoutLengths)
+{
+  const std::array<int, 3> dims = { 4, 4, 4 };
+  const Grid grid(dims);
+  const std::vector<float> nowhere(3 * 4 * 4 * 4);
+  EXPECT_THROW(DistanceErrorScale(grid, GridGeometry(SamplePositions{ nowhere.data(), dims })),
     std::invalid_argument);
+  std::vector<double> positions = *test::Bent(dims).Positions;
+  EXPECT_GT(DistanceErrorScale(grid, GridGeometry(SamplePositions{ positions.data(), dims })), 0.0);
+  for (const double bad : { std::nan(""), Infinity, -Infinity, 1e36 })
+  {
+    positions[100] = bad;
+    EXPECT_THROW(DistanceErrorScale(grid, GridGeometry(SamplePositions{ positions.data(), dims })),
+      std::invalid_argument);
+  }
 }
 
 // Distances are measured to what extraction makes: the patches of all leaves are the faces of the

@@ -179,8 +179,8 @@ TEST(LargeFields, HaveTheReferencesErrorsWhereThereIsLittle)
   {
     SCOPED_TRACE(field.Name);
     const reference::Hierarchy hierarchy(field.Dims);
-    const std::vector<double> expected = reference::OwnDistanceErrors(
-      hierarchy, field.Reference(), field.Isovalue, { 1.0, 1.0, 1.0 }, true, true);
+    const std::vector<double> expected = reference::OwnDistanceErrors(hierarchy, field.Reference(),
+      field.Isovalue, std::array<double, 3>{ 1.0, 1.0, 1.0 }, true, true);
     const test::Built relevant = test::Build(Model::Relevant, field);
     const Grid& grid = relevant.Hierarchy->SampleGrid();
     const std::vector<ErrorCode::Type> found =

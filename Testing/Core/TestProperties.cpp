@@ -153,7 +153,7 @@ private:
   ParallelFor Threads = test::ThreadedFor(3);
   test::RandomSamples Field;
   Isoregion Region;
-  BuildOptions Options;
+  test::OwningOptions Options;
   test::Built Minimal;
   test::Built Relevant;
   std::optional<test::Topology> First; ///< of the first query

@@ -137,7 +137,7 @@ struct RandomCase
 {
   test::RandomSamples Samples;
   Isoregion Region;
-  BuildOptions Options;
+  test::OwningOptions Options;
   Whole Expected;
 
   RandomCase(test::Random& random, int longest, int most)

@@ -45,12 +45,6 @@ std::vector<test::Field> Fields()
     test::BrokenField({ 9, 10, 8 }, 63), test::SphereField({ 12, 17, 9 }) };
 }
 
-/** A spacing, and uneven axes. */
-std::vector<GridGeometry> WorldsFor(const std::array<int, 3>& dims)
-{
-  return { test::Spacing(0.5, 2.0, 1.25), GridGeometry(test::UnevenCoordinates(dims, 20.0)) };
-}
-
 using Tolerated = std::function<double(const Place&)>;
 
 /** The errors of all diamonds, measured independently of any tolerance. */
@@ -166,7 +160,7 @@ TEST(ToleratedSet, IsTheSmallestThatKeepsTheTolerance)
   for (const test::Field& field : Fields())
   {
     SCOPED_TRACE(field.Name);
-    for (const GridGeometry& world : WorldsFor(field.Dims))
+    for (const GridGeometry& world : test::WorldsFor(field.Dims))
     {
       for (const bool preserve : { true, false })
       {
@@ -233,7 +227,7 @@ TEST(ToleratedSet, IsAPromise)
   for (const test::Field& field : Fields())
   {
     SCOPED_TRACE(field.Name);
-    for (const GridGeometry& world : WorldsFor(field.Dims))
+    for (const GridGeometry& world : test::WorldsFor(field.Dims))
     {
       const BuildOptions options = test::Distance(world);
       StagedBuild staged(field.View(), field.Isovalue, SerialFor, options);
@@ -259,7 +253,7 @@ TEST(ToleratedSet, IsAPromiseOfBothSurfaces)
          test::WaveField({ 14, 11, 13 }), test::NoiseField({ 9, 9, 9 }, 61) })
   {
     SCOPED_TRACE(field.Name);
-    for (const GridGeometry& world : WorldsFor(field.Dims))
+    for (const GridGeometry& world : test::WorldsFor(field.Dims))
     {
       const BuildOptions options = test::Distance(world);
       StagedBuild staged(
@@ -293,7 +287,7 @@ TEST(ToleratedSet, OfRandomFieldsIsFitAndLeavesNoTrace)
       const test::RandomSamples field(numbers, 24, 3000);
       const Isoregion region = test::RandomRegion(numbers, field);
       SCOPED_TRACE(test::Describe(field, region));
-      BuildOptions options = test::RandomOptions(numbers, field.Dimensions);
+      test::OwningOptions options = test::RandomOptions(numbers, field.Dimensions);
       options.Metric = ErrorMetric::Distance;
       options.RefineInterior = false;
       const HiddenCells hidden = test::RandomHidden(numbers, field.Dimensions);

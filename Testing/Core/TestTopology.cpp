@@ -141,7 +141,7 @@ private:
   test::Random Numbers;
   test::RandomSamples Field;
   Isoregion Region;
-  BuildOptions Options;
+  test::OwningOptions Options;
   HiddenCells Hidden;
 };
 

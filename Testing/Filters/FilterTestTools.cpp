@@ -204,6 +204,34 @@ vtkSmartPointer<vtkRectilinearGrid> Rectilinear(
   return grid;
 }
 
+vtkSmartPointer<vtkStructuredGrid> Structured(
+  vtkImageData* image, const std::function<std::array<double, 3>(double, double, double)>& place)
+{
+  const auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  const int* dims = image->GetDimensions();
+  grid->SetDimensions(dims);
+  vtkNew<vtkPoints> points;
+  for (int z = 0; z < dims[2]; ++z)
+  {
+    for (int y = 0; y < dims[1]; ++y)
+    {
+      for (int x = 0; x < dims[0]; ++x)
+      {
+        points->InsertNextPoint(place(x, y, z).data());
+      }
+    }
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->ShallowCopy(image->GetPointData());
+  return grid;
+}
+
+std::array<double, 3> BentPlace(double x, double y, double z)
+{
+  const double angle = 0.05 * x;
+  return { (10 + 0.5 * y) * std::sin(angle), (10 + 0.5 * y) * std::cos(angle), 0.7 * z + 0.1 * x };
+}
+
 double UnevenPlace(int axis, int index)
 {
   if (axis == 0)

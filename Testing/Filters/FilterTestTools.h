@@ -7,6 +7,7 @@
 #include "vtkPointSet.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
+#include "vtkStructuredGrid.h"
 
 #include <array>
 #include <functional>
@@ -41,6 +42,13 @@ vtkSmartPointer<vtkRectilinearGrid> Rectilinear(
  *  y, and cells have three sizes in turn along z. In a grid of about 40 samples on each axis they
  *  are between 0.4 and 4 long. */
 double UnevenPlace(int axis, int index);
+
+/** An image's samples as a structured grid, at place(x, y, z) of their indices. */
+vtkSmartPointer<vtkStructuredGrid> Structured(
+  vtkImageData* image, const std::function<std::array<double, 3>(double, double, double)>& place);
+
+/** Positions for Structured(): around an axis, farther apart away from it, and slanted. */
+std::array<double, 3> BentPlace(double x, double y, double z);
 
 /** A uint8 volume from the folder in the environment variable ISODIAMONDS_DATA_DIR; null if it is
  *  not there. */

@@ -312,6 +312,24 @@ TEST(Distance, IsAPromiseOnUnevenGrids)
     test::Rectilinear(test::PhantomImage({ 42, 42, 42 }, 5.0), test::UnevenPlace), 50.0, 1.0);
 }
 
+TEST(Distance, IsAPromiseOnStructuredGrids)
+{
+  const auto waves = test::MakeImage({ 40, 33, 45 },
+    [](double x, double y, double z)
+    { return std::sin(0.3 * x) * std::cos(0.2 * y) + std::sin(0.25 * z + 0.1 * y); });
+  ExpectPromiseOfContour(test::Structured(waves, test::BentPlace), 0.1, 0.7);
+  ExpectPromiseOfContour(test::Structured(waves, test::BentPlace), 0.1, 0.7, true);
+  // All around an axis, on which samples coincide.
+  const auto wound = [](double x, double y, double z) -> std::array<double, 3>
+  {
+    const double angle = 2.0 * vtkMath::Pi() * x / 39.0;
+    return { y * std::cos(angle), y * std::sin(angle), z };
+  };
+  ExpectPromiseOfContour(test::Structured(waves, wound), 0.1, 1.0);
+  ExpectPromiseOfContour(
+    test::Structured(test::PhantomImage({ 40, 40, 40 }, 5.0), test::BentPlace), 50.0, 0.7);
+}
+
 TEST(Distance, IsAPromiseOfClosedBoundaries)
 {
   const auto image = test::MakeImage({ 40, 33, 45 },
@@ -694,6 +712,33 @@ TEST(Distance, NeedsCoordinatesThatRiseOrFall)
   }
 }
 
+TEST(Distance, NeedsPositionsThatAreFinite)
+{
+  const auto image = test::BallImage({ 17, 17, 17 });
+  for (const double bad : { std::numeric_limits<double>::quiet_NaN(), HUGE_VAL })
+  {
+    vtkNew<vtkIsodiamondContour> contour;
+    contour->SetInputData(test::Structured(image,
+      [bad](double x, double y, double z) -> std::array<double, 3> {
+        return { x + y + z > 0.0 ? x : bad, y, z };
+      })); // far from the surface
+    contour->SetValue(0, 0.0);
+    const auto messages = test::Watch(contour);
+    contour->Update(); // full resolution needs no distances
+    EXPECT_EQ(messages->ErrorCount, 0);
+    EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
+    contour->SetErrorTolerance(0.5);
+    contour->Update();
+    EXPECT_EQ(messages->ErrorCount, 1);
+    EXPECT_NE(messages->Errors.find("finite"), std::string::npos) << messages->Errors;
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+    contour->SetErrorMetricToField();
+    contour->Update();
+    EXPECT_EQ(messages->ErrorCount, 1);
+    EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
+  }
+}
+
 TEST(Distance, BuildsAgainOnlyForWhatMatters)
 {
   const auto image = test::BallImage({ 17, 17, 17 });
@@ -737,6 +782,19 @@ TEST(Distance, BuildsAgainOnlyForWhatMatters)
   contour->SetInputData(test::Rectilinear(
     image, [](int axis, int i) { return test::UnevenPlace(axis, i) + (i == 16 ? 0.1 : 0.0); }));
   expectBuilds(1);
+  contour->SetInputData(test::Structured(image, test::BentPlace));
+  expectBuilds(1);
+  const auto bent = test::Structured(image, test::BentPlace);
+  contour->SetInputData(bent);
+  expectBuilds(0);
+  bent->GetPoints()->SetPoint(100, 0.0, 0.0, 0.0);
+  bent->GetPoints()->Modified();
+  bent->Modified();
+  expectBuilds(1);
+  contour->SetErrorMetricToField(); // to which places mean nothing
+  expectBuilds(0);
+  contour->SetErrorMetricToDistance();
+  expectBuilds(0);
   vtkNew<vtkIsodiamondIntervalVolume> volume;
   volume->SetInputData(image);
   volume->SetIsorange(0.0, 1.0);

@@ -18,7 +18,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
-#include "vtkStructuredGrid.h"
 #include "vtkUniformGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -44,29 +43,6 @@ vtkSmartPointer<vtkPolyData> Contour(
   return contour->GetOutput();
 }
 
-/** An image's samples as a structured grid, at place(x, y, z) of their indices. */
-template <typename Place>
-vtkSmartPointer<vtkStructuredGrid> Structured(vtkImageData* image, const Place& place)
-{
-  const auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
-  const int* dims = image->GetDimensions();
-  grid->SetDimensions(dims);
-  vtkNew<vtkPoints> points;
-  for (int z = 0; z < dims[2]; ++z)
-  {
-    for (int y = 0; y < dims[1]; ++y)
-    {
-      for (int x = 0; x < dims[0]; ++x)
-      {
-        points->InsertNextPoint(place(x, y, z).data());
-      }
-    }
-  }
-  grid->SetPoints(points);
-  grid->GetPointData()->ShallowCopy(image->GetPointData());
-  return grid;
-}
-
 /** Expects our surface of a grid to be VTK's of the same grid, within a part of a voxel. */
 void ExpectSameAsContourFilter(vtkDataSet* grid, double voxel)
 {
@@ -88,12 +64,6 @@ void ExpectSameAsContourFilter(vtkDataSet* grid, double voxel)
   {
     EXPECT_EQ(test::BoundaryEdges(Contour(grid, 0.0, tolerance)), 0) << tolerance;
   }
-}
-
-std::array<double, 3> Bent(double x, double y, double z)
-{
-  const double angle = 0.05 * x;
-  return { (10 + 0.5 * y) * std::sin(angle), (10 + 0.5 * y) * std::cos(angle), 0.7 * z + 0.1 * x };
 }
 
 /** The area of a mesh. Expects no triangle to have its centre in a box. */
@@ -154,12 +124,12 @@ TEST(Grids, UnevenRectilinearGridsHaveTheSurfaceOfTheContourFilter)
 TEST(Grids, StructuredGridsHaveTheSurfaceOfTheContourFilter)
 {
   const auto image = test::BallImage({ 25, 21, 23 });
-  ExpectSameAsContourFilter(Structured(image, Bent), 1.0);
+  ExpectSameAsContourFilter(test::Structured(image, test::BentPlace), 1.0);
   // Mirrored, with points in double precision.
-  const auto mirrored = Structured(image,
+  const auto mirrored = test::Structured(image,
     [](double x, double y, double z)
     {
-      const auto p = Bent(x, y, z);
+      const auto p = test::BentPlace(x, y, z);
       return std::array<double, 3>{ p[0], p[1], -p[2] };
     });
   vtkNew<vtkPoints> doubles;
@@ -172,7 +142,7 @@ TEST(Grids, StructuredGridsHaveTheSurfaceOfTheContourFilter)
 TEST(Grids, StraightStructuredGridsHaveNormalsAndVolumesOfTheImage)
 {
   const auto image = test::BallImage({ 17, 19, 21 });
-  const auto grid = Structured(image,
+  const auto grid = test::Structured(image,
     [](double x, double y, double z) {
       return std::array<double, 3>{ x, y, z };
     });
@@ -202,7 +172,7 @@ TEST(Grids, ClosedSurfacesOfBentGridsAreClosed)
 {
   const auto image = test::MakeImage({ 12, 12, 12 },
     [](double x, double y, double z) { return 1.0 + std::sin(0.7 * x) + std::cos(0.5 * y + z); });
-  const auto bent = Structured(image, Bent);
+  const auto bent = test::Structured(image, test::BentPlace);
   const auto uneven = test::Rectilinear(image, [](int, int i) { return i * (1 + 0.1 * i); });
   for (vtkDataSet* grid : { static_cast<vtkDataSet*>(bent), static_cast<vtkDataSet*>(uneven) })
   {
@@ -212,29 +182,10 @@ TEST(Grids, ClosedSurfacesOfBentGridsAreClosed)
   }
 }
 
-TEST(Grids, BentGridsTakeDistancesAtFullResolutionOnly)
-{
-  const auto grid = Structured(test::BallImage({ 17, 17, 17 }), Bent);
-  vtkNew<vtkIsodiamondContour> contour;
-  contour->SetInputData(grid);
-  contour->SetValue(0, 0.0);
-  contour->Update(); // distance is the default
-  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 100);
-  contour->SetErrorTolerance(1.0);
-  const auto messages = test::Watch(contour);
-  contour->Update();
-  EXPECT_NE(messages->Errors.find("field metric"), std::string::npos) << messages->Errors;
-  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
-  contour->SetErrorMetricToField();
-  contour->Update();
-  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_EQ(messages->ErrorCount, 1);
-}
-
 TEST(Grids, RegionsOfInterestOfBentGridsAreOfTheWorld)
 {
   const auto image = test::BallImage({ 33, 33, 33 });
-  const auto bent = Structured(image, Bent);
+  const auto bent = test::Structured(image, test::BentPlace);
   const auto uneven = test::Rectilinear(image, [](int, int i) { return i * (1 + 0.05 * i); });
   for (vtkDataSet* grid : { static_cast<vtkDataSet*>(bent), static_cast<vtkDataSet*>(uneven) })
   {
@@ -244,7 +195,6 @@ TEST(Grids, RegionsOfInterestOfBentGridsAreOfTheWorld)
     vtkNew<vtkIsodiamondContour> contour;
     contour->SetInputData(grid);
     contour->SetValue(0, 0.0);
-    contour->SetErrorMetricToField();
     contour->UseRegionOfInterestOn();
     const double middle[3] = { 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
       0.5 * (bounds[4] + bounds[5]) };

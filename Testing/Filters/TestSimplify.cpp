@@ -49,10 +49,10 @@ vtkSmartPointer<vtkImageData> NoiseImage(int size, unsigned seed)
   return image;
 }
 
-vtkSmartPointer<vtkIsodiamondContour> MakeContour(vtkImageData* image)
+vtkSmartPointer<vtkIsodiamondContour> MakeContour(vtkDataSet* grid)
 {
   auto contour = vtkSmartPointer<vtkIsodiamondContour>::New();
-  contour->SetInputData(image);
+  contour->SetInputData(grid);
   contour->SetValue(0, 50.0);
   return contour;
 }
@@ -65,9 +65,9 @@ vtkSmartPointer<vtkPolyData> Update(vtkIsodiamondContour* contour)
   return copy;
 }
 
-vtkSmartPointer<vtkPolyData> Full(vtkImageData* image)
+vtkSmartPointer<vtkPolyData> Full(vtkDataSet* grid)
 {
-  return Update(MakeContour(image));
+  return Update(MakeContour(grid));
 }
 
 /** By how much a mesh's points, and points on its triangles, are farther from another mesh than is
@@ -189,6 +189,27 @@ TEST(Simplify, KeepsToleranceAndTopology)
     EXPECT_LE(test::LargestDistance(simple, finer), 1e-6);
   }
   EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
+}
+
+TEST(Simplify, KeepsToleranceAndTopologyOnStructuredGrids)
+{
+  const auto grid = test::Structured(Image(), test::BentPlace);
+  const auto full = Full(grid);
+  const auto contour = MakeContour(grid);
+  for (const double tolerance : { 0.2, 0.5 })
+  {
+    SCOPED_TRACE(tolerance);
+    contour->SetErrorTolerance(tolerance);
+    contour->SimplifyOff();
+    const auto plain = Update(contour);
+    contour->SimplifyOn();
+    const auto simple = Update(contour);
+    EXPECT_LT(simple->GetNumberOfCells(), 0.6 * plain->GetNumberOfCells());
+    const auto everywhere = [&](const double[3]) { return tolerance * (1.0 + 1e-6); };
+    EXPECT_LE(Excess(full, simple, everywhere), 0.0);
+    EXPECT_LE(Excess(simple, full, everywhere), 0.0);
+    ExpectSameShape(simple, full);
+  }
 }
 
 // A triangle may move by what the error of its diamond leaves of the tolerance. If each could use

@@ -75,6 +75,29 @@ void SetView(vtkIsodiamondAlgorithm* filter, const double eye[3], double pixels)
   filter->SetPixelTolerance(pixels);
 }
 
+/** Looks at a grid from its middle, and from outside. */
+void ExpectErrorsWithinPixels(vtkDataSet* grid)
+{
+  double centre[3];
+  grid->GetCenter(centre);
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(grid);
+  contour->SetValue(0, 0.0);
+  contour->Update();
+  vtkNew<vtkPolyData> full;
+  full->DeepCopy(contour->GetOutput());
+  for (const double away : { 0.0, 30.0, 300.0 })
+  {
+    const double eye[3] = { centre[0] + away, centre[1] - 0.5 * away, centre[2] + 0.1 * away };
+    SetView(contour, eye, 1.0);
+    contour->Update();
+    EXPECT_EQ(test::BoundaryEdges(contour->GetOutput()), 0);
+    EXPECT_LT(contour->GetOutput()->GetNumberOfCells(), full->GetNumberOfCells());
+    EXPECT_LE(LargestErrorInPixels(contour->GetOutput(), full, eye, 40.0, 100.0), 1.001);
+  }
+  EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
+}
+
 }
 
 TEST(View, ErrorsStayWithinThePixelTolerance)
@@ -118,25 +141,9 @@ TEST(View, ErrorsStayWithinThePixelTolerance)
 
 TEST(View, ErrorsStayWithinThePixelToleranceOnUnevenGrids)
 {
-  const auto grid = test::Rectilinear(test::BallImage({ 45, 45, 45 }), test::UnevenPlace);
-  double centre[3];
-  grid->GetCenter(centre);
-  vtkNew<vtkIsodiamondContour> contour;
-  contour->SetInputData(grid);
-  contour->SetValue(0, 0.0);
-  contour->Update();
-  vtkNew<vtkPolyData> full;
-  full->DeepCopy(contour->GetOutput());
-  for (const double away : { 0.0, 30.0, 300.0 })
-  {
-    const double eye[3] = { centre[0] + away, centre[1] - 0.5 * away, centre[2] + 0.1 * away };
-    SetView(contour, eye, 1.0);
-    contour->Update();
-    EXPECT_EQ(test::BoundaryEdges(contour->GetOutput()), 0);
-    EXPECT_LT(contour->GetOutput()->GetNumberOfCells(), full->GetNumberOfCells());
-    EXPECT_LE(LargestErrorInPixels(contour->GetOutput(), full, eye, 40.0, 100.0), 1.001);
-  }
-  EXPECT_EQ(contour->GetNumberOfBuilds(), 1);
+  const auto image = test::BallImage({ 45, 45, 45 });
+  ExpectErrorsWithinPixels(test::Rectilinear(image, test::UnevenPlace));
+  ExpectErrorsWithinPixels(test::Structured(image, test::BentPlace));
 }
 
 TEST(View, IsFinerNearTheEyeThanAnEqualToleranceNeeds)

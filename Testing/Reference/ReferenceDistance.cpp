@@ -564,4 +564,38 @@ std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarFi
   return ErrorFinder(hierarchy, field, isovalue, world, exact, preserveFeatures).Errors();
 }
 
+std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
+  double isovalue, const SamplePlaces& places, bool exact, bool preserveFeatures)
+{
+  const auto placeOf = [&places](const Vector& point)
+  {
+    Vector place{};
+    std::array<int, 3> cell{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell[axis] = std::min(static_cast<int>(point[axis]), places.Dims[axis] - 2);
+    }
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      double weight = 1.0;
+      std::array<int, 3> sample{};
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const int step = (corner >> axis) & 1;
+        sample[axis] = cell[axis] + step;
+        const double fraction = point[axis] - cell[axis];
+        weight *= step == 1 ? fraction : 1.0 - fraction;
+      }
+      const int index = (sample[2] * places.Dims[1] + sample[1]) * places.Dims[0] + sample[0];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        place[axis] += weight * places.Coordinates[3 * index + axis];
+      }
+    }
+    return place;
+  };
+  const World world{ placeOf, { 1.0, 1.0, 1.0 } };
+  return ErrorFinder(hierarchy, field, isovalue, world, exact, preserveFeatures).Errors();
+}
+
 }

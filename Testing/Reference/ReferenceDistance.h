@@ -77,6 +77,18 @@ std::array<double, 3> PlaceByCoordinates(
 std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
   double isovalue, const Coordinates& coordinates, bool exact, bool preserveFeatures = true);
 
+/** A place in the world for each sample, x fastest. */
+struct SamplePlaces
+{
+  std::array<int, 3> Dims{};
+  std::vector<double> Coordinates; ///< three for each sample
+};
+
+/** The same errors if each sample has a place of its own: in a cell each coordinate is trilinear.
+ */
+std::vector<double> OwnDistanceErrors(const Hierarchy& hierarchy, const ScalarField& field,
+  double isovalue, const SamplePlaces& places, bool exact, bool preserveFeatures = true);
+
 }
 
 #endif

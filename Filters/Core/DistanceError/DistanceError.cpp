@@ -13,12 +13,9 @@ namespace isodiamond
 double DistanceErrorScale(const Grid& grid, const GridGeometry& world)
 {
   const Point last = { grid.Last(0), grid.Last(1), grid.Last(2) };
-  const Vector diagonal = std::visit(
-    [&](const auto& lengths) {
-      return lengths.Between({ 0, 0, 0 }, last);
-    },
-    WorldLengthsOf(world));
-  return ErrorCode(std::sqrt(Dot(diagonal, diagonal))).Scale();
+  return ErrorCode(std::visit([&](const auto& lengths) { return lengths.LongestDistance(last); },
+                     WorldLengthsOf(world)))
+    .Scale();
 }
 
 std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,

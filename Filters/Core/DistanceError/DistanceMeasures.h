@@ -24,10 +24,14 @@ void MeasureCoarse(const IsovertexClusters& clusters, const AffineLengths& lengt
   ErrorMaxima& errors, const Loops& loops);
 void MeasureCoarse(const IsovertexClusters& clusters, const AxesLengths& lengths,
   ErrorMaxima& errors, const Loops& loops);
+void MeasureCoarse(const IsovertexClusters& clusters, const CurvedLengths& lengths,
+  ErrorMaxima& errors, const Loops& loops);
 
 void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& lengths,
   ErrorMaxima& errors, const Loops& loops);
 void MeasureScaleZero(const IsovertexClusters& clusters, const AxesLengths& lengths,
+  ErrorMaxima& errors, const Loops& loops);
+void MeasureScaleZero(const IsovertexClusters& clusters, const CurvedLengths& lengths,
   ErrorMaxima& errors, const Loops& loops);
 
 /** Raises errors to the way back (WayBack.h), each diamond by itself.
@@ -38,6 +42,9 @@ void MeasureBack(const IsodiamondHierarchy& relevant, const AffineLengths& lengt
 void MeasureBack(const IsodiamondHierarchy& relevant, const AxesLengths& lengths,
   const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
   const Loops& loops);
+void MeasureBack(const IsodiamondHierarchy& relevant, const CurvedLengths& lengths,
+  const BeforeWayBack& known, const ErrorCode& code, std::vector<ErrorCode::Type>& codes,
+  const Loops& loops);
 
 /** Tells whether diamonds exceed what is tolerated of them, on one surface (ToleranceTest.h).
  *  @param exceeds one entry per diamond, to be set where it does */
@@ -46,6 +53,9 @@ void TestTolerances(const TestedSurface& surface, const TestedHierarchy& tested,
   std::vector<std::uint8_t>& exceeds, const ParallelFor& parallelFor);
 void TestTolerances(const TestedSurface& surface, const TestedHierarchy& tested,
   const AxesLengths& lengths, const std::vector<TestedDiamond>& diamonds,
+  std::vector<std::uint8_t>& exceeds, const ParallelFor& parallelFor);
+void TestTolerances(const TestedSurface& surface, const TestedHierarchy& tested,
+  const CurvedLengths& lengths, const std::vector<TestedDiamond>& diamonds,
   std::vector<std::uint8_t>& exceeds, const ParallelFor& parallelFor);
 
 }

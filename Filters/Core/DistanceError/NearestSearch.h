@@ -135,9 +135,8 @@ private:
     }
     else
     {
-      const Point cell = CellsIn(this->InWorld.IndexBox(point, 0.0), this->Fine.Whole()).Low;
-      const Vector size = this->InWorld.Between(cell, cell + Point{ 1, 1, 1 });
-      return std::min({ std::abs(size[0]), std::abs(size[1]), std::abs(size[2]) });
+      return this->InWorld.StepIn(
+        CellsIn(this->InWorld.IndexBox(point, 0.0), this->Fine.Whole()).Low);
     }
   }
 

@@ -131,21 +131,19 @@ private:
   /** Where the piece and its copies are. */
   std::array<Vector, 2> IndexBox(const CellBox& whole)
   {
-    std::array<Vector, 2> all = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL },
-      { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
+    std::array<Vector, 2 * ConvexPolygon::MostCorners> corners;
+    int count = 0;
     for (int i = 0; i < this->Piece.Count; ++i)
     {
       for (const double height : { -this->Limit, this->Limit })
       {
-        const Vector corner = this->Piece.Corners[i] + height * this->Upward;
-        const Vector index = this->InWorld.IndexBox(corner, 0.0)[0];
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          all[0][axis] = std::min(all[0][axis], index[axis]);
-          all[1][axis] = std::max(all[1][axis], index[axis]);
-          this->Leaves = this->Leaves || index[axis] < 0.0 || index[axis] > whole.High[axis];
-        }
+        corners[count++] = this->Piece.Corners[i] + height * this->Upward;
       }
+    }
+    const std::array<Vector, 2> all = this->InWorld.IndexBoxAround(corners.data(), count);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Leaves = this->Leaves || all[0][axis] < 0.0 || all[1][axis] > whole.High[axis];
     }
     return all;
   }

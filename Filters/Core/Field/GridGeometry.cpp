@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <optional>
 
 namespace isodiamond
 {
@@ -38,6 +40,70 @@ double IndexOn(const std::vector<double>& coordinates, double coordinate)
     (coordinate - before) / (*next - before);
 }
 
+/** The mean distance between neighbouring samples, on the axis where it is least: of some samples
+ *  that are spread over the grid. */
+double MeanStepOf(const GridGeometry& world)
+{
+  constexpr int some = 16; // on each axis
+  const std::array<int, 3> size = world.Dimensions();
+  double least = HUGE_VAL;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    Point count{};
+    for (int i = 0; i < 3; ++i)
+    {
+      count[i] = std::min(some, size[i] - (i == axis ? 1 : 0));
+    }
+    double sum = 0.0;
+    for (int i = 0; i < count[0] * count[1] * count[2]; ++i)
+    {
+      const Point which = { i % count[0], i / count[0] % count[1], i / (count[0] * count[1]) };
+      Point sample{};
+      for (int j = 0; j < 3; ++j)
+      {
+        const std::int64_t places = size[j] - (j == axis ? 1 : 0);
+        sample[j] = static_cast<int>(which[j] * places / count[j]);
+      }
+      Point next = sample;
+      ++next[axis];
+      const Vector step = world.SampleAt(next) - world.SampleAt(sample);
+      sum += std::hypot(step[0], step[1], step[2]);
+    }
+    least = std::min(least, sum / (count[0] * count[1] * count[2]));
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
+}
+
+struct GridGeometry::OfCells
+{
+  std::once_flag Once;
+  std::optional<CellBounds> Bounds;
+};
+
+GridGeometry::GridGeometry(const SamplePositions& positions, int shift)
+  : Map(positions)
+  , Shift(shift)
+  , MeanStep(MeanStepOf(*this))
+  , Cells(std::make_shared<OfCells>())
+{
+}
+
+const CellBounds& GridGeometry::CellsInWorld() const
+{
+  std::call_once(this->Cells->Once,
+    [&]
+    {
+      std::array<int, 3> samples = this->Dimensions();
+      for (int& count : samples)
+      {
+        count += 2 * this->Shift;
+      }
+      this->Cells->Bounds.emplace(
+        samples, [&](const Point& point) { return this->PaddedAt(point); });
+    });
+  return *this->Cells->Bounds;
 }
 
 std::array<int, 3> GridGeometry::Dimensions() const
@@ -67,6 +133,19 @@ Vector GridGeometry::SampleAt(const Point& sample) const
         static_cast<double>(coordinates[at + 2]) };
     },
     positions.Coordinates);
+}
+
+Vector GridGeometry::PaddedAt(const Point& point) const
+{
+  const Point sample = point + Point{ -this->Shift, -this->Shift, -this->Shift };
+  const std::array<int, 3> size = this->Dimensions();
+  bool isSample = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    isSample = isSample && sample[axis] >= 0 && sample[axis] < size[axis];
+  }
+  return isSample ? this->SampleAt(sample)
+                  : (*this)(Vector{ 1.0 * point[0], 1.0 * point[1], 1.0 * point[2] });
 }
 
 Vector GridGeometry::operator()(const Vector& index) const
@@ -139,6 +218,10 @@ std::array<Vector, 3> GridGeometry::DerivativesAt(const Point& sample) const
 
 double GridGeometry::SmallestStep() const
 {
+  if (this->Positions() != nullptr)
+  {
+    return this->MeanStep;
+  }
   double least = HUGE_VAL;
   const AxisCoordinates* axes = this->Axes();
   for (int axis = 0; axis < 3; ++axis)
@@ -151,7 +234,7 @@ double GridGeometry::SmallestStep() const
         least = std::min(least, std::abs(places[i] - places[i - 1]));
       }
     }
-    else if (this->Affine() != nullptr)
+    else
     {
       const Vector step = this->DerivativesAt({})[axis];
       least = std::min(least, std::sqrt(Dot(step, step)));

@@ -3,10 +3,12 @@
 #define isodiamond_GridGeometry_h
 
 #include "Field/AffineMap.h"
+#include "Field/CellBounds.h"
 #include "Field/Vector.h"
 #include "Lattice/Lattice.h"
 
 #include <array>
+#include <memory>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -29,8 +31,7 @@ struct SamplePositions
  * by a position for each.
  *
  * Between samples positions are interpolated trilinearly, so a mesh without cracks in index space
- * has none in the world; beyond the grid they are extrapolated from the outermost cells. The
- * distances of WorldLengths.h need an affine map, or coordinates on each axis.
+ * has none in the world; beyond the grid they are extrapolated from the outermost cells.
  */
 class GridGeometry
 {
@@ -45,16 +46,14 @@ public:
     , Shift(shift)
   {
   }
-  explicit GridGeometry(const SamplePositions& positions, int shift = 0)
-    : Map(positions)
-    , Shift(shift)
-  {
-  }
+  explicit GridGeometry(const SamplePositions& positions, int shift = 0);
 
   ///@{
-  /** The affine map, or the coordinates on each axis, if the geometry is given by these. */
+  /** The affine map, the coordinates on each axis, or the samples' positions: that by which the
+   *  geometry is given. */
   const AffineMap* Affine() const { return std::get_if<AffineMap>(&this->Map); }
   const AxisCoordinates* Axes() const { return std::get_if<AxisCoordinates>(&this->Map); }
+  const SamplePositions* Positions() const { return std::get_if<SamplePositions>(&this->Map); }
   ///@}
 
   /** The world position of a position in index space. */
@@ -70,15 +69,22 @@ public:
 
   ///@{
   /** The dimensions of the grid without padding, the position of one of its samples, and the layers
-   *  of padding before the first sample; not for an affine map. */
+   *  of padding around them; not for an affine map. */
   std::array<int, 3> Dimensions() const;
   Vector SampleAt(const Point& sample) const;
   int Padding() const { return this->Shift; }
+  /** Of a sample or, from its outermost cell, of a point of the padding. Both count. */
+  Vector PaddedAt(const Point& point) const;
   ///@}
 
-  /** The least distance between neighbouring samples along an axis; 0 for a curvilinear grid, where
-   *  it is not needed. */
+  /** The least distance between neighbouring samples along an axis. For a curvilinear grid, in
+   *  which samples may coincide, about the mean one, on the axis where that is least; 0 if it is
+   *  not finite. */
   double SmallestStep() const;
+
+  /** Where the cells of a curvilinear grid are, padding included; made when first asked for, and
+   *  shared with all copies. @pre all positions are finite */
+  const CellBounds& CellsInWorld() const;
 
   /** Whether floats tell places apart that are a 256th of the smallest step from each other, as
    *  isovertices can be: floats have to be closer, as in a turned grid no coordinate may differ by
@@ -91,8 +97,13 @@ public:
   bool Mirrors() const;
 
 private:
+  /** What is known of a curvilinear grid's cells. */
+  struct OfCells;
+
   std::variant<AffineMap, AxisCoordinates, SamplePositions> Map;
   int Shift = 0;
+  double MeanStep = 0.0;          ///< see SmallestStep(); of a curvilinear grid
+  std::shared_ptr<OfCells> Cells; ///< likewise
 };
 
 }

@@ -12,12 +12,6 @@ namespace isodiamond
 namespace
 {
 
-///@{
-/** The eighth power of a length must neither vanish nor be infinite. */
-constexpr double ShortestStep = 1e-35;
-constexpr double LongestStep = 1e35;
-///@}
-
 /** Whether coordinates are finite and rise, or fall, at every step, by what can be measured. */
 bool AreStrictlyMonotone(const std::vector<double>& coordinates)
 {
@@ -32,6 +26,24 @@ bool AreStrictlyMonotone(const std::vector<double>& coordinates)
     }
   }
   return true;
+}
+
+/** The box around places in index space, each of which indexOf(corner) gives. */
+template <typename IndexOf>
+std::array<Vector, 2> BoxAround(const Vector* corners, int count, const IndexOf& indexOf)
+{
+  std::array<Vector, 2> all = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL },
+    { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
+  for (int i = 0; i < count; ++i)
+  {
+    const Vector index = indexOf(corners[i]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      all[0][axis] = std::min(all[0][axis], index[axis]);
+      all[1][axis] = std::max(all[1][axis], index[axis]);
+    }
+  }
+  return all;
 }
 
 }
@@ -109,6 +121,21 @@ std::array<Vector, 2> AffineLengths::IndexBox(const Vector& point, double radius
   return box;
 }
 
+std::array<Vector, 2> AffineLengths::IndexBoxAround(const Vector* corners, int count) const
+{
+  const auto& inverse = this->Inverse;
+  return BoxAround(corners, count,
+    [&](const Vector& corner) -> Vector {
+      return { Dot(inverse[0], corner), Dot(inverse[1], corner), Dot(inverse[2], corner) };
+    });
+}
+
+double AffineLengths::LongestDistance(const Point& last) const
+{
+  const Vector diagonal = this->Between({ 0, 0, 0 }, last);
+  return std::sqrt(Dot(diagonal, diagonal));
+}
+
 double AffineLengths::TypicalStep() const
 {
   const auto& f = this->Triangular;
@@ -180,6 +207,28 @@ double AxesLengths::IndexAlong(int axis, double place) const
     (place - *last) / (*next - *last);
 }
 
+std::array<Vector, 2> AxesLengths::IndexBoxAround(const Vector* corners, int count) const
+{
+  return BoxAround(corners, count,
+    [&](const Vector& corner) -> Vector
+    {
+      return { this->IndexAlong(0, corner[0]), this->IndexAlong(1, corner[1]),
+        this->IndexAlong(2, corner[2]) };
+    });
+}
+
+double AxesLengths::StepIn(const Point& cell) const
+{
+  const Vector size = this->Between(cell, cell + Point{ 1, 1, 1 });
+  return std::min({ std::abs(size[0]), std::abs(size[1]), std::abs(size[2]) });
+}
+
+double AxesLengths::LongestDistance(const Point& last) const
+{
+  const Vector diagonal = this->Between({ 0, 0, 0 }, last);
+  return std::sqrt(Dot(diagonal, diagonal));
+}
+
 double AxesLengths::TypicalStep() const
 {
   double longest = 0.0;
@@ -203,8 +252,10 @@ std::string FaultOfLengths(const GridGeometry& world)
       : "The distance metric needs coordinates that are finite and rise, or fall, at every sample "
         "of an axis, by 1e-35 to 1e35; on others use the field metric.";
   }
-  return "The distance metric needs an image or a rectilinear grid; on others use the field "
-         "metric.";
+  return CurvedLengths::CanBeMeasured(world) ? ""
+                                             : "The distance metric needs positions that are "
+                                               "finite, and from 1e-35 to 1e35 apart; on others "
+                                               "use the field metric.";
 }
 
 WorldLengths WorldLengthsOf(const GridGeometry& world)
@@ -218,7 +269,11 @@ WorldLengths WorldLengthsOf(const GridGeometry& world)
   {
     return AffineLengths(*map);
   }
-  return AxesLengths(*world.Axes(), world.Padding());
+  if (const AxisCoordinates* axes = world.Axes())
+  {
+    return AxesLengths(*axes, world.Padding());
+  }
+  return CurvedLengths(world);
 }
 
 }

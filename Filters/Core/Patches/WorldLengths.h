@@ -4,6 +4,7 @@
 
 #include "Field/GridGeometry.h"
 #include "Field/Vector.h"
+#include "Patches/CurvedLengths.h"
 #include "Patches/ExactPlane.h"
 
 #include <array>
@@ -15,11 +16,18 @@
  * World lengths: maps from fine positions to spaces in which distances are the world's but
  * orientation and origin do not matter. What is flat in the world is flat there.
  *
- * There is one for affine worlds and one for coordinates along the axes. Code that measures a lot
- * is a template of these, so that the former, by far the most common, pays nothing for the latter.
+ * There is one for affine worlds, one for coordinates along the axes, and one for curvilinear grids
+ * (CurvedLengths.h). Code that measures a lot is a template of these, so that the first one, by far
+ * the most common, pays nothing for the others.
  */
 namespace isodiamond
 {
+
+///@{
+/** The eighth power of a length must neither vanish nor be infinite. */
+inline constexpr double ShortestStep = 1e-35;
+inline constexpr double LongestStep = 1e35;
+///@}
 
 /** The lengths of an affine world, by the upper triangular factor of its map. */
 class AffineLengths
@@ -52,6 +60,16 @@ public:
 
   /** A box in index space, low and high, that holds all that is within a radius of a point. */
   std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
+
+  /** A box in index space that holds all that is between some points. If it lies within the grid,
+   *  so does what is between them. */
+  std::array<Vector, 2> IndexBoxAround(const Vector* corners, int count) const;
+
+  /** About how far it is from a cell to the next one. */
+  double StepIn(const Point& /*cell*/) const { return this->TypicalStep(); }
+
+  /** What no distance in the grid exceeds. @param last the lattice's last point */
+  double LongestDistance(const Point& last) const;
 
   /** From index space; upper triangular. */
   const std::array<std::array<double, 3>, 3>& Factor() const { return this->Triangular; }
@@ -95,6 +113,9 @@ public:
   }
   double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
   std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
+  std::array<Vector, 2> IndexBoxAround(const Vector* corners, int count) const;
+  double StepIn(const Point& cell) const;
+  double LongestDistance(const Point& last) const;
 
   /** The mean of the steps, on the axis where it is longest. */
   double TypicalStep() const;
@@ -113,10 +134,9 @@ private:
   double AbsoluteError = 0.0;
 };
 
-using WorldLengths = std::variant<AffineLengths, AxesLengths>;
+using WorldLengths = std::variant<AffineLengths, AxesLengths, CurvedLengths>;
 
-/** Why a world has no lengths, in words; empty if it has. Curvilinear grids have none: flat patches
- *  would not be between their samples. */
+/** Why a world has no lengths, in words; empty if it has. */
 std::string FaultOfLengths(const GridGeometry& world);
 
 /** The lengths of a world. @throws std::invalid_argument if it has none */

@@ -53,21 +53,7 @@ unsigned SidesBeyond(const Box& box, const Vector& point)
 
 Box IndexBoxOf(const Box& box, const GridGeometry& world)
 {
-  const Point inside = world.Dimensions();
-  const Point padding = world.Padding() * Point{ 1, 1, 1 };
-  const Point size = inside + 2 * padding;
-  // In the padding positions are extrapolated, which takes longer.
-  const auto positionOf = [&](const Point& padded)
-  {
-    const Point sample = padded + -1 * padding;
-    bool isThere = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      isThere = isThere && sample[axis] >= 0 && sample[axis] < inside[axis];
-    }
-    return isThere ? world.SampleAt(sample)
-                   : world(Vector{ 1.0 * padded[0], 1.0 * padded[1], 1.0 * padded[2] });
-  };
+  const Point size = world.Dimensions() + 2 * world.Padding() * Point{ 1, 1, 1 };
   const auto row = static_cast<std::size_t>(size[0]);
   const auto slice = row * size[1];
   std::vector<unsigned> sides(2 * slice); // of two slices in turn
@@ -82,7 +68,7 @@ Box IndexBoxOf(const Box& box, const GridGeometry& world)
       {
         const Point end = { x, y, z };
         const std::size_t i = y * row + x;
-        above[i] = SidesBeyond(box, positionOf(end));
+        above[i] = SidesBeyond(box, world.PaddedAt(end));
         // The cell that ends here.
         if (x == 0 || y == 0 || z == 0 ||
           (above[i] & above[i - 1] & above[i - row] & above[i - row - 1] & below[i] & below[i - 1] &

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 namespace isodiamond
 {
@@ -16,14 +17,13 @@ namespace isodiamond
 /**
  * The viewpoint of a query: the tolerance grows with the distance from it, as the size of a pixel
  * does in the world. A diamond has the tolerance at the nearest point of a ball around it or, where
- * lattice steps differ in length, of the box around it: so everywhere in it the error in pixels is
+ * lattice steps differ in length, of a box around it: so everywhere in it the error in pixels is
  * at most the tolerated one; around the viewpoint the mesh has full resolution.
  */
 class Viewpoint
 {
 public:
   /** @param tolerancePerDistance what is tolerated at distance 1, at least 0
-   *  @param world not that of a curvilinear grid
    *  @throws std::invalid_argument if something is not a finite number */
   Viewpoint(const Vector& position, double tolerancePerDistance, const GridGeometry& world)
     : Position(position)
@@ -33,6 +33,10 @@ public:
     if (!std::isfinite(position[0] + position[1] + position[2] + tolerancePerDistance))
     {
       throw std::invalid_argument("The viewpoint or its tolerance is not a finite number.");
+    }
+    if (world.Affine() == nullptr)
+    {
+      return;
     }
     const Vector origin = world({ 0.0, 0.0, 0.0 });
     for (const double y : { -1.0, 1.0 })
@@ -63,6 +67,10 @@ public:
   /** At least the tolerance of any diamond in the base cube of a grid. */
   double GreatestIn(const Grid& grid) const
   {
+    if (this->World.Positions() != nullptr)
+    {
+      return this->TolerancePerDistance * this->FarthestOf(this->World.CellsInWorld().OfAll());
+    }
     double greatest = 0.0;
     const double last = 1 << grid.Depth();
     for (int corner = 0; corner < 8; ++corner)
@@ -85,23 +93,54 @@ private:
   /** The tolerance at the nearest point of a cube of a half width, or of the ball around it. */
   double NearestIn(const Vector& centre, double half) const
   {
-    const double distance = this->World.Axes() != nullptr
-      ? this->DistanceOfBox(centre, half)
+    const double distance = this->World.Affine() == nullptr
+      ? this->DistanceOfBox(this->BoxAround(centre, half))
       : std::max(0.0, this->DistanceOf(centre) - half * this->CornerLength);
     return this->TolerancePerDistance * distance;
   }
 
-  /** The distance of a cube that is a box in the world. */
-  double DistanceOfBox(const Vector& centre, double half) const
+  /** A box in the world around a cube, or around what a curvilinear grid has of it. */
+  AlignedBox BoxAround(const Vector& centre, double half) const
   {
     const Vector halves = { half, half, half };
-    const Vector from = this->World(centre - halves);
-    const Vector to = this->World(centre - -1.0 * halves);
+    const Vector low = centre - halves;
+    const Vector high = centre + halves;
+    if (this->World.Positions() != nullptr)
+    {
+      const auto down = [](double index) { return static_cast<int>(std::floor(index)); };
+      const auto up = [](double index) { return static_cast<int>(std::ceil(index)); };
+      return this->World.CellsInWorld().Of(
+        { down(low[0]), down(low[1]), down(low[2]) }, { up(high[0]), up(high[1]), up(high[2]) });
+    }
+    const Vector from = this->World(low);
+    const Vector to = this->World(high);
+    AlignedBox box{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::tie(box[0][axis], box[1][axis]) = std::minmax(from[axis], to[axis]);
+    }
+    return box;
+  }
+
+  double DistanceOfBox(const AlignedBox& box) const
+  {
     Vector apart{};
     for (int axis = 0; axis < 3; ++axis)
     {
-      const auto [low, high] = std::minmax(from[axis], to[axis]);
-      apart[axis] = std::max({ 0.0, low - this->Position[axis], this->Position[axis] - high });
+      apart[axis] =
+        std::max({ 0.0, box[0][axis] - this->Position[axis], this->Position[axis] - box[1][axis] });
+    }
+    return LengthOf(apart);
+  }
+
+  /** The distance of a box's farthest point. */
+  double FarthestOf(const AlignedBox& box) const
+  {
+    Vector apart{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      apart[axis] =
+        std::max(this->Position[axis] - box[0][axis], box[1][axis] - this->Position[axis]);
     }
     return LengthOf(apart);
   }
@@ -109,7 +148,7 @@ private:
   Vector Position;
   double TolerancePerDistance;
   GridGeometry World;
-  double CornerLength = 0.0; ///< in the world, the longest of (+-1, +-1, +-1)
+  double CornerLength = 0.0; ///< in an affine world, the longest of (+-1, +-1, +-1)
 };
 
 }

@@ -92,12 +92,6 @@ std::array<Vector, 3> AxesOf(const GridGeometry& world)
   return axes;
 }
 
-/** Whether a grid has axes, and not just positions. */
-bool HasAxes(const GridGeometry& world)
-{
-  return world.Affine() != nullptr || world.Axes() != nullptr;
-}
-
 /** The cut edges of isovertices, by point. @param mostOfEdge see SurfaceMoveOfEdge */
 std::vector<CutSide> CutEdgesOf(const Background& background, bool inIndexSpace, double mostOfEdge)
 {
@@ -214,7 +208,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;
   options.Axes = AxesOf(input.World);
-  options.World = HasAxes(input.World) ? &input.World : nullptr;
+  options.World = input.World.Positions() == nullptr ? &input.World : nullptr;
   options.CutEdges = CutEdgesOf(background, options.World != nullptr, input.SurfaceMoveOfEdge);
   const std::vector<bool> canBeNearer = CanBeNearer(input);
   CoarseningInput coarsening{ meshes.Plain, input.Allowances, canBeNearer, input.KeepsInside };

@@ -24,15 +24,15 @@ isodiamond::Peers* PeersOf(const Volume& volume)
   return volume.InSlabs ? volume.InSlabs->Together() : nullptr;
 }
 
-/** Whether two worlds, neither curvilinear, surely have the same lengths. If not, they still
- *  may. */
+/** Whether two worlds surely have the same lengths. If not, they still may. Positions of
+ * curvilinear ones count as the same: they are compared by their hashes. */
 bool HaveSameLengths(const isodiamond::GridGeometry& a, const isodiamond::GridGeometry& b)
 {
   const isodiamond::AffineMap* mapA = a.Affine();
   const isodiamond::AffineMap* mapB = b.Affine();
   if (!mapA || !mapB)
   {
-    return a.Axes() && b.Axes() && *a.Axes() == *b.Axes();
+    return a.Axes() && b.Axes() ? *a.Axes() == *b.Axes() : a.Positions() && b.Positions();
   }
   return std::equal(mapA->Rows.begin(), mapA->Rows.end(), mapB->Rows.begin(),
     [](const auto& rowA, const auto& rowB)
@@ -77,8 +77,9 @@ bool AreAlike(const isodiamond::BuildOptions& a, const isodiamond::BuildOptions&
 bool Cache::Source::operator==(const Source& other) const
 {
   return this->Samples == other.Samples && this->HiddenPoints == other.HiddenPoints &&
-    this->HiddenCells == other.HiddenCells && this->Dimensions == other.Dimensions &&
-    this->Padding == other.Padding && AreAlike(this->Options, other.Options);
+    this->HiddenCells == other.HiddenCells && this->Positions == other.Positions &&
+    this->Dimensions == other.Dimensions && this->Padding == other.Padding &&
+    AreAlike(this->Options, other.Options);
 }
 
 bool Cache::Refinement::operator==(const Refinement& other) const
@@ -96,6 +97,8 @@ void Cache::Prepare(
   this->Current.Samples = volume.InSlabs ? volume.InSlabs->Stamp() : hashOf(array);
   this->Current.HiddenPoints = hashOf(volume.Grid->GetPointGhostArray());
   this->Current.HiddenCells = hashOf(volume.Grid->GetCellGhostArray());
+  const bool arePlacesMeasured = options.Metric == isodiamond::ErrorMetric::Distance;
+  this->Current.Positions = hashOf(arePlacesMeasured ? volume.Placement.Positions : nullptr);
   this->Current.Dimensions = volume.Dimensions;
   this->Current.Padding = volume.Padding;
   this->Current.Options = options;

@@ -76,6 +76,7 @@ private:
     ContentHash Samples{};
     ContentHash HiddenPoints{};
     ContentHash HiddenCells{};
+    ContentHash Positions{}; ///< of a structured grid, if distances are measured
     std::array<int, 3> Dimensions{};
     int Padding = 0;
     isodiamond::BuildOptions Options;

@@ -130,9 +130,8 @@ void CheckSimplify(const WorldQuery& query, isodiamond::ErrorMetric metric, bool
   if (metric != isodiamond::ErrorMetric::Distance)
   {
     throw std::invalid_argument(query.AreTrianglesShaped
-        ? "SimulationQuality of isosurfaces needs the distance metric, of images and rectilinear "
-          "grids."
-        : "Simplify needs the distance metric, of images and rectilinear grids.");
+        ? "SimulationQuality of isosurfaces needs the distance metric."
+        : "Simplify needs the distance metric.");
   }
 }
 

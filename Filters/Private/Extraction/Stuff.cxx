@@ -30,11 +30,10 @@ isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
 {
   isodiamond::StuffingInput input{ leaves, vertices, points, options.World,
     hierarchy.SampleGrid() };
-  const double step = options.World.SmallestStep();
-  if (step > 0.0)
+  if (options.World.Positions() == nullptr)
   {
-    input.SurfaceMove =
-      std::max(MovePartOfStep * step, MovePartOfTolerance * options.DistanceTolerance);
+    input.SurfaceMove = std::max(MovePartOfStep * options.World.SmallestStep(),
+      MovePartOfTolerance * options.DistanceTolerance);
   }
   else
   {

@@ -227,7 +227,7 @@ double VoxelOf(vtkDataSet* grid)
   const std::array<int, 3> dimensions = DimensionsOf(grid);
   const bool hasCells =
     std::all_of(dimensions.begin(), dimensions.end(), [](int samples) { return samples > 1; });
-  if (!hasCells || vtkStructuredGrid::SafeDownCast(grid))
+  if (!hasCells)
   {
     return 0.0;
   }

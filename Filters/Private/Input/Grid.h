@@ -32,8 +32,8 @@ std::array<int, 3> DimensionsOf(vtkDataSet* grid);
 /** The length of a grid's diagonal: of an image the one in index space, else that of its bounds. */
 double DiagonalOf(vtkDataSet* grid);
 
-/** The smallest spacing of an image or rectilinear grid; 0 for all else, and if coordinates are
- *  missing. */
+/** The smallest spacing of an image or rectilinear grid, and about the mean one of a structured
+ *  grid, on the axis where it is least; 0 for all else, and if coordinates are missing. */
 double VoxelOf(vtkDataSet* grid);
 
 /** Where a grid's samples are in the world. */

@@ -145,8 +145,7 @@ inline double OutsideOf(
     4.0 * query.ErrorTolerance, isDistance ? world.SmallestStep() : 0.01 * measure.Extent);
 }
 
-/** The query in terms of the core. @param world from the grid's index space; for a view, not that
- *  of a curvilinear grid */
+/** The query in terms of the core. @param world from the grid's index space */
 template <typename Hierarchy>
 isodiamond::Query CoreQuery(
   const WorldQuery& query, const Hierarchy& hierarchy, const isodiamond::GridGeometry& world)
