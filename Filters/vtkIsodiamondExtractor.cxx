@@ -21,17 +21,6 @@
 
 #include <optional>
 
-namespace
-{
-
-/** Whether a query is for an interval volume of a hierarchy. */
-bool IsForVolume(const vtkIsodiamond::WorldQuery& query, const vtkIsodiamond::State& state)
-{
-  return query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
-}
-
-}
-
 vtkStandardNewMacro(vtkIsodiamondExtractor);
 
 //------------------------------------------------------------------------------
@@ -280,7 +269,7 @@ int vtkIsodiamondExtractor::RequestData(
       execution->State = vtkIsodiamond::ReadForQuery(
         this, vtkPolyData::GetData(inputVector[0]), this->NumberOfThreads, query);
       this->WarnOfUnusedValues(*execution->State);
-      if (!IsForVolume(query, *execution->State))
+      if (!vtkIsodiamond::IsForVolume(query, *execution->State))
       {
         query.TurnToTriangles();
       }
@@ -313,7 +302,7 @@ void vtkIsodiamondExtractor::WarnOfUnusedValues(const vtkIsodiamond::State& stat
 {
   // Values that a user set but did not turn on; those that a panel starts with do not count.
   const vtkIsodiamond::Choice& own = state.Chosen;
-  const bool isVolume = IsForVolume(this->GetQuery(), state);
+  const bool isVolume = vtkIsodiamond::IsForVolume(this->GetQuery(), state);
   if (!isVolume && !this->UseIsovalue && this->Isovalue != this->FirstIsovalue.value_or(0.0) &&
     this->Isovalue != own.Isovalue)
   {
@@ -387,7 +376,7 @@ vtkIsodiamond::WorldQuery vtkIsodiamondExtractor::GetExtracted(
 {
   if (query.Simplify)
   {
-    vtkIsodiamond::CheckSimplify(query, state.Metric, IsForVolume(query, state));
+    vtkIsodiamond::CheckSimplify(query, state.Metric, vtkIsodiamond::IsForVolume(query, state));
   }
   return state.Isodiamonds
     ? vtkIsodiamond::HierarchyQuery(query, vtkIsodiamond::Measure(*state.Isodiamonds), state.World)

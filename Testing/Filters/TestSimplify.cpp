@@ -4,6 +4,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkCellLocator.h"
 #include "vtkFeatureEdges.h"
 #include "vtkFieldData.h"
@@ -490,4 +491,15 @@ TEST(Simplify, SaysWhatItCannot)
   extractor->Update();
   EXPECT_EQ(heard->ErrorCount, 1);
   EXPECT_NE(heard->Errors.find("isosurfaces"), std::string::npos);
+  // Its shape is what it was built for, whatever is asked: it gets a warning, and the same error.
+  extractor->SetShapeToIsosurface();
+  extractor->Update();
+  EXPECT_EQ(heard->ErrorCount, 2);
+  EXPECT_EQ(heard->WarningCount, 1);
+  extractor->SimplifyOff();
+  extractor->SimulationQualityOn();
+  extractor->Update();
+  EXPECT_EQ(heard->ErrorCount, 2);
+  EXPECT_GT(extractor->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(extractor->GetOutput()->GetCellType(0), VTK_TETRA);
 }

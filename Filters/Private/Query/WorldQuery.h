@@ -173,10 +173,18 @@ isodiamond::Query CoreQuery(
   return result;
 }
 
+/** Whether a query's mesh is an interval volume: an RI or MI has its own shape, whatever is asked. */
+inline bool IsForVolume(const WorldQuery& query, const State& state)
+{
+  return state.Isodiamonds
+    ? state.Isodiamonds->Region().IsVolume()
+    : query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
+}
+
 /** Warns where a query asks for what its shape does not have. */
 inline void WarnOfOtherShape(vtkAlgorithm* filter, const State& state, const WorldQuery& query)
 {
-  const bool isVolume = query.Override(state.Chosen).Shape == isodiamond::Shape::IntervalVolume;
+  const bool isVolume = IsForVolume(query, state);
   if (!isVolume && query.InteriorTolerance < VTK_DOUBLE_MAX)
   {
     vtkWarningWithObjectMacro(
