@@ -278,7 +278,7 @@ int vtkIsodiamondExtractor::RequestData(
       {
         task.Begin("Finding the tolerance", 0.2, 0.3);
         aimed = this->Aim(*execution->State, query, task);
-        query.ErrorTolerance = aimed->Tolerance;
+        query.SetFound(aimed->Tolerance);
       }
       task.Begin("Refining", 0.3, 0.5);
       vtkIsodiamond::Task writing = task.Part(0.5, 1.0);
@@ -348,7 +348,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
   vtkIsodiamond::Task counting = task.Part(1.0, 1.0);
   const auto cellsAt = [&](double tolerance)
   {
-    tried.ErrorTolerance = tolerance;
+    tried.SetFound(tolerance);
     std::int64_t cells = 0;
     vtkIsodiamond::RefineState(state, this->GetExtracted(state, tried), this->NumberOfThreads,
       parallelFor,

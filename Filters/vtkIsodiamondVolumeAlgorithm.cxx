@@ -259,7 +259,7 @@ void vtkIsodiamondVolumeAlgorithm::ExtractFrom(const OneInput& input,
   const double unit = this->GetUnit(volume.Placement.World.SmallestStep());
   query.ErrorTolerance *= unit;
   query.OutsideErrorTolerance *= unit;
-  query.RefinesInterior = this->RefinesInterior(query, input.Array.Array);
+  query.RefinesInterior = this->RefinesInterior(query, volume, input.Array.Array);
   // Where cells are hidden, an interval volume is refined inside, by all errors.
   query.OneTolerance = this->OneTolerance &&
     this->ErrorMetric == vtkIsodiamondHierarchy::DISTANCE &&
@@ -305,21 +305,22 @@ void vtkIsodiamondVolumeAlgorithm::BuildTogether(const vtkIsodiamond::Volume& vo
 }
 
 //------------------------------------------------------------------------------
-bool vtkIsodiamondVolumeAlgorithm::RefinesInterior(
-  const vtkIsodiamond::WorldQuery& query, vtkDataArray* samples)
+bool vtkIsodiamondVolumeAlgorithm::RefinesInterior(const vtkIsodiamond::WorldQuery& query,
+  const vtkIsodiamond::Volume& volume, vtkDataArray* samples)
 {
   if (!(query.InteriorTolerance < VTK_DOUBLE_MAX))
   {
     return false;
   }
-  // A tolerance of the values' extent or more refines nothing; with slabs the extent is not known.
+  // A tolerance of the values' extent or more refines nothing, if all are finite; with slabs that
+  // is not known.
   double extent = VTK_DOUBLE_MAX;
   if (samples)
   {
     vtkIsodiamond::RunSerial( // once: the array keeps it
       [&] { extent = vtkIsodiamond::ExtentOfValues(samples).value_or(0.0); });
   }
-  return query.InteriorTolerance < extent;
+  return query.InteriorTolerance < extent || !isodiamond::Finiteness(volume.Samples).All();
 }
 
 //------------------------------------------------------------------------------
@@ -363,7 +364,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
   vtkIsodiamond::Task counting = task.Part(1.0, 1.0);
   const auto cellsAt = [&](double tolerance)
   {
-    tried.ErrorTolerance = tolerance;
+    tried.SetFound(tolerance);
     std::int64_t cells = 0;
     for (const isodiamond::IsodiamondHierarchy* hierarchy : hierarchies)
     {
@@ -392,11 +393,11 @@ void vtkIsodiamondVolumeAlgorithm::ExtractAtTolerance(const vtkIsodiamond::Volum
   {
     vtkIsodiamond::Task aiming = task.Part(0.0, aimPart);
     found = this->Aim(volume, query, aiming);
-    aimed.ErrorTolerance = found->Tolerance;
+    aimed.SetFound(found->Tolerance);
   }
   vtkIsodiamond::Task extracting = task.Part(found ? aimPart : 0.0, 1.0);
   this->Extract(volume, aimed, extracting, output);
-  this->WriteTable(volume, aimed, unit, extracting, output);
+  this->WriteTable(volume, query, unit, extracting, output);
   // AchievedTolerance, set as ErrorTolerance, has to give this mesh.
   double achieved = aimed.ErrorTolerance / unit;
   while (achieved * unit < aimed.ErrorTolerance)

@@ -265,7 +265,8 @@ private:
   isodiamond::BuildOptions GetOptions(
     const isodiamond::GridGeometry& world, const vtkIsodiamond::WorldQuery& query) const;
   /** @param samples null if they are not at hand */
-  static bool RefinesInterior(const vtkIsodiamond::WorldQuery& query, vtkDataArray* samples);
+  static bool RefinesInterior(const vtkIsodiamond::WorldQuery& query,
+    const vtkIsodiamond::Volume& volume, vtkDataArray* samples);
   double GetUnit(double voxel) const;
   vtkIsodiamond::CountedTolerance Aim(const vtkIsodiamond::Volume& volume,
     const vtkIsodiamond::WorldQuery& query, vtkIsodiamond::Task& task);

@@ -155,6 +155,19 @@ SurfaceTriangles Placed(const Volume& volume, int surface, const isodiamond::Gri
   return placed;
 }
 
+int CountOverturned(const Volume& volume, const isodiamond::GridGeometry& world)
+{
+  using isodiamond::operator-;
+  return static_cast<int>(std::count_if(volume.Tetrahedra.begin(), volume.Tetrahedra.end(),
+    [&](const auto& tetrahedron)
+    {
+      const isodiamond::Vector first = world(volume.Points[tetrahedron[0]]);
+      const auto to = [&](int corner) { return world(volume.Points[tetrahedron[corner]]) - first; };
+      const double sixVolume = isodiamond::Dot(isodiamond::Cross(to(1), to(2)), to(3));
+      return !(world.Mirrors() ? sixVolume < 0.0 : sixVolume > 0.0);
+    }));
+}
+
 void NearestTriangle::Box::Add(const std::array<double, 3>& point)
 {
   for (int axis = 0; axis < 3; ++axis)

@@ -62,6 +62,10 @@ SurfaceTriangles Placed(const SurfaceTriangles& triangles, const isodiamond::Gri
 SurfaceTriangles Placed(const Mesh& mesh, const isodiamond::GridGeometry& world);
 SurfaceTriangles Placed(const Volume& volume, int surface, const isodiamond::GridGeometry& world);
 
+/** How many tetrahedra of a volume do not have positive volume in a world that does not mirror
+ *  everything, or negative volume in one that does. */
+int CountOverturned(const Volume& volume, const isodiamond::GridGeometry& world);
+
 /** The distances of points to the nearest of many triangles, by a tree of boxes around halves of
  *  them: large fields have millions, and to look at each of them for each point takes hours. */
 class NearestTriangle

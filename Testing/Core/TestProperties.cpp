@@ -68,6 +68,11 @@ private:
       EXPECT_EQ(topology, this->First.value_or(topology)) << "tolerance " << query.Tolerance;
       this->First = topology;
     }
+    if (this->Options.Metric == ErrorMetric::Distance && this->Options.World.Positions() == nullptr)
+    {
+      EXPECT_EQ(test::CountOverturned(mesh.Interval, this->Options.World), 0)
+        << "of " << mesh.Interval.Tetrahedra.size() << ", tolerance " << query.Tolerance;
+    }
     if (this->Options.Metric == ErrorMetric::Distance && !query.View)
     {
       this->CheckDistances(query, mesh);

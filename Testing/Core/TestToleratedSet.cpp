@@ -3,6 +3,7 @@
 // measured for all tolerances, and whole meshes keep the promise.
 #include "Build/StagedBuild.h"
 #include "DistanceError/DistanceError.h"
+#include "DistanceError/OverturnedTetrahedra.h"
 #include "DistanceTestTools.h"
 #include "Patches/WorldLengths.h"
 #include "TopologyTestTools.h"
@@ -65,6 +66,8 @@ struct AllErrors
     , Both(this->Forth)
   {
     RaiseByWayBack(relevant, options.World, { options.Hidden }, this->Both, SerialFor);
+    SubdivideOverturned(relevant, options.World, SerialFor, this->Both);
+    SubdivideOverturned(relevant, options.World, SerialFor, this->Forth);
   }
 };
 

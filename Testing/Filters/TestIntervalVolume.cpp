@@ -73,10 +73,10 @@ std::vector<std::array<std::array<double, 3>, 4>> SortedTetrahedra(vtkUnstructur
 }
 
 vtkSmartPointer<vtkIsodiamondIntervalVolume> MakeVolume(
-  vtkImageData* image, double lower, double upper)
+  vtkDataSet* grid, double lower, double upper)
 {
   vtkNew<vtkIsodiamondIntervalVolume> volume;
-  volume->SetInputData(image);
+  volume->SetInputData(grid);
   volume->SetIsorange(lower, upper);
   return volume.GetPointer();
 }
@@ -139,6 +139,65 @@ TEST(IntervalVolume, KeepsPositiveVolumesInTheWorld)
   const auto far = MakeVolume(image, 0.0, Infinity);
   far->Update();
   EXPECT_NEAR(PositiveVolume(far->GetOutput()), 3.0 * volume, 1e-3 * volume);
+}
+
+// A tolerance that is greater than the extent of all other values still refines there.
+TEST(IntervalVolume, InteriorOfInfiniteValuesDoesNotDependOnWhatCameBefore)
+{
+  const auto image = test::MakeImage({ 24, 24, 24 },
+    [](double x, double y, double z)
+    { return x == 18.0 && y == 12.0 && z == 12.0 ? Infinity : x / 24.0; });
+  const auto make = [&]
+  {
+    const auto volume = MakeVolume(image, 0.3, Infinity);
+    volume->SetErrorTolerance(1e9);
+    return volume;
+  };
+  const auto fresh = make();
+  fresh->Update();
+  const vtkIdType coarse = fresh->GetOutput()->GetNumberOfCells();
+  fresh->SetInteriorTolerance(1.0);
+  fresh->Update();
+  EXPECT_GT(fresh->GetOutput()->GetNumberOfCells(), coarse);
+  const auto used = make();
+  used->SetInteriorTolerance(0.01);
+  used->Update();
+  used->SetInteriorTolerance(1.0);
+  used->Update();
+  EXPECT_EQ(test::Difference(used->GetOutput(), fresh->GetOutput()), "");
+}
+
+// Long edges are not straight there: isovertices on them could turn tetrahedra over.
+TEST(IntervalVolume, KeepsPositiveVolumesOnUnevenGrids)
+{
+  const auto image = test::MakeImage({ 65, 65, 65 },
+    [](double x, double y, double z)
+    { return 20.0 - std::hypot(x - 32.0, y - 32.0, z - 32.0) + std::sin(0.5 * x); });
+  unsigned state = 1;
+  std::array<double, 3> last{};
+  std::array<std::array<double, 65>, 3> places{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (double& place : places[axis])
+    {
+      place = last[axis];
+      state = state * 1664525U + 1013904223U;
+      last[axis] += 0.2 + 1.8 * ((state >> 8) % 1000) / 1000.0;
+    }
+  }
+  const auto grid =
+    test::Rectilinear(image, [&](int axis, int index) { return places[axis][index]; });
+  for (const bool isOne : { false, true })
+  {
+    const auto volume = MakeVolume(grid, 0.0, Infinity);
+    volume->SetOneTolerance(isOne);
+    for (const double tolerance : { 0.5, 1.0, 2.0, 8.0 })
+    {
+      volume->SetErrorTolerance(tolerance);
+      volume->Update();
+      PositiveVolume(volume->GetOutput());
+    }
+  }
 }
 
 // Values far beyond the range put isovertices next to the lattice's vertices; with a spacing that

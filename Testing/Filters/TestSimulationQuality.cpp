@@ -349,6 +349,15 @@ TEST(SimulationQuality, MeetsATarget)
   volume->SetErrorTolerance(achieved);
   volume->Update();
   EXPECT_EQ(volume->GetOutput()->GetNumberOfCells(), cells);
+  // One that all meshes meet: nothing is tolerated, which is then the same as with no target.
+  volume->SetTargetNumberOfTriangles(10000000);
+  volume->Update();
+  EXPECT_EQ(volume->GetAchievedTolerance(), 0.0);
+  const vtkIdType most = volume->GetOutput()->GetNumberOfCells();
+  volume->SetTargetNumberOfTriangles(0);
+  volume->SetErrorTolerance(0.0);
+  volume->Update();
+  EXPECT_EQ(volume->GetOutput()->GetNumberOfCells(), most);
 }
 
 TEST(SimulationQuality, HasValuesLevelsAndOtherArrays)

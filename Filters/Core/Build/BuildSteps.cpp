@@ -5,6 +5,7 @@
 #include "Build/Assembly.h"
 #include "Build/ToleratedSet.h"
 #include "DistanceError/DistanceError.h"
+#include "DistanceError/OverturnedTetrahedra.h"
 #include "Hierarchy/Encoder.h"
 
 #include <algorithm>
@@ -221,6 +222,7 @@ DiamondCodes BuildSteps::MeasureDistances(
       bounds = MapBounds(this->Members, this->Header.Region.SurfaceCount());
       own = DiamondCodes(this->Members.Size(), false);
       this->SubdivideAlways(own);
+      SubdivideOverturned(relevant, this->Options.World, this->For, own.Surface);
       if (this->Interior)
       {
         own.Interior = this->FieldCodes
@@ -277,6 +279,7 @@ std::vector<ErrorCode::Type> BuildSteps::RefineTo(const IsodiamondHierarchy& rel
       Tell(this->Options, "Measuring errors", 0.25, 0.9);
       own = DiamondCodes(this->Members.Size(), false);
       this->SubdivideAlways(own);
+      SubdivideOverturned(relevant, this->Options.World, this->For, own.Surface);
       tests.emplace(TestedHierarchy{ relevant, isFinite, ErrorCode(this->Header.ErrorScale),
                       this->Options.PreserveFeatures, this->Options.Hidden },
         this->Options.World, this->For);

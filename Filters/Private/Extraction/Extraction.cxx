@@ -162,7 +162,7 @@ std::int64_t CountAsAsked(const isodiamond::IsodiamondHierarchy& hierarchy, cons
   const MeshOptions& options, Task& task)
 {
   const Measure measure(hierarchy);
-  if (GetsCoarser(query, measure.Metric) || (options.Hidden && options.Hidden->Any()))
+  if (query.Simplify || query.SimulationQuality || (options.Hidden && options.Hidden->Any()))
   {
     return ExtractAsAsked(hierarchy, query, options, task).Cells->GetNumberOfCells();
   }

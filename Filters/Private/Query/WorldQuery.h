@@ -34,7 +34,7 @@ struct View
 struct WorldQuery
 {
   double ErrorTolerance = 0.0;
-  bool HasTarget = false;    ///< whether that tolerance is yet to be found
+  bool HasTarget = false;    ///< whether that tolerance is yet to be found: see SetFound()
   bool OneTolerance = false; ///< whether errors are to be measured for it alone
   double InteriorTolerance = HUGE_VAL;
   bool RefinesInterior = false; ///< whether that tolerance may refine anything; of a volume
@@ -55,6 +55,15 @@ struct WorldQuery
   bool IsFull() const
   {
     return this->ErrorTolerance == 0.0 && !this->HasTarget && !this->Region && !this->View;
+  }
+
+  /** Asks for a tolerance that was found for a target, as if there had been none: then all errors
+   *  are known. */
+  void SetFound(double tolerance)
+  {
+    this->ErrorTolerance = tolerance;
+    this->HasTarget = false;
+    this->OneTolerance = false;
   }
 
   /** Asks for triangles for simulations, simplified ones, where it asked for such tetrahedra. */
