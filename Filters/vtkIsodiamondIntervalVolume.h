@@ -5,11 +5,12 @@
  *
  * A volume in, vtkUnstructuredGrid of tetrahedra out: the region lower <= field <= upper, at an
  * error tolerance. Neighbours share whole faces, all volumes are positive, and every face of only
- * one tetrahedron lies on the lower surface, the upper surface or the volume's boundary. (On a
- * structured grid, volumes are positive as far as those of its own cells are: tetrahedra keep
- * straight edges where cells bend.) The filter keeps its minimal isodiamond hierarchies: for a new
- * tolerance it only extracts again. For a new input, array or isorange it builds a new one, and so
- * it does for the first interior tolerance; see vtkIsodiamondVolumeAlgorithm.
+ * one tetrahedron lies on the lower surface, the upper surface or the volume's boundary. (With the
+ * field metric, long tetrahedra can turn over where a grid's steps differ; with both, thin ones can
+ * in single cells of a structured grid that bend a lot.) The filter keeps its minimal isodiamond
+ * hierarchies: for a new tolerance it only extracts again. For a new input, array or isorange it
+ * builds a new one, and so it does for the first interior tolerance; see
+ * vtkIsodiamondVolumeAlgorithm.
  *
  * Point data: the field's value under the input array's name, `Surface`, and all other point arrays
  * of the input (InterpolateAttributes); cell data: `Level`; see vtkIsodiamondExtractor.

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where samples are in the world, which cells are hidden, and from where they are seen.
+#include "DistanceTestTools.h"
 #include "Field/GridGeometry.h"
 #include "Field/HiddenCells.h"
+#include "Patches/CurvedLengths.h"
 #include "Patches/WorldLengths.h"
 #include "Refinement/RegionOfInterest.h"
 #include "Refinement/Viewpoint.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -152,7 +155,32 @@ TEST(GridGeometry, SmallestStepIsTheLeastOfAnyAxis)
   EXPECT_EQ(GridGeometry({ wide, rising, falling }).SmallestStep(), 0.5);
   EXPECT_EQ(GridGeometry({ rising, wide, wide }).SmallestStep(), 1.25);
   const std::vector<double> positions = BentPositions();
-  EXPECT_EQ(GridGeometry(SamplePositions{ positions.data(), Size }).SmallestStep(), 0.0);
+  // Of so few samples all count for the mean of an axis.
+  const GridGeometry bent(SamplePositions{ positions.data(), Size });
+  double least = HUGE_VAL;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double sum = 0.0;
+    int count = 0;
+    Point sample{};
+    for (sample[2] = 0; sample[2] < Size[2] - (axis == 2 ? 1 : 0); ++sample[2])
+    {
+      for (sample[1] = 0; sample[1] < Size[1] - (axis == 1 ? 1 : 0); ++sample[1])
+      {
+        for (sample[0] = 0; sample[0] < Size[0] - (axis == 0 ? 1 : 0); ++sample[0], ++count)
+        {
+          Point next = sample;
+          ++next[axis];
+          const Vector step = bent.SampleAt(next) - bent.SampleAt(sample);
+          sum += std::hypot(step[0], step[1], step[2]);
+        }
+      }
+    }
+    least = std::min(least, sum / count);
+  }
+  EXPECT_NEAR(bent.SmallestStep(), least, 1e-12);
+  const std::vector<double> nowhere(positions.size(), std::nan(""));
+  EXPECT_EQ(GridGeometry(SamplePositions{ nowhere.data(), Size }).SmallestStep(), 0.0);
 }
 
 TEST(GridGeometry, FitsFloatsWhereTheseTellIsoverticesApart)
@@ -580,4 +608,103 @@ TEST_P(ViewpointIn, TolerancesAreThoseOfTheNearestPointOrLess)
   EXPECT_NEAR(view.GreatestIn(grid), 0.01 * corners, 1e-9);
   EXPECT_THROW(Viewpoint({ std::nan(""), 0.0, 0.0 }, 1.0, map), std::invalid_argument);
   EXPECT_THROW(Viewpoint(eye, HUGE_VAL, map), std::invalid_argument);
+}
+
+TEST(Viewpoint, BoundsTheTolerancesOfCurvilinearGrids)
+{
+  const std::array<int, 3> dims = { 33, 21, 27 };
+  const Grid grid(dims);
+  for (const test::World& world : { test::Bent(dims), test::Wound(dims) })
+  {
+    const Vector eye = world({ 40.0, 10.0, 5.0 });
+    const Viewpoint view(eye, 0.01, world);
+    const double greatest = view.GreatestIn(grid);
+    std::mt19937 random(3);
+    double nearest = HUGE_VAL;
+    for (int i = 0; i < 3000; ++i)
+    {
+      const int scale = static_cast<int>(random() % 4);
+      Place place{ scale, {} };
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        place.Position[axis] = static_cast<int>(random() % ((dims[axis] >> scale) + 1));
+      }
+      const double tolerance = view.ToleranceOf(place);
+      EXPECT_LE(tolerance, greatest);
+      // Nowhere in the cube around the diamond, as far as the grid goes, is less tolerated.
+      Vector index{};
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double part = static_cast<double>(random()) / random.max();
+        index[axis] = std::clamp(
+          Centre(place)[axis] + (2.0 * part - 1.0) * (1 << scale), 0.0, dims[axis] - 1.0);
+      }
+      const Vector away = world(index) - eye;
+      const double there = 0.01 * std::hypot(away[0], away[1], away[2]);
+      EXPECT_LE(tolerance, there + 1e-12);
+      nearest = std::min(nearest, there - tolerance);
+    }
+    EXPECT_LT(nearest, 0.1 * greatest); // it is not just nothing
+  }
+}
+
+TEST(CurvedLengths, HoldWhatIsInBoxesAndNear)
+{
+  const std::array<int, 3> dims = { 17, 12, 14 };
+  for (const test::World& world : { test::Bent(dims), test::Wound(dims) })
+  {
+    const CurvedLengths lengths(world);
+    std::mt19937 random(4);
+    const auto place = [&](const FineBox& box)
+    {
+      FinePosition position{};
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        position[axis] =
+          box.Low[axis] + static_cast<int>(random() % (box.High[axis] - box.Low[axis] + 1));
+      }
+      return position;
+    };
+    FineBox all;
+    all.Add({ 0, 0, 0 });
+    all.Add(FineUnits * Point{ dims[0] - 1, dims[1] - 1, dims[2] - 1 });
+    for (int i = 0; i < 2000; ++i)
+    {
+      // In one cell, or over some.
+      const FinePosition first = place(all);
+      FineBox box;
+      box.Add(first);
+      const FinePosition other = place(all);
+      FinePosition second = other;
+      for (int axis = 0; axis < 3 && i % 2 == 0; ++axis)
+      {
+        const int cell = std::min(first[axis] / FineUnits, dims[axis] - 2);
+        second[axis] = FineUnits * cell + other[axis] % FineUnits;
+      }
+      box.Add(second);
+      const FinePosition middle = { (first[0] + second[0]) / 2, (first[1] + second[1]) / 2,
+        (first[2] + second[2]) / 2 };
+      const double radius = std::sqrt(lengths.SquaredRadius(box, middle));
+      for (int j = 0; j < 30; ++j)
+      {
+        const FinePosition inside = j < 8 ? FinePosition{ (j & 1) != 0 ? box.High[0] : box.Low[0],
+          (j & 2) != 0 ? box.High[1] : box.Low[1], (j & 4) != 0 ? box.High[2] : box.Low[2] }
+                                          : place(box);
+        const Vector to = lengths(inside) - lengths(middle);
+        EXPECT_LE(std::sqrt(Dot(to, to)), radius * (1.0 + 1e-9));
+      }
+      const Vector way = lengths(second) - lengths(first);
+      const auto near = lengths.IndexBox(lengths(first), std::sqrt(Dot(way, way)) * (1.0 + 1e-9));
+      const std::array<Vector, 2> ends = { lengths(first), lengths(second) };
+      const auto between = lengths.IndexBoxAround(ends.data(), 2);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double index = static_cast<double>(second[axis]) / FineUnits;
+        EXPECT_LE(near[0][axis], index);
+        EXPECT_GE(near[1][axis], index);
+        EXPECT_LE(between[0][axis], index);
+        EXPECT_GE(between[1][axis], index);
+      }
+    }
+  }
 }
