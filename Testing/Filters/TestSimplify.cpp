@@ -4,8 +4,8 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkCellType.h"
 #include "vtkCellLocator.h"
+#include "vtkCellType.h"
 #include "vtkFeatureEdges.h"
 #include "vtkFieldData.h"
 #include "vtkIsodiamondBuilder.h"

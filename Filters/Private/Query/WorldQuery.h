@@ -182,7 +182,8 @@ isodiamond::Query CoreQuery(
   return result;
 }
 
-/** Whether a query's mesh is an interval volume: an RI or MI has its own shape, whatever is asked. */
+/** Whether a query's mesh is an interval volume: an RI or MI has its own shape, whatever is asked.
+ */
 inline bool IsForVolume(const WorldQuery& query, const State& state)
 {
   return state.Isodiamonds
