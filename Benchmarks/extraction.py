@@ -6,14 +6,13 @@
 Prints medians of interleaved runs and their ratios; only the ratios can be compared between
 machines. Fields: a smooth ball, a ball with noise, and a gyroid that fills the volume.
 """
-import argparse
 import statistics
 import time
 
 import numpy
 from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
-from volumes import gyroid, image_of
+from volumes import gyroid, image_of, parser_of_size
 
 RUNS = 7
 
@@ -44,9 +43,7 @@ def timed(algorithm):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("size", nargs="?", type=int, default=256, help="samples on each axis (%(default)s)")
-    size = parser.parse_args().size
+    size = parser_of_size(__doc__, 256).parse_args().size
     print(f"{size}^3, medians of {RUNS}, milliseconds; ratios to vtkFlyingEdges3D")
     for name, field in fields(size):
         image = image_of(field)

@@ -19,7 +19,7 @@ from paraview.modules.vtkPVVTKExtensionsFiltersGeneral import vtkIsoVolume
 from processmemory import forget_peak, memory
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
-from volumes import gyroid
+from volumes import gyroid, parser_of_size
 
 RUNS = 3
 
@@ -67,8 +67,7 @@ def measure(kind, name, size):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("size", nargs="?", type=int, default=128, help="samples on each axis (%(default)s)")
+    parser = parser_of_size(__doc__, 128)
     parser.add_argument("--run", nargs=2, help=argparse.SUPPRESS)  # of a process of its own
     arguments = parser.parse_args()
     size = arguments.size

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Builds and extracts a surface of a 1024^3 volume of bytes, and prints how much memory that took."""
-import argparse
 import resource
 import time
 
@@ -9,9 +8,9 @@ import numpy as np
 from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
+from volumes import parser_of_size
 
-parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-parser.add_argument("size", nargs="?", type=int, default=1024, help="samples on each axis (%(default)s)")
+parser = parser_of_size(__doc__, 1024)
 parser.add_argument("metric", nargs="?", choices=["field", "distance"], default="field")
 arguments = parser.parse_args()
 size, metric = arguments.size, arguments.metric

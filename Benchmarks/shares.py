@@ -19,7 +19,7 @@ import time
 import numpy
 from isodiamonds import vtkIsodiamondBuilder, vtkIsodiamondExtractor
 from processmemory import forget_peak, memory
-from volumes import gyroid, image_of
+from volumes import gyroid, image_of, parser_of_size
 
 RUNS = 5
 COUNTS = (1, 2, 4, 8)
@@ -61,8 +61,7 @@ def timed(extractor, share, count):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("size", nargs="?", type=int, default=256, help="samples on each axis (%(default)s)")
+    parser = parser_of_size(__doc__, 256)
     parser.add_argument("--peak", nargs=2, help=argparse.SUPPRESS)  # of a process of its own
     arguments = parser.parse_args()
     size = arguments.size

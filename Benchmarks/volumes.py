@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The volumes of several benchmarks."""
+import argparse
 import re
 
 import numpy
@@ -10,6 +11,13 @@ from vtkmodules.vtkIOImage import vtkNIFTIImageReader
 
 HEAD = "/usr/share/mricron/templates/ch2.nii.gz"
 HEAD_ISOVALUE = 40.5  # between air and skin
+
+
+def parser_of_size(description, default):
+    """A parser of a script's options, of which the size of its volumes is the first."""
+    parser = argparse.ArgumentParser(description=description.split("\n", 1)[0])
+    parser.add_argument("size", nargs="?", type=int, default=default, help="samples on each axis (%(default)s)")
+    return parser
 
 
 def image_of(field):

@@ -700,10 +700,10 @@ TEST(CurvedLengths, HoldWhatIsInBoxesAndNear)
       for (int axis = 0; axis < 3; ++axis)
       {
         const double index = static_cast<double>(second[axis]) / FineUnits;
-        EXPECT_LE(near[0][axis], index);
-        EXPECT_GE(near[1][axis], index);
-        EXPECT_LE(between[0][axis], index);
-        EXPECT_GE(between[1][axis], index);
+        EXPECT_LE(near.Low[axis], index);
+        EXPECT_GE(near.High[axis], index);
+        EXPECT_LE(between.Low[axis], index);
+        EXPECT_GE(between.High[axis], index);
       }
     }
   }

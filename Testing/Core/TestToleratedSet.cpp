@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes of one tolerance: the refined set is the smallest that keeps it, by the errors that are
 // measured for all tolerances, and whole meshes keep the promise.
+#include "Build/OwnErrors.h"
 #include "Build/StagedBuild.h"
 #include "DistanceError/DistanceError.h"
-#include "DistanceError/OverturnedTetrahedra.h"
 #include "DistanceTestTools.h"
 #include "Patches/WorldLengths.h"
 #include "TopologyTestTools.h"

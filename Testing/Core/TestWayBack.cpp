@@ -786,10 +786,10 @@ void ExpectIndexBoxes(const Lengths& lengths, const Point& last, std::mt19937& r
     for (int axis = 0; axis < 3; ++axis)
     {
       const double index = position[axis] / double{ FineUnits };
-      ASSERT_NEAR(point[0][axis], index, 1e-7);
-      ASSERT_NEAR(point[1][axis], index, 1e-7);
-      ASSERT_LE(box[0][axis], other[axis] / double{ FineUnits } + 1e-7);
-      ASSERT_GE(box[1][axis], other[axis] / double{ FineUnits } - 1e-7);
+      ASSERT_NEAR(point.Low[axis], index, 1e-7);
+      ASSERT_NEAR(point.High[axis], index, 1e-7);
+      ASSERT_LE(box.Low[axis], other[axis] / double{ FineUnits } + 1e-7);
+      ASSERT_GE(box.High[axis], other[axis] / double{ FineUnits } - 1e-7);
     }
   }
 }
@@ -827,10 +827,10 @@ TEST(WorldLengths, IndexBoxIsNoLargerThanNeedBe)
     {
       const Vector any = RandomVector(random);
       const Vector on = middle + (1.0 / std::sqrt(Dot(any, any))) * any;
-      farthest = std::max(farthest, sheared.IndexBox(on, 0.0)[0][axis]);
+      farthest = std::max(farthest, sheared.IndexBox(on, 0.0).Low[axis]);
     }
-    EXPECT_LE(farthest, box[1][axis]);
-    const double reach = box[1][axis] - 0.5 * (box[0][axis] + box[1][axis]);
-    EXPECT_GT(farthest, box[1][axis] - 0.02 * reach);
+    EXPECT_LE(farthest, box.High[axis]);
+    const double reach = box.High[axis] - 0.5 * (box.Low[axis] + box.High[axis]);
+    EXPECT_GT(farthest, box.High[axis] - 0.02 * reach);
   }
 }

@@ -255,6 +255,28 @@ vtkSmartPointer<vtkPolyData> PointsOn(vtkUnstructuredGrid* volume, int surface)
   return result;
 }
 
+/** Expects a grid's surface at full resolution, but none within a distance: an error that says a
+ *  word. */
+void ExpectOnlyFieldMetric(vtkDataSet* grid, const char* word)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(grid);
+  contour->SetValue(0, 0.0);
+  const auto messages = test::Watch(contour);
+  contour->Update(); // full resolution needs no distances
+  EXPECT_EQ(messages->ErrorCount, 0);
+  EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
+  contour->SetErrorTolerance(0.5);
+  contour->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_NE(messages->Errors.find(word), std::string::npos) << messages->Errors;
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+  contour->SetErrorMetricToField();
+  contour->Update();
+  EXPECT_EQ(messages->ErrorCount, 1);
+  EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
+}
+
 }
 
 TEST(Distance, IsAPromiseOnAnalyticVolumes)
@@ -691,24 +713,10 @@ TEST(Distance, NeedsCoordinatesThatRiseOrFall)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : { 7.0, 6.5, nan, -HUGE_VAL }) // the coordinate before is 7
   {
-    const auto grid = test::Rectilinear(
-      image, [&](int axis, int i) { return axis == 1 && i == 8 ? bad : i + 0.0 * axis; });
-    vtkNew<vtkIsodiamondContour> contour;
-    contour->SetInputData(grid);
-    contour->SetValue(0, 0.0);
-    const auto messages = test::Watch(contour);
-    contour->Update(); // full resolution needs no distances
-    EXPECT_EQ(messages->ErrorCount, 0);
-    EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
-    contour->SetErrorTolerance(0.5);
-    contour->Update();
-    EXPECT_EQ(messages->ErrorCount, 1);
-    EXPECT_NE(messages->Errors.find("field metric"), std::string::npos) << messages->Errors;
-    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
-    contour->SetErrorMetricToField();
-    contour->Update();
-    EXPECT_EQ(messages->ErrorCount, 1);
-    EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
+    ExpectOnlyFieldMetric(
+      test::Rectilinear(
+        image, [&](int axis, int i) { return axis == 1 && i == 8 ? bad : i + 0.0 * axis; }),
+      "field metric");
   }
 }
 
@@ -717,25 +725,11 @@ TEST(Distance, NeedsPositionsThatAreFinite)
   const auto image = test::BallImage({ 17, 17, 17 });
   for (const double bad : { std::numeric_limits<double>::quiet_NaN(), HUGE_VAL })
   {
-    vtkNew<vtkIsodiamondContour> contour;
-    contour->SetInputData(test::Structured(image,
-      [bad](double x, double y, double z) -> std::array<double, 3> {
-        return { x + y + z > 0.0 ? x : bad, y, z };
-      })); // far from the surface
-    contour->SetValue(0, 0.0);
-    const auto messages = test::Watch(contour);
-    contour->Update(); // full resolution needs no distances
-    EXPECT_EQ(messages->ErrorCount, 0);
-    EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
-    contour->SetErrorTolerance(0.5);
-    contour->Update();
-    EXPECT_EQ(messages->ErrorCount, 1);
-    EXPECT_NE(messages->Errors.find("finite"), std::string::npos) << messages->Errors;
-    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
-    contour->SetErrorMetricToField();
-    contour->Update();
-    EXPECT_EQ(messages->ErrorCount, 1);
-    EXPECT_GT(contour->GetOutput()->GetNumberOfPoints(), 0);
+    ExpectOnlyFieldMetric(test::Structured(image,
+                            [bad](double x, double y, double z) -> std::array<double, 3> {
+                              return { x + y + z > 0.0 ? x : bad, y, z };
+                            }), // far from the surface
+      "finite");
   }
 }
 

@@ -158,6 +158,24 @@ void ExpectSameShape(vtkPolyData* mesh, vtkPolyData* full)
   EXPECT_EQ(is.NonManifoldEdges, 0);
 }
 
+/** Expects a contour to have far fewer triangles with Simplify, within the tolerance both ways, and
+ *  the shape of full resolution. @return the simplified mesh */
+vtkSmartPointer<vtkPolyData> ExpectSimplified(
+  vtkIsodiamondContour* contour, vtkPolyData* full, double tolerance)
+{
+  contour->SetErrorTolerance(tolerance);
+  contour->SimplifyOff();
+  const auto plain = Update(contour);
+  contour->SimplifyOn();
+  const auto simple = Update(contour);
+  EXPECT_LT(simple->GetNumberOfCells(), 0.6 * plain->GetNumberOfCells());
+  const auto everywhere = [&](const double[3]) { return tolerance * (1.0 + 1e-6); };
+  EXPECT_LE(Excess(full, simple, everywhere), 0.0);
+  EXPECT_LE(Excess(simple, full, everywhere), 0.0);
+  ExpectSameShape(simple, full);
+  return simple;
+}
+
 }
 
 TEST(Simplify, KeepsToleranceAndTopology)
@@ -169,16 +187,7 @@ TEST(Simplify, KeepsToleranceAndTopology)
   for (const double tolerance : { 0.2, 0.5 })
   {
     SCOPED_TRACE(tolerance);
-    contour->SetErrorTolerance(tolerance);
-    contour->SimplifyOff();
-    const auto plain = Update(contour);
-    contour->SimplifyOn();
-    const auto simple = Update(contour);
-    EXPECT_LT(simple->GetNumberOfCells(), 0.6 * plain->GetNumberOfCells());
-    const auto everywhere = [&](const double[3]) { return tolerance * (1.0 + 1e-6); };
-    EXPECT_LE(Excess(full, simple, everywhere), 0.0);
-    EXPECT_LE(Excess(simple, full, everywhere), 0.0);
-    ExpectSameShape(simple, full);
+    const auto simple = ExpectSimplified(contour, full, tolerance);
     // Its points are those of the mesh at a part of the tolerance, with their data; no levels.
     EXPECT_EQ(
       simple->GetPointData()->GetNormals()->GetNumberOfTuples(), simple->GetNumberOfPoints());
@@ -200,16 +209,7 @@ TEST(Simplify, KeepsToleranceAndTopologyOnStructuredGrids)
   for (const double tolerance : { 0.2, 0.5 })
   {
     SCOPED_TRACE(tolerance);
-    contour->SetErrorTolerance(tolerance);
-    contour->SimplifyOff();
-    const auto plain = Update(contour);
-    contour->SimplifyOn();
-    const auto simple = Update(contour);
-    EXPECT_LT(simple->GetNumberOfCells(), 0.6 * plain->GetNumberOfCells());
-    const auto everywhere = [&](const double[3]) { return tolerance * (1.0 + 1e-6); };
-    EXPECT_LE(Excess(full, simple, everywhere), 0.0);
-    EXPECT_LE(Excess(simple, full, everywhere), 0.0);
-    ExpectSameShape(simple, full);
+    ExpectSimplified(contour, full, tolerance);
   }
 }
 

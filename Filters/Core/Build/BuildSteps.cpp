@@ -5,7 +5,6 @@
 #include "Build/Assembly.h"
 #include "Build/ToleratedSet.h"
 #include "DistanceError/DistanceError.h"
-#include "DistanceError/OverturnedTetrahedra.h"
 #include "Hierarchy/Encoder.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "Build/OwnErrors.h"
 
 #include "DistanceError/DistanceError.h"
+#include "DistanceError/OverturnedTetrahedra.h"
 #include "Field/CriticalDiamonds.h"
 
 #include <stdexcept>
@@ -123,6 +124,24 @@ void RefineAtHiddenCells(const HiddenCells& hidden, const DiamondMask& active,
       if (active.Contains(place) && hidden.Touch(place))
       {
         codes.Surface[rank] = ErrorCode::Always;
+      }
+    });
+}
+
+void SubdivideOverturned(const IsodiamondHierarchy& relevant, const GridGeometry& world,
+  const ParallelFor& parallelFor, std::vector<ErrorCode::Type>& codes)
+{
+  if (!relevant.Region().IsVolume() || world.Affine() != nullptr)
+  {
+    return;
+  }
+  const OverturnedTetrahedra overturned(relevant, world);
+  ForEachMember(relevant.Diamonds(), parallelFor,
+    [&](const Place& place, std::uint32_t rank)
+    {
+      if (codes[rank] != ErrorCode::Always && overturned.AreAround(place))
+      {
+        codes[rank] = ErrorCode::Always;
       }
     });
 }

@@ -156,6 +156,11 @@ bool RefinesInterior(const Isoregion& region, const BuildOptions& options);
 void RefineAtHiddenCells(const HiddenCells& hidden, const DiamondMask& active,
   const DiamondSet& members, const ParallelFor& parallelFor, DiamondCodes& codes);
 
+/** Diamonds that would have tetrahedra turn over in the world (OverturnedTetrahedra.h) are always
+ *  subdivided. @param relevant an RI, of which there are none if it is of an isosurface */
+void SubdivideOverturned(const IsodiamondHierarchy& relevant, const GridGeometry& world,
+  const ParallelFor& parallelFor, std::vector<ErrorCode::Type>& codes);
+
 /** What is always subdivided, with all ancestors, so that every mesh has the topology of full
  * resolution: critical diamonds, and what carries a surface to where hidden cells are cut out. */
 DiamondMask RefinedForTopology(const Grid& grid, const SignLattice& signs,

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DistanceError/DistanceMeasures.h"
-#include "DistanceError/ScaleZeroDistances.h"
+#include "DistanceError/DistanceMeasuresOf.h"
 
 namespace isodiamond
 {
 
-void MeasureScaleZero(const IsovertexClusters& clusters, const AffineLengths& lengths,
-  ErrorMaxima& errors, const Loops& loops)
-{
-  ScaleZeroDistances<AffineLengths>::Run(clusters, lengths, errors, loops);
-}
+template void DistanceMeasures<AffineLengths>::ScaleZero(
+  const IsovertexClusters&, const AffineLengths&, ErrorMaxima&, const Loops&);
 
 }

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DistanceError/DistanceMeasures.h"
-#include "DistanceError/DistanceWalk.h"
+#include "DistanceError/DistanceMeasuresOf.h"
 
 namespace isodiamond
 {
 
-void MeasureCoarse(const IsovertexClusters& clusters, const AffineLengths& lengths,
-  ErrorMaxima& errors, const Loops& loops)
-{
-  DistanceWalk(clusters, lengths, errors).Run(loops);
-}
+template void DistanceMeasures<AffineLengths>::Coarse(
+  const IsovertexClusters&, const AffineLengths&, ErrorMaxima&, const Loops&);
 
 }

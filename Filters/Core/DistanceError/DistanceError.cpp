@@ -4,6 +4,7 @@
 #include "DistanceError/DistanceMeasures.h"
 
 #include <cmath>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -39,8 +40,9 @@ std::vector<ErrorCode::Type> DistanceErrors(const IsodiamondHierarchy& relevant,
       std::visit(
         [&](const auto& lengths)
         {
-          MeasureCoarse(clusters, lengths, errors, loops);
-          MeasureScaleZero(clusters, lengths, errors, loops);
+          using Measures = DistanceMeasures<std::decay_t<decltype(lengths)>>;
+          Measures::Coarse(clusters, lengths, errors, loops);
+          Measures::ScaleZero(clusters, lengths, errors, loops);
         },
         errors.Lengths());
     }
@@ -52,8 +54,12 @@ void RaiseByWayBack(const IsodiamondHierarchy& relevant, const GridGeometry& wor
   const BeforeWayBack& known, std::vector<ErrorCode::Type>& codes, const Loops& loops)
 {
   const ErrorCode code(DistanceErrorScale(relevant.SampleGrid(), world));
-  std::visit([&](const auto& lengths)
-    { MeasureBack(relevant, lengths, known, code, codes, loops); },
+  std::visit(
+    [&](const auto& lengths)
+    {
+      DistanceMeasures<std::decay_t<decltype(lengths)>>::Back(
+        relevant, lengths, known, code, codes, loops);
+    },
     WorldLengthsOf(world));
 }
 

@@ -3,6 +3,7 @@
 
 #include "DistanceError/DistanceMeasures.h"
 
+#include <type_traits>
 #include <variant>
 
 namespace isodiamond
@@ -28,8 +29,12 @@ std::vector<std::uint8_t> DistanceTests::Exceed(
   std::vector<std::uint8_t> exceed(diamonds.size(), 0);
   for (const TestedSurface& surface : this->Surfaces)
   {
-    std::visit([&](const auto& lengths)
-      { TestTolerances(surface, this->Tested, lengths, diamonds, exceed, parallelFor); },
+    std::visit(
+      [&](const auto& lengths)
+      {
+        DistanceMeasures<std::decay_t<decltype(lengths)>>::Test(
+          surface, this->Tested, lengths, diamonds, exceed, parallelFor);
+      },
       this->InWorld);
   }
   return exceed;

@@ -3,6 +3,7 @@
 #define isodiamond_SlabTest_h
 
 #include "DistanceError/FineSurface.h"
+#include "Field/Bounds.h"
 #include "Patches/ConvexPolygon.h"
 
 #include <algorithm>
@@ -13,15 +14,15 @@ namespace isodiamond
 {
 
 /** Those cells of another box that a box of index space touches. */
-inline CellBox CellsIn(const std::array<Vector, 2>& box, const CellBox& whole)
+inline CellBox CellsIn(const Bounds& box, const CellBox& whole)
 {
   CellBox cells;
   for (int axis = 0; axis < 3; ++axis)
   {
     constexpr double rounding = 1e-6;
     const double last = whole.High[axis];
-    const double low = std::clamp(std::floor(box[0][axis] - rounding), 0.0, last - 1.0);
-    const double high = std::clamp(std::ceil(box[1][axis] + rounding), low + 1.0, last);
+    const double low = std::clamp(std::floor(box.Low[axis] - rounding), 0.0, last - 1.0);
+    const double high = std::clamp(std::ceil(box.High[axis] + rounding), low + 1.0, last);
     cells.Low[axis] = static_cast<int>(low);
     cells.High[axis] = static_cast<int>(high);
   }
@@ -93,7 +94,7 @@ public:
     , Found(known)
   {
     const CellBox whole = fine.Whole();
-    const std::array<Vector, 2> box = this->IndexBox(whole);
+    const Bounds box = this->IndexBox(whole);
     if (this->Leaves || fine.AnyHidden(CellsIn(box, whole)))
     {
       return;
@@ -129,7 +130,7 @@ public:
 
 private:
   /** Where the piece and its copies are. */
-  std::array<Vector, 2> IndexBox(const CellBox& whole)
+  Bounds IndexBox(const CellBox& whole)
   {
     std::array<Vector, 2 * ConvexPolygon::MostCorners> corners;
     int count = 0;
@@ -140,10 +141,10 @@ private:
         corners[count++] = this->Piece.Corners[i] + height * this->Upward;
       }
     }
-    const std::array<Vector, 2> all = this->InWorld.IndexBoxAround(corners.data(), count);
+    const Bounds all = this->InWorld.IndexBoxAround(corners.data(), count);
     for (int axis = 0; axis < 3; ++axis)
     {
-      this->Leaves = this->Leaves || all[0][axis] < 0.0 || all[1][axis] > whole.High[axis];
+      this->Leaves = this->Leaves || all.Low[axis] < 0.0 || all.High[axis] > whole.High[axis];
     }
     return all;
   }

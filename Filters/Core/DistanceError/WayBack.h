@@ -417,8 +417,7 @@ private:
     }
     this->HasNearby = true;
     const double reach = std::min(1.25 * this->Known, 0.5 * this->InWorld.TypicalStep());
-    std::array<Vector, 2> all = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL },
-      { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
+    Bounds all;
     for (const NumberedPatch& hard : this->Hard)
     {
       const SurfacePatch& patch = hard.Patch;
@@ -427,12 +426,7 @@ private:
       {
         for (const std::uint8_t edge : patch.Triangles[j])
         {
-          const std::array<Vector, 2> box = this->InWorld.IndexBox(corners[edge], reach);
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            all[0][axis] = std::min(all[0][axis], box[0][axis]);
-            all[1][axis] = std::max(all[1][axis], box[1][axis]);
-          }
+          all.Add(this->InWorld.IndexBox(corners[edge], reach));
         }
       }
     }

@@ -103,7 +103,7 @@ CellBounds::CellBounds(
   }
 }
 
-AlignedBox CellBounds::Of(const Point& low, const Point& high) const
+Bounds CellBounds::Of(const Point& low, const Point& high) const
 {
   // On a level where these are few.
   std::size_t level = 0;
@@ -120,52 +120,34 @@ AlignedBox CellBounds::Of(const Point& low, const Point& high) const
     first[axis] = std::clamp(low[axis], 0, last) >> (level + 1);
     end[axis] = (std::clamp(high[axis] - 1, 0, last) >> (level + 1)) + 1;
   }
-  AlignedBox all = this->Placed(this->Levels[level].At(first));
-  ForEachPoint(first, end,
-    [&](const Point& block)
-    {
-      const AlignedBox one = this->Placed(this->Levels[level].At(block));
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        all[0][axis] = std::min(all[0][axis], one[0][axis]);
-        all[1][axis] = std::max(all[1][axis], one[1][axis]);
-      }
-    });
+  Bounds all;
+  ForEachPoint(
+    first, end, [&](const Point& block) { all.Add(this->Placed(this->Levels[level].At(block))); });
   return all;
 }
 
-AlignedBox CellBounds::IndexBoxOf(const AlignedBox& box) const
+Bounds CellBounds::IndexBoxOf(const Bounds& box) const
 {
-  AlignedBox found = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
+  Bounds found;
   this->Look(this->Levels.size() - 1, { 0, 0, 0 }, box, found);
   return found;
 }
 
-void CellBounds::Look(
-  std::size_t level, const Point& block, const AlignedBox& box, AlignedBox& found) const
+void CellBounds::Look(std::size_t level, const Point& block, const Bounds& box, Bounds& found) const
 {
-  const AlignedBox here = this->Placed(this->Levels[level].At(block));
-  bool mayTouch = true;
-  bool isNew = false; // whether any of it is not in the box that was found
-  AlignedBox cells{};
+  Bounds cells;
   for (int axis = 0; axis < 3; ++axis)
   {
-    mayTouch = mayTouch && here[0][axis] <= box[1][axis] && here[1][axis] >= box[0][axis];
-    cells[0][axis] = block[axis] << (level + 1);
-    cells[1][axis] = std::min((block[axis] + 1) << (level + 1), this->Cells[axis]);
-    isNew = isNew || cells[0][axis] < found[0][axis] || cells[1][axis] > found[1][axis];
+    cells.Low[axis] = block[axis] << (level + 1);
+    cells.High[axis] = std::min((block[axis] + 1) << (level + 1), this->Cells[axis]);
   }
-  if (!mayTouch || !isNew)
+  if (found.Holds(cells) || !this->Placed(this->Levels[level].At(block)).Meets(box))
   {
     return;
   }
   if (level == 0)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      found[0][axis] = std::min(found[0][axis], cells[0][axis]);
-      found[1][axis] = std::max(found[1][axis], cells[1][axis]);
-    }
+    found.Add(cells);
     return;
   }
   const std::array<int, 3>& size = this->Levels[level - 1].Size;
@@ -175,13 +157,13 @@ void CellBounds::Look(
   ForEachPoint(first, end, [&](const Point& half) { this->Look(level - 1, half, box, found); });
 }
 
-AlignedBox CellBounds::Placed(const Block& block) const
+Bounds CellBounds::Placed(const Block& block) const
 {
-  AlignedBox box{};
+  Bounds box;
   for (int axis = 0; axis < 3; ++axis)
   {
-    box[0][axis] = this->Origin[axis] + block.Low[axis];
-    box[1][axis] = this->Origin[axis] + block.High[axis];
+    box.Low[axis] = this->Origin[axis] + block.Low[axis];
+    box.High[axis] = this->Origin[axis] + block.High[axis];
   }
   return box;
 }

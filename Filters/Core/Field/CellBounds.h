@@ -2,6 +2,7 @@
 #ifndef isodiamond_CellBounds_h
 #define isodiamond_CellBounds_h
 
+#include "Field/Bounds.h"
 #include "Field/Samples.h"
 #include "Field/Vector.h"
 #include "Lattice/Lattice.h"
@@ -13,9 +14,6 @@
 
 namespace isodiamond
 {
-
-/** An axis-aligned box, in the world or in index space: its low and its high corner. */
-using AlignedBox = std::array<Vector, 2>;
 
 /**
  * Where the cells of a curvilinear grid are in the world: boxes around blocks of two cells on each
@@ -34,15 +32,15 @@ public:
     const std::array<int, 3>& samples, const std::function<Vector(const Point&)>& positionOf);
 
   /** Around all cells. */
-  AlignedBox OfAll() const { return this->Placed(this->Levels.back().Blocks[0]); }
+  Bounds OfAll() const { return this->Placed(this->Levels.back().Blocks[0]); }
 
   /** A box that holds the cells between two lattice points: the nearest ones, if the grid has none
    *  there. It may be larger by a block on each side. */
-  AlignedBox Of(const Point& low, const Point& high) const;
+  Bounds Of(const Point& low, const Point& high) const;
 
-  /** A box in index space that holds all cells that may touch a box in the world; if there are
-   *  none, its low corner is infinite, and its high one negative. */
-  AlignedBox IndexBoxOf(const AlignedBox& box) const;
+  /** A box in index space that holds all cells that may touch a box in the world; empty if there
+   *  are none. */
+  Bounds IndexBoxOf(const Bounds& box) const;
 
 private:
   struct Block
@@ -64,8 +62,8 @@ private:
     }
   };
 
-  AlignedBox Placed(const Block& block) const;
-  void Look(std::size_t level, const Point& block, const AlignedBox& box, AlignedBox& found) const;
+  Bounds Placed(const Block& block) const;
+  void Look(std::size_t level, const Point& block, const Bounds& box, Bounds& found) const;
 
   std::array<int, 3> Cells{};
   Vector Origin{}; ///< blocks' numbers of 32 bits are offsets from here

@@ -33,6 +33,12 @@ inline double Dot(const Vector& a, const Vector& b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/** Six times the volume of a tetrahedron. */
+inline double SixVolumes(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
+{
+  return Dot(Cross(b - a, c - a), d - a);
+}
+
 }
 
 #endif

@@ -13,14 +13,14 @@ namespace isodiamond
 namespace
 {
 
-Vector DiagonalOf(const AlignedBox& box)
-{
-  return box[1] - box[0];
-}
-
 double LengthOf(const Vector& vector)
 {
   return std::sqrt(Dot(vector, vector));
+}
+
+double DiagonalOf(const Bounds& box)
+{
+  return LengthOf(box.High - box.Low);
 }
 
 }
@@ -30,7 +30,7 @@ CurvedLengths::CurvedLengths(const GridGeometry& world)
   , Last(world.Dimensions() + (2 * world.Padding() - 1) * Point{ 1, 1, 1 })
   , Origin(world.PaddedAt({ 0, 0, 0 }))
 {
-  const double longest = LengthOf(DiagonalOf(world.CellsInWorld().OfAll()));
+  const double longest = DiagonalOf(world.CellsInWorld().OfAll());
   // Of the boxes around cells, too, and of positions that are far from the origin.
   this->AbsoluteError = 1e-14 * (longest + LengthOf(this->Origin));
   // Where most samples coincide no step is typical, but none may count as nothing.
@@ -44,20 +44,20 @@ bool CurvedLengths::CanBeMeasured(const GridGeometry& world)
   const std::array<int, 3>& size = positions.Dimensions;
   const std::int64_t count = std::int64_t{ 3 } * size[0] * size[1] * size[2];
   bool areFinite = true;
-  AlignedBox box = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
+  Bounds box;
   std::visit(
     [&](const auto* coordinates)
     {
-      for (std::int64_t i = 0; i < count; ++i)
+      for (std::int64_t i = 0; i < count; i += 3)
       {
-        const double value = coordinates[i];
-        areFinite = areFinite && std::isfinite(value);
-        box[0][i % 3] = std::min(box[0][i % 3], value);
-        box[1][i % 3] = std::max(box[1][i % 3], value);
+        const Vector place = { coordinates[i], coordinates[i + 1], coordinates[i + 2] };
+        areFinite = areFinite && std::isfinite(place[0]) && std::isfinite(place[1]) &&
+          std::isfinite(place[2]);
+        box.Add(place);
       }
     },
     positions.Coordinates);
-  const double longest = areFinite ? LengthOf(DiagonalOf(box)) : HUGE_VAL;
+  const double longest = areFinite ? DiagonalOf(box) : HUGE_VAL;
   return longest >= ShortestStep && longest <= LongestStep;
 }
 
@@ -84,48 +84,41 @@ double CurvedLengths::SquaredRadius(const FineBox& box, const FinePosition& midd
     return squared;
   }
   const Point low = { box.Low[0] / FineUnits, box.Low[1] / FineUnits, box.Low[2] / FineUnits };
-  const AlignedBox around = this->World.CellsInWorld().Of(low, low + cells);
+  const Bounds around = this->World.CellsInWorld().Of(low, low + cells);
   for (int axis = 0; axis < 3; ++axis)
   {
     const double place = centre[axis] + this->Origin[axis];
-    const double reach = std::max(place - around[0][axis], around[1][axis] - place);
+    const double reach = std::max(place - around.Low[axis], around.High[axis] - place);
     squared += reach * reach;
   }
   return squared;
 }
 
-std::array<Vector, 2> CurvedLengths::IndexBox(const Vector& point, double radius) const
+Bounds CurvedLengths::IndexBox(const Vector& point, double radius) const
 {
   const Vector reach = { radius, radius, radius };
   return this->Near({ point - reach, point + reach });
 }
 
-std::array<Vector, 2> CurvedLengths::IndexBoxAround(const Vector* corners, int count) const
+Bounds CurvedLengths::IndexBoxAround(const Vector* corners, int count) const
 {
-  AlignedBox box = { corners[0], corners[0] };
-  for (int i = 1; i < count; ++i)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      box[0][axis] = std::min(box[0][axis], corners[i][axis]);
-      box[1][axis] = std::max(box[1][axis], corners[i][axis]);
-    }
-  }
-  AlignedBox found = this->Near(box);
+  Bounds box;
+  std::for_each(corners, corners + count, [&](const Vector& corner) { box.Add(corner); });
+  Bounds found = this->Near(box);
   // In the outermost cells it may leave the grid.
   for (int axis = 0; axis < 3; ++axis)
   {
-    found[0][axis] -= found[0][axis] <= 0.0 ? 1.0 : 0.0;
-    found[1][axis] += found[1][axis] >= this->Last[axis] ? 1.0 : 0.0;
+    found.Low[axis] -= found.Low[axis] <= 0.0 ? 1.0 : 0.0;
+    found.High[axis] += found.High[axis] >= this->Last[axis] ? 1.0 : 0.0;
   }
   return found;
 }
 
-AlignedBox CurvedLengths::Near(const AlignedBox& box) const
+Bounds CurvedLengths::Near(const Bounds& box) const
 {
   const Vector slack = { this->AbsoluteError, this->AbsoluteError, this->AbsoluteError };
   return this->World.CellsInWorld().IndexBoxOf(
-    { box[0] + this->Origin - slack, box[1] + this->Origin + slack });
+    { box.Low + this->Origin - slack, box.High + this->Origin + slack });
 }
 
 double CurvedLengths::StepIn(const Point& cell) const
@@ -136,7 +129,7 @@ double CurvedLengths::StepIn(const Point& cell) const
 
 double CurvedLengths::LongestDistance(const Point& /*last*/) const
 {
-  return LengthOf(DiagonalOf(this->World.CellsInWorld().OfAll()));
+  return DiagonalOf(this->World.CellsInWorld().OfAll());
 }
 
 }

@@ -2,11 +2,10 @@
 #ifndef isodiamond_CurvedLengths_h
 #define isodiamond_CurvedLengths_h
 
+#include "Field/Bounds.h"
 #include "Field/GridGeometry.h"
 #include "Field/Vector.h"
 #include "Patches/ExactPlane.h"
-
-#include <array>
 
 namespace isodiamond
 {
@@ -39,15 +38,15 @@ public:
     return this->World.PaddedAt(to) - this->World.PaddedAt(from);
   }
   double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
-  std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
-  std::array<Vector, 2> IndexBoxAround(const Vector* corners, int count) const;
+  Bounds IndexBox(const Vector& point, double radius) const;
+  Bounds IndexBoxAround(const Vector* corners, int count) const;
   double StepIn(const Point& cell) const;
   double LongestDistance(const Point& last) const;
   double TypicalStep() const { return this->Step; }
   double Rounding() const { return this->AbsoluteError; }
 
 private:
-  AlignedBox Near(const AlignedBox& box) const;
+  Bounds Near(const Bounds& box) const;
 
   GridGeometry World;
   Point Last{}; ///< the lattice's last point

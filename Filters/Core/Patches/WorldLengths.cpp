@@ -28,22 +28,12 @@ bool AreStrictlyMonotone(const std::vector<double>& coordinates)
   return true;
 }
 
-/** The box around places in index space, each of which indexOf(corner) gives. */
-template <typename IndexOf>
-std::array<Vector, 2> BoxAround(const Vector* corners, int count, const IndexOf& indexOf)
+/** What no distance in a grid exceeds that is a box, or a sheared one, whatever its steps. */
+template <typename Lengths>
+double DiagonalOf(const Lengths& lengths, const Point& last)
 {
-  std::array<Vector, 2> all = { { { HUGE_VAL, HUGE_VAL, HUGE_VAL },
-    { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } } };
-  for (int i = 0; i < count; ++i)
-  {
-    const Vector index = indexOf(corners[i]);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      all[0][axis] = std::min(all[0][axis], index[axis]);
-      all[1][axis] = std::max(all[1][axis], index[axis]);
-    }
-  }
-  return all;
+  const Vector diagonal = lengths.Between({ 0, 0, 0 }, last);
+  return std::sqrt(Dot(diagonal, diagonal));
 }
 
 }
@@ -108,32 +98,34 @@ double AffineLengths::SquaredRadius(const FineBox& box, const FinePosition& midd
   return squared;
 }
 
-std::array<Vector, 2> AffineLengths::IndexBox(const Vector& point, double radius) const
+Bounds AffineLengths::IndexBox(const Vector& point, double radius) const
 {
-  std::array<Vector, 2> box{};
+  Bounds box;
   for (int axis = 0; axis < 3; ++axis)
   {
     const Vector row = this->Inverse[axis];
     const double reach = radius * std::sqrt(Dot(row, row));
-    box[0][axis] = Dot(row, point) - reach;
-    box[1][axis] = Dot(row, point) + reach;
+    box.Low[axis] = Dot(row, point) - reach;
+    box.High[axis] = Dot(row, point) + reach;
   }
   return box;
 }
 
-std::array<Vector, 2> AffineLengths::IndexBoxAround(const Vector* corners, int count) const
+Bounds AffineLengths::IndexBoxAround(const Vector* corners, int count) const
 {
   const auto& inverse = this->Inverse;
-  return BoxAround(corners, count,
-    [&](const Vector& corner) -> Vector {
-      return { Dot(inverse[0], corner), Dot(inverse[1], corner), Dot(inverse[2], corner) };
-    });
+  Bounds box;
+  for (int i = 0; i < count; ++i)
+  {
+    box.Add(Vector{
+      Dot(inverse[0], corners[i]), Dot(inverse[1], corners[i]), Dot(inverse[2], corners[i]) });
+  }
+  return box;
 }
 
 double AffineLengths::LongestDistance(const Point& last) const
 {
-  const Vector diagonal = this->Between({ 0, 0, 0 }, last);
-  return std::sqrt(Dot(diagonal, diagonal));
+  return DiagonalOf(*this, last);
 }
 
 double AffineLengths::TypicalStep() const
@@ -183,15 +175,15 @@ double AxesLengths::SquaredRadius(const FineBox& box, const FinePosition& middle
   return Dot(reach, reach);
 }
 
-std::array<Vector, 2> AxesLengths::IndexBox(const Vector& point, double radius) const
+Bounds AxesLengths::IndexBox(const Vector& point, double radius) const
 {
-  std::array<Vector, 2> box{};
+  Bounds box;
   for (int axis = 0; axis < 3; ++axis)
   {
     const double a = this->IndexAlong(axis, point[axis] - radius);
     const double b = this->IndexAlong(axis, point[axis] + radius);
-    box[0][axis] = std::min(a, b);
-    box[1][axis] = std::max(a, b);
+    box.Low[axis] = std::min(a, b);
+    box.High[axis] = std::max(a, b);
   }
   return box;
 }
@@ -207,14 +199,15 @@ double AxesLengths::IndexAlong(int axis, double place) const
     (place - *last) / (*next - *last);
 }
 
-std::array<Vector, 2> AxesLengths::IndexBoxAround(const Vector* corners, int count) const
+Bounds AxesLengths::IndexBoxAround(const Vector* corners, int count) const
 {
-  return BoxAround(corners, count,
-    [&](const Vector& corner) -> Vector
-    {
-      return { this->IndexAlong(0, corner[0]), this->IndexAlong(1, corner[1]),
-        this->IndexAlong(2, corner[2]) };
-    });
+  Bounds box;
+  for (int i = 0; i < count; ++i)
+  {
+    box.Add(Vector{ this->IndexAlong(0, corners[i][0]), this->IndexAlong(1, corners[i][1]),
+      this->IndexAlong(2, corners[i][2]) });
+  }
+  return box;
 }
 
 double AxesLengths::StepIn(const Point& cell) const
@@ -225,8 +218,7 @@ double AxesLengths::StepIn(const Point& cell) const
 
 double AxesLengths::LongestDistance(const Point& last) const
 {
-  const Vector diagonal = this->Between({ 0, 0, 0 }, last);
-  return std::sqrt(Dot(diagonal, diagonal));
+  return DiagonalOf(*this, last);
 }
 
 double AxesLengths::TypicalStep() const

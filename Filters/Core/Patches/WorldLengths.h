@@ -2,6 +2,7 @@
 #ifndef isodiamond_WorldLengths_h
 #define isodiamond_WorldLengths_h
 
+#include "Field/Bounds.h"
 #include "Field/GridGeometry.h"
 #include "Field/Vector.h"
 #include "Patches/CurvedLengths.h"
@@ -58,12 +59,12 @@ public:
   /** The squared radius of the ball, around the middle of a box, that holds the box. */
   double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
 
-  /** A box in index space, low and high, that holds all that is within a radius of a point. */
-  std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
+  /** A box in index space that holds all that is within a radius of a point. */
+  Bounds IndexBox(const Vector& point, double radius) const;
 
   /** A box in index space that holds all that is between some points. If it lies within the grid,
    *  so does what is between them. */
-  std::array<Vector, 2> IndexBoxAround(const Vector* corners, int count) const;
+  Bounds IndexBoxAround(const Vector* corners, int count) const;
 
   /** About how far it is from a cell to the next one. */
   double StepIn(const Point& /*cell*/) const { return this->TypicalStep(); }
@@ -112,8 +113,8 @@ public:
     return (*this)(FineUnits * to) - (*this)(FineUnits * from);
   }
   double SquaredRadius(const FineBox& box, const FinePosition& middle) const;
-  std::array<Vector, 2> IndexBox(const Vector& point, double radius) const;
-  std::array<Vector, 2> IndexBoxAround(const Vector* corners, int count) const;
+  Bounds IndexBox(const Vector& point, double radius) const;
+  Bounds IndexBoxAround(const Vector* corners, int count) const;
   double StepIn(const Point& cell) const;
   double LongestDistance(const Point& last) const;
 

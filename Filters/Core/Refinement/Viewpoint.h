@@ -2,6 +2,7 @@
 #ifndef isodiamond_Viewpoint_h
 #define isodiamond_Viewpoint_h
 
+#include "Field/Bounds.h"
 #include "Field/GridGeometry.h"
 #include "Field/Vector.h"
 #include "Lattice/DiamondSet.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 
 namespace isodiamond
 {
@@ -100,7 +100,7 @@ private:
   }
 
   /** A box in the world around a cube, or around what a curvilinear grid has of it. */
-  AlignedBox BoxAround(const Vector& centre, double half) const
+  Bounds BoxAround(const Vector& centre, double half) const
   {
     const Vector halves = { half, half, half };
     const Vector low = centre - halves;
@@ -112,35 +112,31 @@ private:
       return this->World.CellsInWorld().Of(
         { down(low[0]), down(low[1]), down(low[2]) }, { up(high[0]), up(high[1]), up(high[2]) });
     }
-    const Vector from = this->World(low);
-    const Vector to = this->World(high);
-    AlignedBox box{};
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      std::tie(box[0][axis], box[1][axis]) = std::minmax(from[axis], to[axis]);
-    }
+    Bounds box;
+    box.Add(this->World(low));
+    box.Add(this->World(high));
     return box;
   }
 
-  double DistanceOfBox(const AlignedBox& box) const
+  double DistanceOfBox(const Bounds& box) const
   {
     Vector apart{};
     for (int axis = 0; axis < 3; ++axis)
     {
-      apart[axis] =
-        std::max({ 0.0, box[0][axis] - this->Position[axis], this->Position[axis] - box[1][axis] });
+      apart[axis] = std::max(
+        { 0.0, box.Low[axis] - this->Position[axis], this->Position[axis] - box.High[axis] });
     }
     return LengthOf(apart);
   }
 
   /** The distance of a box's farthest point. */
-  double FarthestOf(const AlignedBox& box) const
+  double FarthestOf(const Bounds& box) const
   {
     Vector apart{};
     for (int axis = 0; axis < 3; ++axis)
     {
       apart[axis] =
-        std::max(this->Position[axis] - box[0][axis], box[1][axis] - this->Position[axis]);
+        std::max(this->Position[axis] - box.Low[axis], box.High[axis] - this->Position[axis]);
     }
     return LengthOf(apart);
   }

@@ -2,10 +2,10 @@
 #ifndef isodiamond_BoundsTree_h
 #define isodiamond_BoundsTree_h
 
+#include "Field/Bounds.h"
 #include "Simplification/TriangleMesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -13,47 +13,6 @@
 
 namespace isodiamond
 {
-
-/** What something lies in: a closed box along the axes. */
-struct Bounds
-{
-  Vector Low = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  Vector High = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-
-  void Add(const Vector& point)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Low[axis] = std::min(this->Low[axis], point[axis]);
-      this->High[axis] = std::max(this->High[axis], point[axis]);
-    }
-  }
-  void Add(const Bounds& other) // may be empty
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Low[axis] = std::min(this->Low[axis], other.Low[axis]);
-      this->High[axis] = std::max(this->High[axis], other.High[axis]);
-    }
-  }
-  /** The axis along which it is longest. */
-  std::size_t LongestAxis() const
-  {
-    const Vector extent = this->High - this->Low;
-    return std::max_element(extent.begin(), extent.end()) - extent.begin();
-  }
-  bool Meets(const Bounds& other) const
-  {
-    // Without branches: which axis tells two apart cannot be foreseen.
-    int apart = 0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      apart |= static_cast<int>(this->Low[axis] > other.High[axis]) |
-        static_cast<int>(other.Low[axis] > this->High[axis]);
-    }
-    return apart == 0;
-  }
-};
 
 inline Bounds BoundsOf(const std::vector<Vector>& positions, const Triangle& triangle)
 {

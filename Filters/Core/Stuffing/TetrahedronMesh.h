@@ -110,12 +110,6 @@ inline double SmallestSine(const TetrahedronMesh& mesh, const Corners& corners)
     mesh.Positions[corners[2]], mesh.Positions[corners[3]]);
 }
 
-/** Six times the volume. */
-inline double SixVolumes(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
-{
-  return Dot(Cross(b - a, c - a), d - a);
-}
-
 inline double VolumeOf(const TetrahedronMesh& mesh, const Corners& corners)
 {
   return SixVolumes(mesh.Positions[corners[0]], mesh.Positions[corners[1]],
