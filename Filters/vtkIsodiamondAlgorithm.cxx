@@ -41,6 +41,7 @@ void vtkIsodiamondAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SimulationQuality: " << (this->SimulationQuality ? "On" : "Off") << "\n";
   os << indent << "SmallestDihedralAngle: " << this->SmallestDihedralAngle << "\n";
   os << indent << "LargestDihedralAngle: " << this->LargestDihedralAngle << "\n";
+  os << indent << "ToleranceExcess: " << this->ToleranceExcess << "\n";
   os << indent << "AchievedTolerance: " << this->AchievedTolerance << "\n";
   os << indent << "UseRegionOfInterest: " << (this->UseRegionOfInterest ? "On" : "Off") << "\n";
   os << indent << "RegionOfInterest:";
@@ -150,11 +151,11 @@ void vtkIsodiamondAlgorithm::ForgetMesh()
   this->AchievedTolerance = 0.0;
   this->SmallestDihedralAngle = 0.0;
   this->LargestDihedralAngle = 0.0;
+  this->ToleranceExcess = 0.0;
 }
 
 //------------------------------------------------------------------------------
-void vtkIsodiamondAlgorithm::NoteDihedralAngles(
-  const vtkIsodiamond::Mesh& mesh, vtkDataObject* output)
+void vtkIsodiamondAlgorithm::NoteQuality(const vtkIsodiamond::Mesh& mesh, vtkDataObject* output)
 {
   if (!mesh.DihedralAngles)
   {
@@ -169,6 +170,13 @@ void vtkIsodiamondAlgorithm::NoteDihedralAngles(
     output->GetFieldData(), vtkIsodiamond::format::SmallestDihedralAngle, smallest);
   vtkIsodiamond::AddNumber<vtkDoubleArray>(
     output->GetFieldData(), vtkIsodiamond::format::LargestDihedralAngle, largest);
+  const double excess = mesh.ToleranceExcess.value_or(vtkMath::Nan());
+  if (!(excess <= this->ToleranceExcess) && !vtkMath::IsNan(this->ToleranceExcess)) // of all blocks
+  {
+    this->ToleranceExcess = excess;
+  }
+  vtkIsodiamond::AddNumber<vtkDoubleArray>(
+    output->GetFieldData(), vtkIsodiamond::format::ToleranceExcess, excess);
 }
 
 //------------------------------------------------------------------------------

@@ -97,6 +97,14 @@ public:
   vtkGetMacro(LargestDihedralAngle, double);
   ///@}
 
+  /** By how much surfaces of the last tetrahedra with SimulationQuality are at most farther away
+   *  than ErrorTolerance, in world units, told to a sixteenth; with composite inputs, in the worst
+   *  block. Mostly 0; more in noise, where good angles leave no choice, and at a tolerance of 0,
+   *  where vertices have to move as well. Each mesh has its own in its field data, under this name.
+   *  NaN where it is not measured: with the field metric unless the tolerance is 0, and where an
+   *  edge has more than two triangles. 0 if there is no such mesh. */
+  vtkGetMacro(ToleranceExcess, double);
+
   ///@{
   /**
    * Whether ErrorTolerance (and InteriorTolerance, where there is one) holds in the region of
@@ -236,8 +244,8 @@ protected:
   /** What was noted of a mesh counts no more: it has not been completed. */
   void ForgetMesh();
 
-  /** Puts the angles of a mesh for simulations where users can see them. */
-  void NoteDihedralAngles(const vtkIsodiamond::Mesh& mesh, vtkDataObject* output);
+  /** Puts the angles and distances of a mesh for simulations where users can see them. */
+  void NoteQuality(const vtkIsodiamond::Mesh& mesh, vtkDataObject* output);
 
   /** The share of the mesh of the input, or the block, at hand. */
   vtkIsodiamond::Share GetShare();
@@ -247,6 +255,7 @@ protected:
   bool SimulationQuality = false;
   double SmallestDihedralAngle = 0.0;
   double LargestDihedralAngle = 0.0;
+  double ToleranceExcess = 0.0;
   vtkIdType TargetNumberOfTriangles = 0;
   bool UseRegionOfInterest = false;
   double RegionOfInterest[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };

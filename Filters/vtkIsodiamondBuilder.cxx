@@ -228,8 +228,8 @@ void vtkIsodiamondBuilder::Build(
     if (this->NumberOfBlocks > 1)
     {
       vtkWarningMacro("The input comes at once, not in blocks: only images from sources that make "
-                      "parts of them do, without blanked cells, for relevant and minimal "
-                      "hierarchies.");
+                      "parts of them do, with a few slices for each block, without blanked cells, "
+                      "for relevant and minimal hierarchies.");
     }
     this->BuildFromImage(vtkImageData::SafeDownCast(whole), task, output);
   }

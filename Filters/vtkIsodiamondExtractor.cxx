@@ -273,6 +273,11 @@ int vtkIsodiamondExtractor::RequestData(
       {
         query.TurnToTriangles();
       }
+      else if (vtkPolyData::SafeDownCast(output))
+      {
+        throw std::invalid_argument("Tetrahedra of an interval volume need an unstructured grid: "
+                                    "poly data are for isosurfaces.");
+      }
       std::optional<vtkIsodiamond::CountedTolerance> aimed;
       if (this->TargetNumberOfTriangles > 0)
       {
@@ -406,21 +411,14 @@ void vtkIsodiamondExtractor::WriteMesh(const vtkIsodiamond::State& state,
   const vtkIsodiamond::WorldQuery& query, const isodiamond::RefinedSet& refined,
   vtkIsodiamond::Task& task, vtkDataObject* output)
 {
-  const bool isVolume = refined.Hierarchy().Region().IsVolume();
-  vtkPolyData* surface = vtkPolyData::SafeDownCast(output);
-  if (isVolume && surface)
-  {
-    throw std::invalid_argument("Tetrahedra of an interval volume need an unstructured grid: poly "
-                                "data are for isosurfaces.");
-  }
   const vtkIsodiamond::Mesh mesh = this->MakeMesh(state, query, refined, this->GetShare(), task);
-  this->NoteDihedralAngles(mesh, output);
-  if (surface)
+  this->NoteQuality(mesh, output);
+  if (vtkPolyData* surface = vtkPolyData::SafeDownCast(output))
   {
     mesh.Give(surface);
   }
   else
   {
-    mesh.Give(vtkUnstructuredGrid::SafeDownCast(output), isVolume);
+    mesh.Give(vtkUnstructuredGrid::SafeDownCast(output), refined.Hierarchy().Region().IsVolume());
   }
 }

@@ -105,5 +105,5 @@ void vtkIsodiamondIntervalVolume::Extract(const vtkIsodiamond::Volume& volume,
   const vtkIsodiamond::Mesh mesh =
     this->ExtractMesh(volume, this->GetRegions().front(), query, options, task);
   mesh.Give(vtkUnstructuredGrid::SafeDownCast(output), true);
-  this->NoteDihedralAngles(mesh, output);
+  this->NoteQuality(mesh, output);
 }

@@ -237,7 +237,7 @@ bool vtkIsodiamondVolumeAlgorithm::Open(vtkInformation* information, OneInput& i
   if (this->NumberOfBlocks > 1)
   {
     vtkWarningMacro("The input comes at once, not in blocks: only images from sources that make "
-                    "parts of them do, without blanked cells.");
+                    "parts of them do, with a few slices for each block, without blanked cells.");
   }
   input.Whole = this->Plan->TakeWhole(information);
   vtkDataSet* grid = vtkDataSet::SafeDownCast(input.Whole);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 using namespace isodiamond;
 
@@ -90,6 +91,77 @@ TEST(PartDistance, FindsWhatIsTurnedOver)
       std::vector<std::uint32_t>(part.Samples.size(), None), { true, true });
     EXPECT_EQ(faults.Triangles,
       isTurned ? std::vector<std::uint32_t>({ 0, 1 }) : std::vector<std::uint32_t>());
+  }
+}
+
+// A tetrahedron, and another around it with much smaller triangles: a few are said to be near, the
+// others are found to be so from these.
+TEST(PartDistance, FindsWhatIsNearAroundNewPoints)
+{
+  AllowedMesh solid;
+  solid.Mesh.Positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  solid.Mesh.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
+  solid.Allowances.assign(4, 1.0);
+  MeshPart part = test::WholePart(solid);
+  std::vector<Triangle> triangles = solid.Mesh.Triangles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b, std::map<Triangle, std::uint32_t>& ids)
+  {
+    const auto [place, isNew] = ids.emplace(Triangle{ std::min(a, b), std::max(a, b), 0 }, 0);
+    if (isNew)
+    {
+      place->second = static_cast<std::uint32_t>(part.Positions.size());
+      part.Positions.push_back(0.5 * (part.Positions[a] + part.Positions[b]));
+    }
+    return place->second;
+  };
+  // No point in common.
+  for (int i = 0; i < 4; ++i)
+  {
+    part.Positions.push_back(part.Positions[i] + Vector{ -0.01, -0.01, -0.01 });
+  }
+  for (Triangle& triangle : triangles)
+  {
+    std::transform(triangle.begin(), triangle.end(), triangle.begin(),
+      [](std::uint32_t point) { return point + 4; });
+  }
+  for (int level = 0; level < 2; ++level)
+  {
+    std::map<Triangle, std::uint32_t> ids;
+    std::vector<Triangle> finer;
+    for (const auto& [a, b, c] : triangles)
+    {
+      const std::uint32_t ab = middle(a, b, ids);
+      const std::uint32_t bc = middle(b, c, ids);
+      const std::uint32_t ca = middle(c, a, ids);
+      finer.insert(finer.end(), { { a, ab, ca }, { b, bc, ab }, { c, ca, bc }, { ab, bc, ca } });
+    }
+    triangles = finer;
+  }
+  for (const double allowance : { 0.005, 10.0 })
+  {
+    part.Allowances.assign(4, allowance);
+    part.Simple = Connectivity(part.Positions.size(), triangles).Linked();
+    part.Near = NearLists(4);
+    PartDistance distance(part, false, true);
+    const std::vector<std::uint32_t> homes(part.Positions.size() + 4, 17);
+    EXPECT_EQ(distance.Find(part.Simple, homes, std::vector<bool>(triangles.size(), true)).Any(),
+      allowance < 0.01);
+  }
+}
+
+// What has turned over is near if it may.
+TEST(PartDistance, MayIgnoreWhatIsTurnedOver)
+{
+  const AllowedMesh square = SquareAndPoints();
+  for (const bool mayTurnOver : { false, true })
+  {
+    MeshPart part = test::WholePart(square);
+    PartDistance distance(part, false, mayTurnOver);
+    const LinkedTriangles turned = Connectivity(7, { { 0, 2, 1 }, { 0, 3, 2 } }).Linked();
+    EXPECT_NE(
+      distance.Find(turned, std::vector<std::uint32_t>(part.Samples.size(), None), { true, true })
+        .Any(),
+      mayTurnOver);
   }
 }
 

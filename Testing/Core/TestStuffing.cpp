@@ -8,6 +8,7 @@
 #include "Stuffing/LocalMesh.h"
 #include "Stuffing/MovedVertices.h"
 #include "Stuffing/Stuffing.h"
+#include "Stuffing/ToleranceExcess.h"
 
 #include <gtest/gtest.h>
 
@@ -741,6 +742,19 @@ void ExpectDistanceOfBruteForce(const test::Field& field, const Isoregion& regio
   EXPECT_GT(least, 0.1);
   EXPECT_FALSE(isFar(1.1 * least));
   EXPECT_FALSE(isFar(HUGE_VAL));
+
+  // So is the excess, told in parts of a step.
+  constexpr double step = 0.25;
+  for (const double allowance : { 0.0, 0.3 * least, 0.9 * least })
+  {
+    const double told = allowance +
+      ToleranceExcess(
+        plain, stuffed.Mesh, std::vector<double>(stuffed.LeafCount, allowance), step, SerialFor);
+    EXPECT_GE(told, least / 1.1);
+    EXPECT_LE(told, 1.1 * least + std::max(step, told) / 16.0);
+  }
+  const std::vector<double> enough(stuffed.LeafCount, 1.1 * least);
+  EXPECT_EQ(ToleranceExcess(plain, stuffed.Mesh, enough, step, SerialFor), 0.0);
 }
 
 }

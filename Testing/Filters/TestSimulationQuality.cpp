@@ -250,6 +250,7 @@ TEST(SimulationQuality, KeepsTheToleranceBothWays)
       EXPECT_GE(volume->GetSmallestDihedralAngle(), grid == image ? 15.0 : 3.0);
       EXPECT_LE(test::LargestDistance(SamplesOf(surface), fullSurface), tolerance);
       EXPECT_LE(test::LargestDistance(SamplesOf(fullSurface), surface), tolerance);
+      EXPECT_EQ(volume->GetToleranceExcess(), 0.0);
     }
   }
 }
@@ -278,21 +279,44 @@ TEST(SimulationQuality, KeepsTheToleranceOfCellsAtFullResolution)
   }
 }
 
-// In such rough waves it could be kept only by bad angles.
-TEST(SimulationQuality, PutsAnglesBeforeTheTolerance)
+// In such rough waves it could be kept only by bad angles. At full resolution vertices move, too.
+TEST(SimulationQuality, PutsAnglesBeforeTheToleranceAndTellsByHowMuchThatIsExceeded)
 {
-  const auto volume = Ball(test::MakeImage({ 13, 13, 13 },
-                             [](double x, double y, double z)
-                             {
-                               return std::sin(1.7 * x + 1) * std::cos(1.3 * y + 2) +
-                                 std::sin(1.1 * y + 1) * std::cos(1.9 * z) +
-                                 std::sin(1.5 * z + 1) * std::cos(1.2 * x) - 0.1;
-                             }),
-    0.1);
+  const auto image = test::MakeImage({ 13, 13, 13 },
+    [](double x, double y, double z)
+    {
+      return std::sin(1.7 * x + 1) * std::cos(1.3 * y + 2) +
+        std::sin(1.1 * y + 1) * std::cos(1.9 * z) + std::sin(1.5 * z + 1) * std::cos(1.2 * x) - 0.1;
+    });
+  const auto full = Ball(image, 0.0);
+  full->SimulationQualityOff();
+  full->Update();
+  EXPECT_EQ(full->GetToleranceExcess(), 0.0);
+  const auto fullSurface = LowerSurface(full->GetOutput());
+  for (const double tolerance : { 0.0, 0.1 })
+  {
+    const auto volume = Ball(image, tolerance);
+    volume->Update();
+    EXPECT_GT(volume->GetOutput()->GetNumberOfCells(), 1000);
+    EXPECT_GE(volume->GetSmallestDihedralAngle(), 15.0);
+    EXPECT_LE(volume->GetLargestDihedralAngle(), 165.0);
+    const auto surface = LowerSurface(volume->GetOutput());
+    const double distance = std::max(test::LargestDistance(SamplesOf(surface), fullSurface),
+      test::LargestDistance(SamplesOf(fullSurface), surface));
+    EXPECT_GT(volume->GetToleranceExcess(), 0.0);
+    EXPECT_GE(tolerance + volume->GetToleranceExcess(), distance);
+    EXPECT_LE(tolerance + volume->GetToleranceExcess(), 2.0 * distance); // a bound
+    EXPECT_EQ(Told(volume->GetOutput(), "ToleranceExcess"), volume->GetToleranceExcess());
+    EXPECT_EQ(volume->GetAchievedTolerance(), tolerance);
+  }
+  // Errors of the field are no distances.
+  const auto volume = Ball(image, 0.1);
+  volume->SetErrorMetricToField();
   volume->Update();
-  EXPECT_GT(volume->GetOutput()->GetNumberOfCells(), 1000);
-  EXPECT_GE(volume->GetSmallestDihedralAngle(), 15.0);
-  EXPECT_LE(volume->GetLargestDihedralAngle(), 165.0);
+  EXPECT_TRUE(std::isnan(volume->GetToleranceExcess()));
+  volume->SetErrorTolerance(0.0);
+  volume->Update();
+  EXPECT_GT(volume->GetToleranceExcess(), 0.0);
 }
 
 TEST(SimulationQuality, MakesFewerTetrahedra)

@@ -13,6 +13,9 @@ namespace
 /** This many triangles are worth a thread. */
 constexpr std::size_t GroupSize = 1024;
 
+/** How many triangles are looked at for something that is near. */
+constexpr std::size_t MostSeen = 64;
+
 std::size_t GroupsOf(std::size_t count)
 {
   return (count + GroupSize - 1) / GroupSize;
@@ -36,9 +39,10 @@ void Append(const std::vector<std::uint32_t>& more, std::vector<std::uint32_t>& 
 
 }
 
-PartDistance::PartDistance(MeshPart& part, bool isStartNear)
+PartDistance::PartDistance(MeshPart& part, bool isStartNear, bool mayTurnOver)
   : Part(part)
   , IsStartNear(isStartNear)
+  , MayTurnOver(mayTurnOver)
   , NearAtStart(part.Near)
   , OriginalSpaces([&part] { return std::make_unique<OriginalSpace>(part); })
   , OriginalAt(AnyTriangleAt(part.Positions.size(), part.Original))
@@ -259,7 +263,7 @@ public:
   }
 
   /** Whether a triangle of the simpler mesh is gone, known, or near to the original and faces as
-   *  that does. */
+   *  that does, if it has to. */
   bool IsFine(std::uint32_t simple)
   {
     const bool isKnown = !this->Whole.IsTouched[simple] ||
@@ -298,6 +302,19 @@ private:
       if (this->Around.empty() && this->Whole.All.OriginalAt[point] != None)
       {
         this->Around.push_back(this->Whole.All.OriginalAt[point]);
+      }
+    }
+    // Around new points there may be none: go on until something is near.
+    std::vector<std::uint32_t> seen(this->Around.empty() ? 1 : 0, simple);
+    for (std::size_t at = 0; this->Around.empty() && at < std::min(seen.size(), MostSeen); ++at)
+    {
+      for (const std::uint32_t neighbour : this->Whole.Simple.Neighbours[seen[at]])
+      {
+        if (neighbour != None && std::find(seen.begin(), seen.end(), neighbour) == seen.end())
+        {
+          seen.push_back(neighbour);
+          add(neighbour);
+        }
       }
     }
   }
@@ -344,7 +361,9 @@ private:
         }
         return isSo;
       });
-    return isNear && Dot(mean, Cross(corners[1] - corners[0], corners[2] - corners[0])) >= 0.0;
+    return isNear &&
+      (this->Whole.All.MayTurnOver ||
+        Dot(mean, Cross(corners[1] - corners[0], corners[2] - corners[0])) >= 0.0);
   }
 
   const Comparison& Whole;

@@ -32,8 +32,9 @@ public:
   /** @param part must outlive it; its near lists are kept up to date
    *  @param isStartNear whether its simpler mesh is known to be near, and its near lists say what
    * is near to what
+   *  @param mayTurnOver whether a triangle that is near may face the other way
    */
-  explicit PartDistance(MeshPart& part, bool isStartNear = false);
+  explicit PartDistance(MeshPart& part, bool isStartNear = false, bool mayTurnOver = false);
 
   /** What is too far away. If the start was near, some of it has changed since. */
   struct Faults
@@ -71,6 +72,7 @@ private:
 
   MeshPart& Part;
   bool IsStartNear;
+  bool MayTurnOver;
   NearLists NearAtStart;
   WorkSpaces<OriginalSpace> OriginalSpaces;
   std::vector<std::uint32_t> OriginalAt; ///< by point: one of the original's triangles, or None

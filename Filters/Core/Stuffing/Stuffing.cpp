@@ -7,6 +7,7 @@
 #include "Stuffing/Improvement.h"
 #include "Stuffing/LeafChecks.h"
 #include "Stuffing/MovedVertices.h"
+#include "Stuffing/ToleranceExcess.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,9 @@ constexpr double WantedAngle = 15.5;
 /** How often a leaf can be pinned. More would bring surfaces nearer in noise, but leave bad angles
  *  there. */
 constexpr int MostPins = 3;
+
+/** How much of the grid's smallest step is a small excess of the tolerance. */
+constexpr double ExcessPartOfStep = 0.25;
 
 /** How far surfaces may move in one change where a leaf is pinned, as a part of what is allowed
  *  there. */
@@ -202,8 +206,9 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
 {
   CheckLeaves(input.Leaves, parallelFor);
   const Background background = BackgroundOf(input);
-  const bool getsCoarser = !input.Allowances.empty();
-  const BothMeshes meshes = CutLeaves(background, getsCoarser, parallelFor);
+  const bool isMeasured = !input.Allowances.empty();
+  const bool getsCoarser = isMeasured && input.GetsCoarser;
+  const BothMeshes meshes = CutLeaves(background, isMeasured, parallelFor);
   ImprovementOptions options;
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;
@@ -222,10 +227,15 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   {
     far = Coarsen(best.Mesh, coarsening, parallelFor);
   }
-  StuffedMesh result{ std::move(best.Mesh), {}, {} };
+  StuffedMesh result{ std::move(best.Mesh), {}, {}, {} };
   for (const std::uint32_t leaf : far)
   {
     (input.CanBeFiner[leaf] ? result.FarLeaves : result.TightLeaves).push_back(leaf);
+  }
+  if (isMeasured && far.empty())
+  {
+    result.ToleranceExcess = ToleranceExcess(meshes.Plain, result.Mesh, input.Allowances,
+      ExcessPartOfStep * input.World.SmallestStep(), parallelFor);
   }
   return result;
 }

@@ -30,10 +30,11 @@ struct StuffingInput
   double SurfaceMoveOfEdge = HUGE_VAL;
   ///@}
   ///@{
-  /** See CoarseningInput; without allowances nothing is measured or coarsened. */
+  /** See CoarseningInput; without allowances nothing is measured or made coarser. */
   std::vector<double> Allowances = {};
   std::vector<bool> CanBeFiner = {}; ///< by leaf
   bool MayPin = true;                ///< whether leaves that cannot be finer may be pinned
+  bool GetsCoarser = true;           ///< or is only measured
   bool KeepsInside = false;
   std::optional<double> VolumeAtTolerance = {};
   ///@}
@@ -66,6 +67,7 @@ struct StuffedMesh
   std::vector<std::uint32_t> FarLeaves;
   std::vector<std::uint32_t> TightLeaves;
   ///@}
+  std::optional<double> ToleranceExcess; ///< of a finished mesh, if there are allowances
 };
 /** @param parallelFor is given the work in successive steps: it can report progress, and abort
  *  @param known see Improve()

@@ -43,6 +43,9 @@ struct Mesh
   std::array<vtkIdType, 2> CountedSize{};
   /** The smallest and the largest angle, in degrees, of tetrahedra for simulations. */
   std::optional<std::array<double, 2>> DihedralAngles;
+  /** By how much more than tolerated surfaces of such tetrahedra are away (ToleranceExcess.h), if
+   *  that is measured. */
+  std::optional<double> ToleranceExcess;
   /** Of such tetrahedra: diamonds that have to be refined because surfaces are too far away. If
    *  there are any, the mesh is not done. */
   std::vector<isodiamond::Place> FarDiamonds;
@@ -76,6 +79,7 @@ struct MeshOptions
   /** The same in a triangle or tetrahedron, given its corners in the world; empty to not
    *  measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
+  bool GetsCoarser = true; ///< whether tetrahedra for simulations use that; else only measured
   isodiamond::KnownChanges* Known = nullptr; ///< see StuffMesh()
   bool MayRefine = true;                     ///< whether FarDiamonds are looked for
   bool MayPin = true;                        ///< whether TightVertices are looked for

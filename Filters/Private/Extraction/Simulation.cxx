@@ -101,6 +101,11 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   asked.ForSimulation = true;
   if (!GetsCoarser(query, measure.Metric))
   {
+    if (query.IsFull())
+    {
+      asked.ToleranceIn = [](const isodiamond::Vector*, int) { return 0.0; };
+      asked.GetsCoarser = false;
+    }
     return ExtractMesh(refined, asked, task);
   }
   const PlacedTolerance tolerance(query, measure, options.World);

@@ -40,6 +40,7 @@ isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
     input.SurfaceMove = HUGE_VAL;
     input.SurfaceMoveOfEdge = MovePartOfStep;
   }
+  input.GetsCoarser = options.GetsCoarser;
   input.KeepsInside = options.KeepsInside;
   input.VolumeAtTolerance = options.VolumeAtTolerance;
   input.MayPin = options.MayPin;
@@ -213,6 +214,7 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   if (count > 0)
   {
     mesh.DihedralAngles = isodiamond::DihedralAngles(stuffed);
+    mesh.ToleranceExcess = result.ToleranceExcess;
   }
 }
 

@@ -57,6 +57,7 @@ inline bool IsOfHierarchy(const char* name)
 
 /** Such numbers beside a mesh. */
 inline constexpr const char* AchievedTolerance = "AchievedTolerance";
+inline constexpr const char* ToleranceExcess = "ToleranceExcess";
 inline constexpr const char* SmallestDihedralAngle = "SmallestDihedralAngle";
 inline constexpr const char* LargestDihedralAngle = "LargestDihedralAngle";
 
