@@ -191,7 +191,9 @@ public:
    * Close every surface whose isovalue is above the data's minimum: the volume counts as padded on
    * all six sides by a layer of that minimum, so caps lie less than a voxel outside the image. When
    * off, the surface ends at the image's boundary, as with any contour filter. Has no effect on an
-   * interval volume, which is closed by the image's faces, or with an HD as input. Default: off.
+   * interval volume, which is closed by the image's faces, or with an HD as input. An HD is closed
+   * or not for all that is extracted from it: with the shape of an isosurface, volumes reach the
+   * caps, too; with that of an interval volume, surfaces stay open. Default: off.
    */
   vtkSetMacro(CloseBoundary, bool);
   vtkGetMacro(CloseBoundary, bool);
