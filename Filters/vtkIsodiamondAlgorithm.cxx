@@ -175,8 +175,11 @@ void vtkIsodiamondAlgorithm::NoteQuality(const vtkIsodiamond::Mesh& mesh, vtkDat
   {
     this->ToleranceExcess = excess;
   }
-  vtkIsodiamond::AddNumber<vtkDoubleArray>(
-    output->GetFieldData(), vtkIsodiamond::format::ToleranceExcess, excess);
+  if (!vtkMath::IsNan(excess)) // of which ParaView would show a range from 1e299 to -1e299
+  {
+    vtkIsodiamond::AddNumber<vtkDoubleArray>(
+      output->GetFieldData(), vtkIsodiamond::format::ToleranceExcess, excess);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -314,6 +314,7 @@ TEST(SimulationQuality, PutsAnglesBeforeTheToleranceAndTellsByHowMuchThatIsExcee
   volume->SetErrorMetricToField();
   volume->Update();
   EXPECT_TRUE(std::isnan(volume->GetToleranceExcess()));
+  EXPECT_EQ(volume->GetOutput()->GetFieldData()->GetArray("ToleranceExcess"), nullptr);
   volume->SetErrorTolerance(0.0);
   volume->Update();
   EXPECT_GT(volume->GetToleranceExcess(), 0.0);

@@ -63,17 +63,32 @@ double DistanceFromSegment(
   return std::sqrt(Dot(offset, offset));
 }
 
+/** The corner of a triangle that is opposite to its longest side. */
+int CornerOfShortSides(const std::array<Vector, 3>& corners)
+{
+  const auto opposite = [&](int corner)
+  {
+    const Vector side = Difference(corners[(corner + 1) % 3], corners[(corner + 2) % 3]);
+    return Dot(side, side);
+  };
+  const int other = opposite(0) < opposite(1) ? 1 : 0;
+  return opposite(other) < opposite(2) ? 2 : other;
+}
+
 /**
  * The distance from the plane of a triangle if the nearest point of the plane is in the triangle,
  * otherwise infinity. Thin triangles do no harm: in index space the normal is not rounded, and the
- * spacing changes its length and direction without any cancellation.
+ * spacing changes its length and direction without any cancellation; in the world, the normal of a
+ * needle is that of its shorter sides.
  */
 double DistanceFromInterior(
   const Vector& point, const SurfaceTriangle& triangle, const Vector& spacing)
 {
   const std::array<Vector, 3>& corners = triangle.Corners;
+  const int corner = CornerOfShortSides(corners);
+  const Vector& base = corners[corner];
   const Vector indexNormal =
-    Cross(Difference(corners[1], corners[0]), Difference(corners[2], corners[0]));
+    Cross(Difference(corners[(corner + 1) % 3], base), Difference(corners[(corner + 2) % 3], base));
   const Vector normal = Scaled(
     indexNormal, { spacing[1] * spacing[2], spacing[2] * spacing[0], spacing[0] * spacing[1] });
   const double length = std::sqrt(Dot(normal, normal));
@@ -90,7 +105,7 @@ double DistanceFromInterior(
       return Infinity;
     }
   }
-  const double indexVolume = Dot(indexNormal, Difference(point, corners[0]));
+  const double indexVolume = Dot(indexNormal, Difference(point, base));
   return std::abs(indexVolume * spacing[0] * spacing[1] * spacing[2]) / length;
 }
 

@@ -102,12 +102,13 @@ double ToleranceExcess(const TetrahedronMesh& plain, const TetrahedronMesh& stuf
   const auto suffices = [&](double length)
   {
     LongerAllowances::Far left = measure.With(length, far);
-    if (left.IsAny)
+    if (!left.IsAny)
     {
-      tooLittle = length;
-      far = std::move(left);
+      return true;
     }
-    return !left.IsAny;
+    tooLittle = length;
+    far = std::move(left);
+    return false;
   };
   double enough = step;
   for (int doubling = 0; !suffices(enough); ++doubling)
