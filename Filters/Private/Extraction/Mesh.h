@@ -79,8 +79,8 @@ struct MeshOptions
   /** The same in a triangle or tetrahedron, given its corners in the world; empty to not
    *  measure. */
   std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
-  bool GetsCoarser = true; ///< whether tetrahedra for simulations use that; else only measured
   isodiamond::KnownChanges* Known = nullptr; ///< see StuffMesh()
+  bool GetsCoarser = true;                   ///< whether tolerances are used, or only measured
   bool MayRefine = true;                     ///< whether FarDiamonds are looked for
   bool MayPin = true;                        ///< whether TightVertices are looked for
   std::vector<std::uint64_t> Pinned = {};    ///< see isodiamond::Pin()
