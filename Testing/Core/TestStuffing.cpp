@@ -482,7 +482,7 @@ TEST(Stuffing, MovesVerticesByTheLeastThatIsAllowedThere)
 
 // The more often all is pinned, the less surfaces move; but what is still too far away then is
 // left.
-TEST(Stuffing, IsNearerTheMoreItIsPinnedButAsksForFivePinsAtMost)
+TEST(Stuffing, IsNearerTheMoreItIsPinnedButAsksForFourPinsAtMost)
 {
   const test::Built built = test::BuildVolume(test::NoiseField({ 7, 7, 7 }, 3), { 3.7, HUGE_VAL });
   PinnedLeaves leaves(*built.Hierarchy);
@@ -495,8 +495,8 @@ TEST(Stuffing, IsNearerTheMoreItIsPinnedButAsksForFivePinsAtMost)
   };
   EXPECT_GT(tightLeaves(0.3, 1), 0U);
   EXPECT_EQ(tightLeaves(0.3, 2), 0U);
-  EXPECT_GT(tightLeaves(0.01, 4), 0U);
-  EXPECT_EQ(tightLeaves(0.01, 5), 0U);
+  EXPECT_GT(tightLeaves(0.01, 3), 0U);
+  EXPECT_EQ(tightLeaves(0.01, 4), 0U);
 }
 
 // Of one bad tetrahedron at a time.

@@ -26,7 +26,7 @@ constexpr double WantedAngle = 15.5;
 
 /** How often a leaf can be pinned. More would bring surfaces nearer in noise, but leave bad angles
  *  there. */
-constexpr int MostPins = 5;
+constexpr int MostPins = 4;
 
 /** How much of the grid's smallest step is a small excess of the tolerance. */
 constexpr double ExcessPartOfStep = 0.25;

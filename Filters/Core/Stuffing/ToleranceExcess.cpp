@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stuffing/ToleranceExcess.h"
 
+#include "Simplification/BoundsTree.h"
+#include "Simplification/Covering.h"
 #include "Simplification/PartDistance.h"
 #include "Stuffing/MeasuredSurfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace isodiamond
@@ -19,6 +23,81 @@ constexpr int MostDoublings = 8;
 
 /** How often what is between a length that suffices and one that does not is halved. */
 constexpr int Halvings = 4;
+
+/** How often a triangle is cut into four, until there is one that all of a piece is near to. */
+constexpr int MostCuts = 5;
+
+BoundsTree TreeOf(const std::vector<Vector>& positions, const LinkedTriangles& mesh)
+{
+  std::vector<Bounds> bounds;
+  bounds.reserve(mesh.Triangles.size());
+  for (const Triangle& triangle : mesh.Triangles)
+  {
+    bounds.push_back(BoundsOf(positions, triangle));
+  }
+  return BoundsTree(std::move(bounds));
+}
+
+/** The triangles of a mesh, wherever they are near to something: those that walking over the mesh
+ *  (PartDistance.h) leads past, too. */
+class TrianglesAround
+{
+public:
+  TrianglesAround(const std::vector<Vector>& positions, const LinkedTriangles& mesh)
+    : Tree(TreeOf(positions, mesh))
+    , Cover(positions, mesh)
+  {
+  }
+
+  /** Whether each place of a piece is near to one of them.
+   *  @param allowanceOf (triangle) -> how far away that is @param reach the largest of these */
+  template <typename AllowanceOf>
+  bool AreNear(const std::array<Vector, 3>& piece, double reach, const AllowanceOf& allowanceOf,
+    int cuts = MostCuts)
+  {
+    constexpr unsigned all = 7;
+    unsigned near = 0; // a bit for each corner
+    bool isOneNear = false;
+    this->Tree.ForEachAt(Around(piece, reach),
+      [&](std::uint32_t triangle)
+      {
+        unsigned corners = 0;
+        for (int i = 0; !isOneNear && i < 3; ++i)
+        {
+          const double allowed = allowanceOf(triangle);
+          const bool isNear = this->Cover.SquaredDistance(triangle, piece[i]) <= allowed * allowed;
+          corners |= static_cast<unsigned>(isNear) << i;
+        }
+        near |= corners;
+        isOneNear = isOneNear || corners == all; // what is near to a triangle is convex
+      });
+    if (isOneNear || near != all || cuts == 0)
+    {
+      return isOneNear;
+    }
+    const auto& [a, b, c] = piece;
+    const std::array<Vector, 3> middles = { 0.5 * (b + c), 0.5 * (c + a), 0.5 * (a + b) };
+    return this->AreNear({ a, middles[2], middles[1] }, reach, allowanceOf, cuts - 1) &&
+      this->AreNear({ b, middles[0], middles[2] }, reach, allowanceOf, cuts - 1) &&
+      this->AreNear({ c, middles[1], middles[0] }, reach, allowanceOf, cuts - 1) &&
+      this->AreNear(middles, reach, allowanceOf, cuts - 1);
+  }
+
+private:
+  static Bounds Around(const std::array<Vector, 3>& piece, double reach)
+  {
+    Bounds bounds;
+    for (const Vector& corner : piece)
+    {
+      bounds.Add(corner - Vector{ reach, reach, reach });
+      bounds.Add(corner + Vector{ reach, reach, reach });
+    }
+    return bounds;
+  }
+
+  BoundsTree Tree;
+  Covering Cover;
+};
 
 /** Measures surfaces with longer and shorter allowances. What is near enough stays so with a longer
  *  one, so that only what was too far away is looked at again. */
@@ -54,25 +133,64 @@ public:
     this->Part.Near = before.Near;
     const PartDistance::Faults faults =
       this->Distance.Find(this->Part.Simple, this->Homes, before.Triangles, this->ForAll);
-    Far far{ this->Part.Near, std::vector<bool>(before.Triangles.size()),
-      !faults.Triangles.empty() };
-    for (const std::uint32_t triangle : faults.Triangles)
+    Far far{ this->Part.Near, std::vector<bool>(before.Triangles.size()), false };
+    const auto look = [&](std::int64_t, std::int64_t)
     {
-      far.Triangles[triangle] = true;
-    }
-    for (std::size_t i = 0; i < far.Near.Count(); ++i)
-    {
-      far.IsAny = far.IsAny || far.Near[i].empty(); // nothing is near to it
-    }
+      this->LookAtOriginals(far);
+      this->LookAt(faults.Triangles, far);
+    };
+    this->ForAll(1, 1, look);
     return far;
   }
 
 private:
+  /** Those that nothing seems to be near to. */
+  void LookAtOriginals(Far& far)
+  {
+    for (std::uint32_t i = 0; i < far.Near.Count() && !far.IsAny; ++i)
+    {
+      const double allowance = this->Part.Allowances[i];
+      far.IsAny = far.Near[i].empty() &&
+        !Made(this->Simples, this->Part.Positions, this->Part.Simple)
+           .AreNear(this->Part.Original.Corners(this->Part.Positions, i), allowance,
+             [&](std::uint32_t) { return allowance; });
+    }
+  }
+
+  void LookAt(const std::vector<std::uint32_t>& triangles, Far& far)
+  {
+    const std::vector<double>& allowances = this->Part.Allowances;
+    double reach = 0.0;
+    for (const double allowance : allowances)
+    {
+      reach = std::isfinite(allowance) ? std::max(reach, allowance) : reach;
+    }
+    for (const std::uint32_t i : triangles)
+    {
+      far.Triangles[i] = far.Triangles[i] ||
+        !Made(this->Originals, this->Part.Positions, this->Part.Original)
+           .AreNear(this->Part.Simple.Corners(this->Part.Positions, i), reach,
+             [&](std::uint32_t original) { return allowances[original]; });
+      far.IsAny = far.IsAny || far.Triangles[i];
+    }
+  }
+
+  static TrianglesAround& Made(std::optional<TrianglesAround>& triangles,
+    const std::vector<Vector>& positions, const LinkedTriangles& mesh)
+  {
+    return triangles ? *triangles : triangles.emplace(positions, mesh);
+  }
+
   MeshPart& Part;
   const std::vector<double> Allowed;
   const std::vector<std::uint32_t> Homes;
   const ParallelFor& ForAll;
   PartDistance Distance;
+  ///@{
+  /** Made when they are needed. */
+  std::optional<TrianglesAround> Simples;
+  std::optional<TrianglesAround> Originals;
+  ///@}
 };
 
 }

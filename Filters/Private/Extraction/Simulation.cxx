@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -28,6 +29,8 @@ namespace
  * angles are bad in the end, a few more meshes follow, with fewer pins. */
 constexpr int LastRefinement = 10;
 constexpr int LastPinning = 20;
+/** How often one pin of each vertex around bad angles goes before all do. */
+constexpr int LocalReleases = 2;
 ///@}
 
 ///@{
@@ -58,20 +61,25 @@ double PlainVolume(const isodiamond::IsodiamondHierarchy& hierarchy, const isodi
   return VolumeOf(tetrahedra);
 }
 
-/** Takes pins away. @param all or only those of some vertices, sorted
- *  @return whether there were any, if there are such vertices */
-bool Release(
-  bool all, const std::vector<std::uint64_t>& vertices, std::vector<std::uint64_t>& pinned)
+/** Takes pins away.
+ *  @param all or only one of each vertex that is near a bad tetrahedron
+ *  @param near such vertices, sorted; without any nothing has to go @param pinned sorted
+ *  @return whether there were any */
+bool Release(bool all, const std::vector<std::uint64_t>& near, std::vector<std::uint64_t>& pinned)
 {
-  const std::size_t before = pinned.size();
-  pinned.erase(std::remove_if(pinned.begin(), pinned.end(),
-                 [&](std::uint64_t pin)
-                 {
-                   return !vertices.empty() &&
-                     (all || std::binary_search(vertices.begin(), vertices.end(), pin));
-                 }),
-    pinned.end());
-  return pinned.size() < before;
+  if (near.empty())
+  {
+    return false;
+  }
+  std::vector<std::uint64_t> left;
+  if (!all)
+  {
+    std::set_difference(
+      pinned.begin(), pinned.end(), near.begin(), near.end(), std::back_inserter(left));
+  }
+  const bool isAny = left.size() < pinned.size();
+  pinned = std::move(left);
+  return isAny;
 }
 
 /** Where tetrahedra have no volume or are nowhere, improving them would take long, for nothing.
@@ -130,7 +138,7 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   FarDiamondSearch search;
   isodiamond::KnownChanges known;
   asked.Known = &known;
-  bool isReleased = false;
+  int releases = 0;
   double done = PlainPart;
   for (int round = 1;; ++round)
   {
@@ -142,7 +150,7 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
       refine(far, part);
     }
     asked.MayRefine = round < LastRefinement;
-    asked.MayPin = !isReleased && round < LastPinning;
+    asked.MayPin = releases == 0 && round < LastPinning;
     Mesh mesh = ExtractMesh(*leaves, asked, part);
     if (!mesh.FarDiamonds.empty())
     {
@@ -150,12 +158,13 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
     }
     else if (mesh.TightVertices.empty())
     {
-      // Angles come first: where some are bad, pins around them go, and if that does not help, all.
-      if (!Release(isReleased, mesh.BadVertices, asked.Pinned))
+      // Angles come first: where some are bad, pins there go one by one; if that does not help,
+      // all.
+      if (!Release(releases == LocalReleases, mesh.BadVertices, asked.Pinned))
       {
         return mesh;
       }
-      isReleased = true;
+      ++releases;
     }
     asked.Pinned.insert(asked.Pinned.end(), mesh.TightVertices.begin(), mesh.TightVertices.end());
     std::sort(asked.Pinned.begin(), asked.Pinned.end());
