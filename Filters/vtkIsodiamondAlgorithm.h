@@ -99,11 +99,11 @@ public:
 
   /** By how much surfaces of the last tetrahedra with SimulationQuality are at most farther away
    *  than ErrorTolerance, in world units; with composite inputs, in the worst block. An upper
-   * bound, mostly to a sixteenth, in noise up to a few times too large. Mostly 0; more in noise,
-   * where good angles leave no choice, and at a tolerance of 0, where vertices have to move as
-   * well. NaN where it is not measured: with the field metric unless the tolerance is 0, and where
-   * an edge has more than two triangles. Else each mesh has its own in its field data, under this
-   * name. 0 if there is no such mesh. */
+   *  bound, but hardly more than it is. Mostly 0; more in noise, where good angles leave no choice,
+   *  and at a tolerance of 0, where vertices have to move as well. NaN where it is not measured:
+   *  with the field metric unless the tolerance is 0, and where an edge has more than two
+   * triangles. Else each mesh has its own in its field data, under this name. 0 if there is no such
+   * mesh. */
   vtkGetMacro(ToleranceExcess, double);
 
   ///@{

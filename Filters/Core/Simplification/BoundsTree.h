@@ -118,6 +118,19 @@ private:
   std::vector<Node> Nodes;
 };
 
+/** Around all triangles of a mesh. */
+inline BoundsTree TreeOf(
+  const std::vector<Vector>& positions, const std::vector<Triangle>& triangles)
+{
+  std::vector<Bounds> bounds;
+  bounds.reserve(triangles.size());
+  for (const Triangle& triangle : triangles)
+  {
+    bounds.push_back(BoundsOf(positions, triangle));
+  }
+  return BoundsTree(std::move(bounds));
+}
+
 }
 
 #endif

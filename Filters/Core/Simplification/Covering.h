@@ -162,47 +162,10 @@ public:
     return isCovered || lookAround(corners, start, isFar ? DepthOfPiece : DepthOfWhole);
   }
 
-private:
-  /** Pieces nearer than this part of the allowed distance are not cut any further. */
-  static constexpr double UncutPart = 0.3;
-  /** How often a piece found by walking is cut in four, and a triangle that is too large to walk
-   * over: where a piece was already too far away, more cuts are not worth it. */
-  static constexpr int DepthOfPiece = 3;
-  static constexpr int DepthOfWhole = 5;
-
-  struct Ball
-  {
-    Vector Middle;
-    double Radius = 0.0;
-  };
-  static Ball BallAround(const std::array<Vector, 3>& corners)
-  {
-    Ball ball{ (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]) };
-    for (const Vector& corner : corners)
-    {
-      const Vector way = corner - ball.Middle;
-      ball.Radius = std::max(ball.Radius, std::sqrt(Dot(way, way)));
-    }
-    return ball;
-  }
-
-  /** For where walking finds no good pieces; takes longer: cuts a triangle in four until each
-   *  piece is near to one of the triangles around.
-   *  @param reach how far from it triangles are of interest
+  /** Cuts a triangle in four until each piece is near to one of some triangles of the mesh.
+   *  @param around these triangles @param reach how far away they are of interest
    *  @param depth how often it is cut at most
    *  @param use (triangle of the mesh, piece) -> whether the piece is near enough to it */
-  template <typename Use>
-  bool LookAround(
-    const std::array<Vector, 3>& corners, std::uint32_t start, double reach, int depth, Use&& use)
-  {
-    const std::vector<std::uint32_t> around = this->Around(corners, start, reach);
-    return this->IsNearAround(corners, around, reach, depth, use);
-  }
-
-  /** Triangles that may be within reach, connected to the start. */
-  std::vector<std::uint32_t> Around(
-    const std::array<Vector, 3>& corners, std::uint32_t start, double reach);
-
   template <typename Use>
   bool IsNearAround(const std::array<Vector, 3>& corners, const std::vector<std::uint32_t>& around,
     double reach, int depth, Use&& use)
@@ -243,6 +206,44 @@ private:
       this->IsNearAround({ corners[1], sides[1], sides[0] }, left, reach, depth - 1, use) &&
       this->IsNearAround({ corners[2], sides[2], sides[1] }, left, reach, depth - 1, use);
   }
+
+private:
+  /** Pieces nearer than this part of the allowed distance are not cut any further. */
+  static constexpr double UncutPart = 0.3;
+  /** How often a piece found by walking is cut in four, and a triangle that is too large to walk
+   * over: where a piece was already too far away, more cuts are not worth it. */
+  static constexpr int DepthOfPiece = 3;
+  static constexpr int DepthOfWhole = 5;
+
+  struct Ball
+  {
+    Vector Middle;
+    double Radius = 0.0;
+  };
+  static Ball BallAround(const std::array<Vector, 3>& corners)
+  {
+    Ball ball{ (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]) };
+    for (const Vector& corner : corners)
+    {
+      const Vector way = corner - ball.Middle;
+      ball.Radius = std::max(ball.Radius, std::sqrt(Dot(way, way)));
+    }
+    return ball;
+  }
+
+  /** For where walking finds no good pieces; takes longer: IsNearAround() of the triangles around
+   *  where it ended. */
+  template <typename Use>
+  bool LookAround(
+    const std::array<Vector, 3>& corners, std::uint32_t start, double reach, int depth, Use&& use)
+  {
+    const std::vector<std::uint32_t> around = this->Around(corners, start, reach);
+    return this->IsNearAround(corners, around, reach, depth, use);
+  }
+
+  /** Triangles that may be within reach, connected to the start. */
+  std::vector<std::uint32_t> Around(
+    const std::array<Vector, 3>& corners, std::uint32_t start, double reach);
 
   static constexpr int MostSteps = 1000;
 

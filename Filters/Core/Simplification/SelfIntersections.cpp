@@ -9,22 +9,6 @@
 
 namespace isodiamond
 {
-namespace
-{
-
-BoundsTree TreeOf(const std::vector<Vector>& positions, const std::vector<Triangle>& triangles)
-{
-  std::vector<Bounds> bounds;
-  bounds.reserve(triangles.size());
-  for (const Triangle& triangle : triangles)
-  {
-    bounds.push_back(BoundsOf(positions, triangle));
-  }
-  return BoundsTree(std::move(bounds));
-}
-
-}
-
 std::vector<IntersectingPair> IntersectionsOf(const std::vector<Vector>& positions,
   const std::vector<Triangle>& triangles, const ParallelFor& parallelFor)
 {

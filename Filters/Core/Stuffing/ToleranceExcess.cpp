@@ -27,74 +27,36 @@ constexpr int Halvings = 4;
 /** How often a triangle is cut into four, until there is one that all of a piece is near to. */
 constexpr int MostCuts = 5;
 
-BoundsTree TreeOf(const std::vector<Vector>& positions, const LinkedTriangles& mesh)
-{
-  std::vector<Bounds> bounds;
-  bounds.reserve(mesh.Triangles.size());
-  for (const Triangle& triangle : mesh.Triangles)
-  {
-    bounds.push_back(BoundsOf(positions, triangle));
-  }
-  return BoundsTree(std::move(bounds));
-}
-
 /** The triangles of a mesh, wherever they are near to something: those that walking over the mesh
  *  (PartDistance.h) leads past, too. */
 class TrianglesAround
 {
 public:
   TrianglesAround(const std::vector<Vector>& positions, const LinkedTriangles& mesh)
-    : Tree(TreeOf(positions, mesh))
+    : Tree(TreeOf(positions, mesh.Triangles))
     , Cover(positions, mesh)
   {
   }
 
-  /** Whether each place of a piece is near to one of them.
+  /** Whether each place of another triangle is near to one of them.
    *  @param allowanceOf (triangle) -> how far away that is @param reach the largest of these */
   template <typename AllowanceOf>
-  bool AreNear(const std::array<Vector, 3>& piece, double reach, const AllowanceOf& allowanceOf,
-    int cuts = MostCuts)
-  {
-    constexpr unsigned all = 7;
-    unsigned near = 0; // a bit for each corner
-    bool isOneNear = false;
-    this->Tree.ForEachAt(Around(piece, reach),
-      [&](std::uint32_t triangle)
-      {
-        unsigned corners = 0;
-        for (int i = 0; !isOneNear && i < 3; ++i)
-        {
-          const double allowed = allowanceOf(triangle);
-          const bool isNear = this->Cover.SquaredDistance(triangle, piece[i]) <= allowed * allowed;
-          corners |= static_cast<unsigned>(isNear) << i;
-        }
-        near |= corners;
-        isOneNear = isOneNear || corners == all; // what is near to a triangle is convex
-      });
-    if (isOneNear || near != all || cuts == 0)
-    {
-      return isOneNear;
-    }
-    const auto& [a, b, c] = piece;
-    const std::array<Vector, 3> middles = { 0.5 * (b + c), 0.5 * (c + a), 0.5 * (a + b) };
-    return this->AreNear({ a, middles[2], middles[1] }, reach, allowanceOf, cuts - 1) &&
-      this->AreNear({ b, middles[0], middles[2] }, reach, allowanceOf, cuts - 1) &&
-      this->AreNear({ c, middles[1], middles[0] }, reach, allowanceOf, cuts - 1) &&
-      this->AreNear(middles, reach, allowanceOf, cuts - 1);
-  }
-
-private:
-  static Bounds Around(const std::array<Vector, 3>& piece, double reach)
+  bool AreNear(const std::array<Vector, 3>& corners, double reach, const AllowanceOf& allowanceOf)
   {
     Bounds bounds;
-    for (const Vector& corner : piece)
+    for (const Vector& corner : corners)
     {
       bounds.Add(corner - Vector{ reach, reach, reach });
       bounds.Add(corner + Vector{ reach, reach, reach });
     }
-    return bounds;
+    std::vector<std::uint32_t> around;
+    this->Tree.ForEachAt(bounds, [&](std::uint32_t triangle) { around.push_back(triangle); });
+    return this->Cover.IsNearAround(corners, around, reach, MostCuts,
+      [&](std::uint32_t triangle, const std::array<Vector, 3>& piece)
+      { return this->Cover.IsNear(triangle, piece.data(), 3, allowanceOf(triangle)); });
   }
 
+private:
   BoundsTree Tree;
   Covering Cover;
 };
@@ -109,7 +71,7 @@ public:
     , Allowed(surfaces.Part.Allowances)
     , Homes(surfaces.Homes())
     , ForAll(parallelFor)
-    , Distance(surfaces.Part, false, true)
+    , Distance(surfaces.Part, false, true) // not near at the start, and may turn over
   {
   }
 

@@ -29,9 +29,10 @@ namespace
  * angles are bad in the end, a few more meshes follow, with fewer pins. */
 constexpr int LastRefinement = 10;
 constexpr int LastPinning = 20;
+///@}
+
 /** How often one pin of each vertex around bad angles goes before all do. */
 constexpr int LocalReleases = 2;
-///@}
 
 ///@{
 /** Of progress: of the mesh that is not for simulations, and of each round, of what is left. */
