@@ -480,6 +480,41 @@ TEST(Stuffing, MovesVerticesByTheLeastThatIsAllowedThere)
   }
 }
 
+// Where nothing is tolerated, nor beside it, no leaf has to be finer, or pinned.
+TEST(Stuffing, AsksForNothingWhereNothingIsTolerated)
+{
+  const test::Built built = test::BuildVolume(test::GyroidField(17, 1.5), { 0.1, HUGE_VAL });
+  PinnedLeaves leaves(*built.Hierarchy);
+  const auto& tetrahedra = leaves.Leaves.Mesh.Tetrahedra;
+  std::set<std::uint32_t> free; // vertices
+  const std::uint32_t middle = leaves.Leaves.Mesh.Vertices.size() / 2;
+  for (const CutMesh::Tetrahedron& leaf : tetrahedra)
+  {
+    leaves.Input.ToleratesNothing.push_back(leaf.Vertices[0] < middle);
+    leaves.Input.Allowances.push_back(leaf.Vertices[0] < middle ? 0.0 : 0.02);
+    if (leaf.Vertices[0] < middle)
+    {
+      free.insert(leaf.Vertices.begin(), leaf.Vertices.end());
+    }
+  }
+  const auto expectNoneBeside = [&](const std::vector<std::uint32_t>& far)
+  {
+    EXPECT_GT(far.size(), 100U);
+    for (const std::uint32_t leaf : far)
+    {
+      for (const std::uint32_t vertex : tetrahedra[leaf].Vertices)
+      {
+        EXPECT_EQ(free.count(vertex), 0U);
+      }
+    }
+  };
+  leaves.Input.CanBeFiner.assign(leaves.Count(), true);
+  expectNoneBeside(FarLeaves(leaves.Input, SerialFor));
+  expectNoneBeside(Stuff(leaves.Input, SerialFor).FarLeaves);
+  leaves.Input.CanBeFiner.assign(leaves.Count(), false);
+  expectNoneBeside(Stuff(leaves.Input, SerialFor).TightLeaves);
+}
+
 // The more often all is pinned, the less surfaces move; but what is still too far away then is
 // left.
 TEST(Stuffing, IsNearerTheMoreItIsPinnedButAsksForFourPinsAtMost)

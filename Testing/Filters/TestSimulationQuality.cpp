@@ -202,6 +202,35 @@ double ShareOfSmallAngles(vtkPolyData* surface)
   return static_cast<double>(small) / static_cast<double>(surface->GetNumberOfCells());
 }
 
+using Point = std::array<double, 3>;
+
+/** The triangles of the lower surface whose points are all in a box, as sets of points. */
+std::set<std::set<Point>> SurfaceIn(vtkUnstructuredGrid* mesh, double begin, double end)
+{
+  const auto surface = LowerSurface(mesh);
+  std::set<std::set<Point>> triangles;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i)
+  {
+    surface->GetCellPoints(i, ids);
+    std::set<Point> corners;
+    bool isIn = true;
+    for (const vtkIdType id : *ids)
+    {
+      Point point{};
+      surface->GetPoint(id, point.data());
+      isIn = isIn &&
+        std::all_of(point.begin(), point.end(), [&](double x) { return x >= begin && x <= end; });
+      corners.insert(point);
+    }
+    if (isIn)
+    {
+      triangles.insert(corners);
+    }
+  }
+  return triangles;
+}
+
 double Told(vtkUnstructuredGrid* mesh, const char* name)
 {
   return mesh->GetFieldData()->GetArray(name)->GetComponent(0, 0);
@@ -542,6 +571,30 @@ TEST(SimulationQuality, WorksInRegionsViewsAndOtherWorlds)
   volume->Update();
   EXPECT_GT(volume->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_GT(volume->GetSmallestDihedralAngle(), 0.0);
+}
+
+// There nothing could be near enough, and vertices move as they do without a region.
+TEST(SimulationQuality, IsThatOfFullResolutionInARegionWhereNothingIsTolerated)
+{
+  const auto full = Ball(test::BallImage({ 33, 33, 33 }), 0.0);
+  full->Update();
+  const auto expected = SurfaceIn(full->GetOutput(), 2.0, 16.0);
+  EXPECT_GT(expected.size(), 300U);
+  full->SimulationQualityOff();
+  full->Update();
+  const auto fullSurface = LowerSurface(full->GetOutput());
+
+  const auto volume = Ball(test::BallImage({ 33, 33, 33 }), 0.0);
+  volume->UseRegionOfInterestOn();
+  volume->SetRegionOfInterest(0.0, 18.0, 0.0, 18.0, 0.0, 18.0);
+  volume->SetOutsideErrorTolerance(1.0);
+  volume->Update();
+  EXPECT_EQ(SurfaceIn(volume->GetOutput(), 2.0, 16.0), expected);
+  const auto surface = LowerSurface(volume->GetOutput());
+  EXPECT_LT(surface->GetNumberOfCells(), fullSurface->GetNumberOfCells() / 2);
+  EXPECT_LE(test::LargestDistance(SamplesOf(surface), fullSurface), 1.0);
+  EXPECT_LE(test::LargestDistance(SamplesOf(fullSurface), surface), 1.0);
+  EXPECT_GE(volume->GetSmallestDihedralAngle(), 15.0);
 }
 
 TEST(SimulationQuality, OfSurfacesLeavesFewSmallAngles)

@@ -33,6 +33,12 @@ struct Bounds
       this->High[axis] = std::max(this->High[axis], other.High[axis]);
     }
   }
+  /** All that is no farther away along each axis. */
+  Bounds Grown(double by) const
+  {
+    const Vector way = { by, by, by };
+    return { this->Low - way, this->High + way };
+  }
   /** The axis along which it is longest. */
   std::size_t LongestAxis() const
   {

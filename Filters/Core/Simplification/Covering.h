@@ -163,32 +163,36 @@ public:
   }
 
   /** Cuts a triangle in four until each piece is near to one of some triangles of the mesh.
-   *  @param around these triangles @param reach how far away they are of interest
+   *  @param around these triangles @param reachOf (triangle) -> how far away it is of interest
    *  @param depth how often it is cut at most
    *  @param use (triangle of the mesh, piece) -> whether the piece is near enough to it */
-  template <typename Use>
+  template <typename ReachOf, typename Use>
   bool IsNearAround(const std::array<Vector, 3>& corners, const std::vector<std::uint32_t>& around,
-    double reach, int depth, Use&& use)
+    const ReachOf& reachOf, int depth, Use&& use)
   {
     // The nearest to the middle first.
     const auto [middle, radius] = BallAround(corners);
     std::vector<std::pair<double, std::uint32_t>> near;
+    bool isAnyInReach = false;
     for (const std::uint32_t triangle : around)
     {
       const double squared = this->Of(triangle).Distance.Squared(middle);
+      const double reach = reachOf(triangle);
+      isAnyInReach = isAnyInReach || squared <= reach * reach;
       if (squared <= (reach + radius) * (reach + radius))
       {
         near.emplace_back(squared, triangle);
       }
     }
-    std::sort(near.begin(), near.end());
-    if (near.empty() || near.front().first > reach * reach)
+    if (!isAnyInReach)
     {
       return false;
     }
+    std::sort(near.begin(), near.end());
     std::vector<std::uint32_t> left;
     for (const auto& [squared, triangle] : near)
     {
+      const double reach = reachOf(triangle);
       if (squared <= reach * reach && use(triangle, corners))
       {
         return true;
@@ -201,10 +205,10 @@ public:
     }
     const std::array<Vector, 3> sides = { 0.5 * (corners[0] + corners[1]),
       0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0]) };
-    return this->IsNearAround(sides, left, reach, depth - 1, use) &&
-      this->IsNearAround({ corners[0], sides[0], sides[2] }, left, reach, depth - 1, use) &&
-      this->IsNearAround({ corners[1], sides[1], sides[0] }, left, reach, depth - 1, use) &&
-      this->IsNearAround({ corners[2], sides[2], sides[1] }, left, reach, depth - 1, use);
+    return this->IsNearAround(sides, left, reachOf, depth - 1, use) &&
+      this->IsNearAround({ corners[0], sides[0], sides[2] }, left, reachOf, depth - 1, use) &&
+      this->IsNearAround({ corners[1], sides[1], sides[0] }, left, reachOf, depth - 1, use) &&
+      this->IsNearAround({ corners[2], sides[2], sides[1] }, left, reachOf, depth - 1, use);
   }
 
 private:
@@ -238,7 +242,8 @@ private:
     const std::array<Vector, 3>& corners, std::uint32_t start, double reach, int depth, Use&& use)
   {
     const std::vector<std::uint32_t> around = this->Around(corners, start, reach);
-    return this->IsNearAround(corners, around, reach, depth, use);
+    return this->IsNearAround(
+      corners, around, [reach](std::uint32_t) { return reach; }, depth, use);
   }
 
   /** Triangles that may be within reach, connected to the start. */

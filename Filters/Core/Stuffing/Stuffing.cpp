@@ -143,13 +143,27 @@ BothMeshes CutLeaves(const Background& background, bool withPlain, const Paralle
   return meshes;
 }
 
-/** By leaf: whether its surfaces get nearer if it is finer, or pinned. */
-std::vector<bool> CanBeNearer(const StuffingInput& input)
+/** By leaf: whether its surfaces get near enough if it is finer, or pinned. Beside leaves where
+ *  nothing is tolerated they do not: their vertices move with those.
+ *  @param mayPin whether it could be pinned instead */
+std::vector<bool> CanBeNearer(const StuffingInput& input, bool mayPin)
 {
-  std::vector<bool> canBeNearer = input.CanBeFiner;
-  for (std::size_t leaf = 0; leaf < canBeNearer.size() && input.MayPin; ++leaf)
+  const std::vector<CutMesh::Tetrahedron>& leaves = input.Leaves.Tetrahedra;
+  std::vector<bool> movesFreely(input.Leaves.Vertices.size());
+  for (std::size_t leaf = 0; leaf < input.ToleratesNothing.size(); ++leaf)
   {
-    canBeNearer[leaf] = canBeNearer[leaf] || PinsOf(input.Leaves, leaf) < MostPins;
+    for (const std::uint32_t vertex : leaves[leaf].Vertices)
+    {
+      movesFreely[vertex] = movesFreely[vertex] || input.ToleratesNothing[leaf];
+    }
+  }
+  std::vector<bool> canBeNearer = input.CanBeFiner;
+  for (std::size_t leaf = 0; leaf < canBeNearer.size(); ++leaf)
+  {
+    const auto& vertices = leaves[leaf].Vertices;
+    canBeNearer[leaf] = (canBeNearer[leaf] || (mayPin && PinsOf(input.Leaves, leaf) < MostPins)) &&
+      std::none_of(vertices.begin(), vertices.end(),
+        [&](std::uint32_t vertex) { return movesFreely[vertex]; });
   }
   return canBeNearer;
 }
@@ -194,8 +208,9 @@ std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelF
 {
   CheckLeaves(input.Leaves, parallelFor);
   const BothMeshes meshes = CutLeaves(BackgroundOf(input), true, parallelFor);
+  const std::vector<bool> canBeNearer = CanBeNearer(input, false);
   std::vector<std::uint32_t> leaves =
-    FarLeaves(meshes.Stuffed, { meshes.Plain, input.Allowances, input.CanBeFiner }, parallelFor);
+    FarLeaves(meshes.Stuffed, { meshes.Plain, input.Allowances, canBeNearer }, parallelFor);
   leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
                  [&](std::uint32_t leaf) { return HasFixedVertex(input.Leaves, leaf); }),
     leaves.end());
@@ -215,7 +230,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   options.Axes = AxesOf(input.World);
   options.World = input.World.Positions() == nullptr ? &input.World : nullptr;
   options.CutEdges = CutEdgesOf(background, options.World != nullptr, input.SurfaceMoveOfEdge);
-  const std::vector<bool> canBeNearer = CanBeNearer(input);
+  const std::vector<bool> canBeNearer = CanBeNearer(input, input.MayPin);
   CoarseningInput coarsening{ meshes.Plain, input.Allowances, canBeNearer, input.KeepsInside };
   coarsening.VolumeAtTolerance = input.VolumeAtTolerance;
   coarsening.Axes = options.Axes;

@@ -33,8 +33,11 @@ struct StuffingInput
   /** See CoarseningInput; without allowances nothing is measured or made coarser. */
   std::vector<double> Allowances = {};
   std::vector<bool> CanBeFiner = {}; ///< by leaf
-  bool MayPin = true;                ///< whether leaves that cannot be finer may be pinned
-  bool GetsCoarser = true;           ///< or is only measured
+  /** By leaf, or empty: whether nothing is tolerated there. Then no finer or pinned leaf would be
+   *  near enough, and vertices there move as everywhere at tolerance 0. */
+  std::vector<bool> ToleratesNothing = {};
+  bool MayPin = true;      ///< whether leaves that cannot be finer may be pinned
+  bool GetsCoarser = true; ///< or is only measured
   bool KeepsInside = false;
   std::optional<double> VolumeAtTolerance = {};
   ///@}

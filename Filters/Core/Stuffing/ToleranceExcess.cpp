@@ -32,31 +32,51 @@ constexpr int MostCuts = 5;
 class TrianglesAround
 {
 public:
-  TrianglesAround(const std::vector<Vector>& positions, const LinkedTriangles& mesh)
-    : Tree(TreeOf(positions, mesh.Triangles))
+  /** @param reaches by triangle: how far away something may be that is near to it, besides what is
+   *         added when it is asked for */
+  TrianglesAround(
+    const std::vector<Vector>& positions, const LinkedTriangles& mesh, std::vector<double> reaches)
+    : Reaches(std::move(reaches))
+    , Tree(BoundsOfReaches(positions, mesh.Triangles))
     , Cover(positions, mesh)
   {
   }
 
   /** Whether each place of another triangle is near to one of them.
-   *  @param allowanceOf (triangle) -> how far away that is @param reach the largest of these */
+   *  @param more what is added to their reaches
+   *  @param allowanceOf (triangle) -> how far away from it a place may be, if it is in reach */
   template <typename AllowanceOf>
-  bool AreNear(const std::array<Vector, 3>& corners, double reach, const AllowanceOf& allowanceOf)
+  bool AreNear(const std::array<Vector, 3>& corners, double more, const AllowanceOf& allowanceOf)
   {
     Bounds bounds;
     for (const Vector& corner : corners)
     {
-      bounds.Add(corner - Vector{ reach, reach, reach });
-      bounds.Add(corner + Vector{ reach, reach, reach });
+      bounds.Add(corner);
     }
     std::vector<std::uint32_t> around;
-    this->Tree.ForEachAt(bounds, [&](std::uint32_t triangle) { around.push_back(triangle); });
-    return this->Cover.IsNearAround(corners, around, reach, MostCuts,
+    this->Tree.ForEachAt(
+      bounds.Grown(more), [&](std::uint32_t triangle) { around.push_back(triangle); });
+    return this->Cover.IsNearAround(
+      corners, around, [&](std::uint32_t triangle) { return this->Reaches[triangle] + more; },
+      MostCuts,
       [&](std::uint32_t triangle, const std::array<Vector, 3>& piece)
       { return this->Cover.IsNear(triangle, piece.data(), 3, allowanceOf(triangle)); });
   }
 
 private:
+  std::vector<Bounds> BoundsOfReaches(
+    const std::vector<Vector>& positions, const std::vector<Triangle>& triangles) const
+  {
+    std::vector<Bounds> bounds;
+    bounds.reserve(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+    {
+      bounds.push_back(BoundsOf(positions, triangles[i]).Grown(this->Reaches[i]));
+    }
+    return bounds;
+  }
+
+  std::vector<double> Reaches;
   BoundsTree Tree;
   Covering Cover;
 };
@@ -99,7 +119,7 @@ public:
     const auto look = [&](std::int64_t, std::int64_t)
     {
       this->LookAtOriginals(far);
-      this->LookAt(faults.Triangles, far);
+      this->LookAt(faults.Triangles, length, far);
     };
     this->ForAll(1, 1, look);
     return far;
@@ -113,46 +133,60 @@ private:
     {
       const double allowance = this->Part.Allowances[i];
       far.IsAny = far.Near[i].empty() &&
-        !Made(this->Simples, this->Part.Positions, this->Part.Simple)
-           .AreNear(this->Part.Original.Corners(this->Part.Positions, i), allowance,
-             [&](std::uint32_t) { return allowance; });
+        !this->AroundSimple().AreNear(this->Part.Original.Corners(this->Part.Positions, i),
+          allowance, [&](std::uint32_t) { return allowance; });
     }
   }
 
-  void LookAt(const std::vector<std::uint32_t>& triangles, Far& far)
+  void LookAt(const std::vector<std::uint32_t>& triangles, double length, Far& far)
   {
-    const std::vector<double>& allowances = this->Part.Allowances;
-    double reach = 0.0;
-    for (const double allowance : allowances)
-    {
-      reach = std::isfinite(allowance) ? std::max(reach, allowance) : reach;
-    }
     for (const std::uint32_t i : triangles)
     {
       far.Triangles[i] = far.Triangles[i] ||
-        !Made(this->Originals, this->Part.Positions, this->Part.Original)
-           .AreNear(this->Part.Simple.Corners(this->Part.Positions, i), reach,
-             [&](std::uint32_t original) { return allowances[original]; });
+        !this->AroundOriginals().AreNear(this->Part.Simple.Corners(this->Part.Positions, i), length,
+          [&](std::uint32_t original) { return this->Part.Allowances[original]; });
       far.IsAny = far.IsAny || far.Triangles[i];
     }
   }
 
-  static TrianglesAround& Made(std::optional<TrianglesAround>& triangles,
-    const std::vector<Vector>& positions, const LinkedTriangles& mesh)
+  ///@{
+  /** Made when they are needed. */
+  TrianglesAround& AroundSimple()
   {
-    return triangles ? *triangles : triangles.emplace(positions, mesh);
+    if (!this->Simples)
+    {
+      const LinkedTriangles& mesh = this->Part.Simple;
+      this->Simples.emplace(this->Part.Positions, mesh, std::vector<double>(mesh.Triangles.size()));
+    }
+    return *this->Simples;
   }
+  TrianglesAround& AroundOriginals()
+  {
+    if (!this->Originals)
+    {
+      double longest = 0.0;
+      for (const double allowed : this->Allowed)
+      {
+        longest = std::isfinite(allowed) ? std::max(longest, allowed) : longest;
+      }
+      // Where anything is allowed, not more than what is near is looked at, either.
+      std::vector<double> reaches = this->Allowed;
+      std::replace_if(
+        reaches.begin(), reaches.end(), [](double reach) { return !std::isfinite(reach); },
+        longest);
+      this->Originals.emplace(this->Part.Positions, this->Part.Original, std::move(reaches));
+    }
+    return *this->Originals;
+  }
+  ///@}
 
   MeshPart& Part;
   const std::vector<double> Allowed;
   const std::vector<std::uint32_t> Homes;
   const ParallelFor& ForAll;
   PartDistance Distance;
-  ///@{
-  /** Made when they are needed. */
   std::optional<TrianglesAround> Simples;
   std::optional<TrianglesAround> Originals;
-  ///@}
 };
 
 }

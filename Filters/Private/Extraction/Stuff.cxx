@@ -55,7 +55,9 @@ isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
     std::transform(
       ids.begin(), ids.end(), corners.begin(), [&](std::uint32_t id) { return vertices[id]; });
     const double error = rank < 0 ? 0.0 : hierarchy.Codes().Decode(hierarchy.Threshold(rank));
-    input.Allowances.push_back(std::max(0.0, options.ToleranceIn(corners.data(), 4) - error));
+    const double tolerance = options.ToleranceIn(corners.data(), 4);
+    input.Allowances.push_back(std::max(0.0, tolerance - error));
+    input.ToleratesNothing.push_back(!(tolerance > 0.0));
     input.CanBeFiner.push_back(rank >= 0 && options.MayRefine);
   }
   return input;
