@@ -131,9 +131,18 @@ Volume Stuffed::AsVolume() const
 
 std::vector<BlendedPoint> Stuffed::Shifted() const
 {
+  std::vector<bool> isThere(this->Mesh.Positions.size());
+  for (const Corners& corners : this->Mesh.Tetrahedra)
+  {
+    for (const std::uint32_t point : corners)
+    {
+      isThere[point] = true;
+    }
+  }
   std::vector<BlendedPoint> shifted;
   std::copy_if(this->Mesh.Blended.begin(), this->Mesh.Blended.end(), std::back_inserter(shifted),
-    [&](const BlendedPoint& blended) { return this->Mesh.Surfaces[blended.Point] != 0; });
+    [&](const BlendedPoint& blended)
+    { return isThere[blended.Point] && this->Mesh.Surfaces[blended.Point] != 0; });
   return shifted;
 }
 

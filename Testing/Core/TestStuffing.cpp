@@ -225,9 +225,29 @@ TEST(Stuffing, LeavesNoBadTetrahedraInNoise)
       EXPECT_LE(AngleBetween(to - above, below - above), 17.0);
     }
   }
-  EXPECT_GT(shifts, 100U); // 187: only where nothing else helps
-  EXPECT_LT(shifts, 300U);
+  EXPECT_GT(shifts, 300U); // 507: where there is no room otherwise
+  EXPECT_LT(shifts, 700U);
   EXPECT_EQ(bad, 0U) << all; // 3 of 19091 without detours; 126 if no points on surfaces move
+}
+
+// Samples that are hardly inside, as those at the isovalue itself, have tiny pieces around them,
+// and thin bars between them.
+TEST(Stuffing, MakesRoomAroundSamplesAtTheIsovalue)
+{
+  test::Field field{ "specks", { 9, 9, 9 }, std::vector<float>(729, -100.0F), 0.0 };
+  const auto set = [&](int x, int y, int z) { field.Samples[x + 9 * (y + 9 * z)] = 0.0F; };
+  set(2, 2, 2); // alone
+  set(6, 4, 3); // two at the ends of an edge
+  set(5, 4, 4);
+  set(4, 7, 6); // and three
+  set(5, 6, 6);
+  set(5, 7, 7);
+  const test::Built built = test::BuildVolume(field, { 0.0, HUGE_VAL });
+  const test::Stuffed stuffed(*built.Hierarchy, Query{});
+  EXPECT_EQ(stuffed.CountBad(), 0U);
+  const test::AnyMesh plain(*built.Hierarchy, Query{});
+  EXPECT_EQ(test::TopologyOf(stuffed.AsVolume(), plain), test::Topology(plain));
+  EXPECT_EQ(test::CountIntersections(stuffed.Mesh), 0U);
 }
 
 // Improved without regard to each other, sheets that nearly touch would get through each other in
@@ -289,13 +309,16 @@ TEST(Stuffing, BlendsAttributesAsPositions)
   ASSERT_FALSE(stuffed.Mesh.Blended.empty());
   ASSERT_LT(stuffed.Shifted().size(), stuffed.Mesh.Blended.size());
   std::set<std::uint32_t> sources;
-  for (const BlendedPoint& shifted : stuffed.Shifted())
+  for (const BlendedPoint& shifted : stuffed.Mesh.Blended)
   {
-    ASSERT_EQ(shifted.Shares.size(), 1U);
-    EXPECT_EQ(shifted.Shares[0].Part, 1.0);
-    const std::uint32_t source = shifted.Shares[0].Point;
-    sources.insert(source);
-    EXPECT_EQ(stuffed.Plain.Surfaces.at(source), stuffed.Mesh.Surfaces[shifted.Point]);
+    if (stuffed.Mesh.Surfaces[shifted.Point] != 0) // though it may be gone, or back, by now
+    {
+      ASSERT_EQ(shifted.Shares.size(), 1U);
+      EXPECT_EQ(shifted.Shares[0].Part, 1.0);
+      const std::uint32_t source = shifted.Shares[0].Point;
+      sources.insert(source);
+      EXPECT_EQ(stuffed.Plain.Surfaces.at(source), stuffed.Mesh.Surfaces[shifted.Point]);
+    }
   }
   for (const BlendedPoint& blended : stuffed.Mesh.Blended)
   {
@@ -463,7 +486,7 @@ TEST(Stuffing, KeepsTheToleranceAtFullResolutionWherePinned)
 // A vertex moves as little as any of its leaves wants.
 TEST(Stuffing, MovesVerticesByTheLeastThatIsAllowedThere)
 {
-  const test::Built built = test::BuildVolume(test::GyroidField(17, 1.5), { 0.1, HUGE_VAL });
+  const test::Built built = test::BuildVolume(test::GyroidField(17, 1.5), { 0.05, HUGE_VAL });
   PinnedLeaves leaves(*built.Hierarchy);
   leaves.Input.CanBeFiner.assign(leaves.Count(), true);
   for (const std::size_t odd : { 0, 1 })

@@ -4,6 +4,7 @@
 #include "Simplification/SelfIntersections.h"
 #include "Stuffing/Detours.h"
 #include "Stuffing/MeasuredSurfaces.h"
+#include "Stuffing/ReturnedPoints.h"
 
 #include <atomic>
 #include <utility>
@@ -95,6 +96,7 @@ BestAttempt::Attempt BestAttempt::Try()
       attempt.Bad = this->CountBad(attempt.Mesh);
     }
   }
+  attempt.Mesh = ReturnPoints(std::move(attempt.Mesh), WantedSine(this->Options));
   return attempt;
 }
 

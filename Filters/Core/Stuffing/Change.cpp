@@ -29,14 +29,7 @@ void Shift(const Change& change, LocalMesh& mesh, std::vector<std::uint32_t>& ch
   const std::uint32_t old = change.Point;
   const std::uint32_t point = mesh.AddPoint(
     change.Place, mesh.Mesh().Surfaces[old], mesh.Mesh().OnWalls[old], { { old, 1.0 } });
-  const LocalMesh::Star star = mesh.StarOf(old);
-  const std::vector<std::uint32_t> around(star.begin(), star.end());
-  for (const std::uint32_t tetrahedron : around)
-  {
-    Corners corners = mesh.CornersOf(tetrahedron);
-    std::replace(corners.begin(), corners.end(), old, point);
-    mesh.Replace({ tetrahedron }, { corners }, changed);
-  }
+  mesh.Exchange(old, point, changed);
 }
 
 }

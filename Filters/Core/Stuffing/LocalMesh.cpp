@@ -303,6 +303,18 @@ void LocalMesh::Replace(const std::vector<std::uint32_t>& old, const std::vector
     [&](const Corners& corners) { this->Add(corners, origin, changed); });
 }
 
+void LocalMesh::Exchange(
+  std::uint32_t point, std::uint32_t other, std::vector<std::uint32_t>& changed)
+{
+  const std::vector<std::uint32_t> star(this->StarOf(point).begin(), this->StarOf(point).end());
+  for (const std::uint32_t tetrahedron : star)
+  {
+    Corners corners = this->CornersOf(tetrahedron);
+    std::replace(corners.begin(), corners.end(), point, other);
+    this->Replace({ tetrahedron }, { corners }, changed);
+  }
+}
+
 void LocalMesh::PutBack(
   const std::vector<std::uint32_t>& old, const std::vector<std::uint32_t>& fresh)
 {

@@ -81,6 +81,8 @@ public:
   /** Replaces tetrahedra by others. */
   void Replace(const std::vector<std::uint32_t>& old, const std::vector<Corners>& fresh,
     std::vector<std::uint32_t>& changed);
+  /** Puts another point in a point's place. */
+  void Exchange(std::uint32_t point, std::uint32_t other, std::vector<std::uint32_t>& changed);
   /** Undoes a change that replaced tetrahedra by others, if these are all still there. */
   void PutBack(const std::vector<std::uint32_t>& old, const std::vector<std::uint32_t>& fresh);
   /** Adds a point. @return its id */

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace isodiamond
 {
@@ -13,6 +15,9 @@ namespace
  *  tetrahedra there are, and in noise the fewer are bad; but the farther surfaces move, and the
  *  coarser the inside gets. */
 constexpr double NearPart = 1.0 / 3.0;
+
+/** How far from a vertex that stays an isovertex is pushed at most, as a part of their edge. */
+constexpr double PushedPart = 0.2;
 
 /** Moves between two looks at whether to go on. */
 constexpr std::size_t MovesOfStep = 1024;
@@ -38,6 +43,7 @@ MovedVertices::MovedVertices(const Background& background)
   : Mesh(background)
   , States(background.VertexCount())
   , Goals(background.VertexCount(), CutMesh::None)
+  , Places(background.AllPoints())
   , Links(background, States)
 {
   this->Positions.reserve(background.VertexCount());
@@ -53,7 +59,7 @@ void MovedVertices::MoveAll(const ParallelFor& parallelFor)
   std::vector<Goal> goals(this->Mesh.VertexCount());
   ForEachIndex(parallelFor, goals.size(), LeastRange,
     [&](std::int64_t vertex)
-    { goals[vertex] = this->NearestTo(static_cast<std::uint32_t>(vertex)); });
+    { goals[vertex] = this->NearestToMove(static_cast<std::uint32_t>(vertex)); });
   goals.erase(std::remove_if(goals.begin(), goals.end(),
                 [](const Goal& goal) { return !(goal.Distance < NearPart); }),
     goals.end());
@@ -64,11 +70,71 @@ void MovedVertices::MoveAll(const ParallelFor& parallelFor)
     [&](std::size_t i)
     {
       // Other moves have taken isovertices away.
-      if (const Goal goal = this->NearestTo(goals[i].Vertex); goal.Distance < NearPart)
+      if (const Goal goal = this->NearestToMove(goals[i].Vertex); goal.Distance < NearPart)
       {
         this->TryToMove(goal);
       }
     });
+}
+
+void MovedVertices::PushAll(double most)
+{
+  for (std::uint32_t vertex = 0; vertex < this->Mesh.VertexCount(); ++vertex)
+  {
+    if (!this->HasToStay(vertex))
+    {
+      continue;
+    }
+    for (const std::uint32_t point : this->Mesh.CrossingsAt(vertex))
+    {
+      const int surface = this->Mesh.AllCrossings()[point].Surface;
+      if (this->IsCut(vertex, this->OtherEnd(point, vertex), surface) &&
+        this->PartOfEdge(point, vertex) < PushedPart)
+      {
+        this->Push(point, vertex, most);
+      }
+    }
+  }
+}
+
+/** Whether a vertex must not move to what is nearest: it is pinned, or the topology would change.
+ */
+bool MovedVertices::HasToStay(std::uint32_t vertex)
+{
+  const Goal nearest = this->NearestTo(vertex, HUGE_VAL);
+  if (!(nearest.Distance < PushedPart))
+  {
+    return false;
+  }
+  std::uint8_t& state = this->States[vertex];
+  const std::uint8_t before =
+    std::exchange(state, static_cast<std::uint8_t>(StateOn(nearest.Surface)));
+  const bool canBeOn = this->Links.CanBeOn(vertex, nearest.Surface, before == BetweenSurfaces);
+  state = before;
+  return !canBeOn || std::isfinite(this->Mesh.MostMoveOf(vertex));
+}
+
+/** As far as it may, unless pieces of bent leaves would turn over. */
+void MovedVertices::Push(std::uint32_t point, std::uint32_t from, double most)
+{
+  const std::uint32_t to = this->OtherEnd(point, from);
+  const Vector& at = this->Mesh.PositionOf(from);
+  const Vector edge = this->Mesh.PositionOf(to) - at;
+  const double mostHere =
+    std::min(most, std::max(this->Mesh.MostMoveOf(from), this->Mesh.MostMoveOf(to)));
+  if (!(mostHere > 0.0))
+  {
+    return;
+  }
+  const double part =
+    std::min(PushedPart, this->PartOfEdge(point, from) + mostHere / std::sqrt(Dot(edge, edge)));
+  const Vector before = std::exchange(this->Places[point], at + part * edge);
+  const CellsAtPoints::Cells star = this->Mesh.StarOf(from);
+  if (!std::all_of(star.begin(), star.end(),
+        [&](std::uint32_t tetrahedron) { return this->ArePiecesPositive(tetrahedron); }))
+  {
+    this->Places[point] = before;
+  }
 }
 
 /** Whether a surface still crosses an edge of leaves between its ends. */
@@ -80,8 +146,24 @@ bool MovedVertices::IsCut(std::uint32_t first, std::uint32_t second, int surface
   return (a < on && b > on) || (a > on && b < on);
 }
 
-/** The nearest isovertex on a vertex's edges that it can reach without passing another surface. */
-MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
+std::uint32_t MovedVertices::OtherEnd(std::uint32_t point, std::uint32_t vertex) const
+{
+  const Edge& ends = this->Mesh.AllCrossings()[point].Ends;
+  return ends[ends[0] == vertex ? 1 : 0];
+}
+
+/** How far from an end of its edge an isovertex is, as a part of the edge. */
+double MovedVertices::PartOfEdge(std::uint32_t point, std::uint32_t vertex) const
+{
+  const Vector& at = this->Mesh.PositionOf(vertex);
+  const Vector edge = this->Mesh.PositionOf(this->OtherEnd(point, vertex)) - at;
+  const Vector way = this->Mesh.PointAt(point) - at;
+  return std::sqrt(Dot(way, way) / Dot(edge, edge));
+}
+
+/** The nearest isovertex on a vertex's edges that it can reach without passing another surface.
+ *  @param most how far away */
+MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex, double most) const
 {
   Goal nearest;
   nearest.Vertex = vertex;
@@ -93,11 +175,10 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
     return nearest;
   }
   const Vector& at = this->Mesh.PositionOf(vertex);
-  const double most = this->Mesh.MostMoveOf(vertex);
   for (const std::uint32_t point : this->Mesh.CrossingsAt(vertex))
   {
     const Crossing& crossing = this->Mesh.AllCrossings()[point];
-    const std::uint32_t other = crossing.Ends[crossing.Ends[0] == vertex ? 1 : 0];
+    const std::uint32_t other = this->OtherEnd(point, vertex);
     const bool isBehind = (state == BelowLower && crossing.Surface == 1) ||
       (state == AboveUpper && crossing.Surface == 0);
     const Walls::Type common = CommonWalls(walls, this->Mesh.WallsOf(other));
@@ -106,13 +187,12 @@ MovedVertices::Goal MovedVertices::NearestTo(std::uint32_t vertex) const
     {
       continue;
     }
-    const Vector edge = this->Mesh.PositionOf(other) - at;
     const Vector way = this->Mesh.PointAt(point) - at;
-    const double distance = std::sqrt(Dot(way, way) / Dot(edge, edge));
     if (Dot(way, way) > most * most)
     {
       continue;
     }
+    const double distance = this->PartOfEdge(point, vertex);
     if (distance < nearest.Distance || (distance == nearest.Distance && point < nearest.Point))
     {
       nearest = { distance, vertex, point, crossing.Surface };
@@ -133,11 +213,12 @@ bool MovedVertices::AreAllRound(std::uint32_t vertex) const
       const double sine = SmallestSine(this->Positions[corners[0]], this->Positions[corners[1]],
         this->Positions[corners[2]], this->Positions[corners[3]]);
       return (this->Mesh.IsNegative(tetrahedron) ? -sine : sine) > LeastSine &&
-        this->ArePiecesPositive(tetrahedron);
+        (!this->IsBent(tetrahedron) || this->ArePiecesPositive(tetrahedron));
     });
 }
 
-bool MovedVertices::ArePiecesPositive(std::uint32_t tetrahedron) const
+/** Whether a surface cuts a leaf on a line that is no longer straight. */
+bool MovedVertices::IsBent(std::uint32_t tetrahedron) const
 {
   const Corners& corners = this->Mesh.CornersOf(tetrahedron);
   bool isBent = false;
@@ -153,23 +234,32 @@ bool MovedVertices::ArePiecesPositive(std::uint32_t tetrahedron) const
             this->IsCut(corners[younger], corners[older], 1)));
     }
   }
+  return isBent;
+}
+
+/** Whether there is a way to cut a leaf into positive pieces. */
+bool MovedVertices::ArePiecesPositive(std::uint32_t tetrahedron) const
+{
   const auto arePositive = [&](const std::vector<PatchTetrahedron>& pieces)
   {
     return std::all_of(pieces.begin(), pieces.end(),
       [&](const PatchTetrahedron& piece) { return this->SineOf(tetrahedron, piece) > 0.0; });
   };
   const std::vector<std::vector<PatchTetrahedron>>& patches = this->PatchesOf(tetrahedron);
-  return !isBent || patches.empty() || std::any_of(patches.begin(), patches.end(), arePositive);
+  const auto end = this->IsPinned(tetrahedron) && !patches.empty()
+    ? patches.begin() + MeasuredPatch + 1
+    : patches.end();
+  return patches.empty() || std::any_of(patches.begin(), end, arePositive);
 }
 
 bool MovedVertices::TryToMove(const Goal& goal)
 {
   const std::uint32_t vertex = goal.Vertex;
-  const std::uint8_t state = this->States[vertex];
   const Vector position = this->Positions[vertex];
-  this->States[vertex] = static_cast<std::uint8_t>(StateOn(goal.Surface));
-  this->Goals[vertex] = goal.Point;
   this->Positions[vertex] = this->Mesh.PointAt(goal.Point);
+  const std::uint8_t state =
+    std::exchange(this->States[vertex], static_cast<std::uint8_t>(StateOn(goal.Surface)));
+  this->Goals[vertex] = goal.Point;
   if (this->AreAllRound(vertex) &&
     this->Links.CanBeOn(vertex, goal.Surface, state == BetweenSurfaces))
   {
@@ -215,15 +305,15 @@ Corners MovedVertices::CornersOf(std::uint32_t tetrahedron, const PatchTetrahedr
 double MovedVertices::SineOf(std::uint32_t tetrahedron, const PatchTetrahedron& piece) const
 {
   const Corners points = this->CornersOf(tetrahedron, piece);
-  return SmallestSine(this->Mesh.PointAt(points[0]), this->Mesh.PointAt(points[1]),
-    this->Mesh.PointAt(points[2]), this->Mesh.PointAt(points[3]));
+  return SmallestSine(this->Places[points[0]], this->Places[points[1]], this->Places[points[2]],
+    this->Places[points[3]]);
 }
 
 /** Of several ways to cut a leaf, the one whose worst piece is best; where it is pinned, the one
  *  that is measured. */
 std::uint8_t MovedVertices::BestPatch(std::uint32_t tetrahedron) const
 {
-  if (PinsOf(this->Mesh.Leaves(), tetrahedron) > 0)
+  if (this->IsPinned(tetrahedron))
   {
     return MeasuredPatch;
   }
@@ -288,9 +378,29 @@ void MovedVertices::AddPieces(
   }
 }
 
+/** Adds what was pushed. @return new ids, by point; points that were not pushed keep theirs */
+std::vector<std::uint32_t> MovedVertices::AddPushed(TetrahedronMesh& mesh) const
+{
+  std::vector<std::uint32_t> ids(this->Places.size());
+  std::iota(ids.begin(), ids.end(), 0U);
+  for (std::uint32_t point = 0; point < ids.size(); ++point)
+  {
+    if (this->Places[point] != this->Mesh.PointAt(point))
+    {
+      ids[point] = static_cast<std::uint32_t>(mesh.Positions.size());
+      mesh.Positions.push_back(this->Places[point]);
+      mesh.Surfaces.push_back(mesh.Surfaces[point]);
+      mesh.OnWalls.push_back(mesh.OnWalls[point]);
+      mesh.Blended.push_back({ ids[point], { { point, 1.0 } } });
+    }
+  }
+  return ids;
+}
+
 TetrahedronMesh MovedVertices::Cut(const ParallelFor& parallelFor) const
 {
   TetrahedronMesh mesh = this->PlacedPoints();
+  const std::vector<std::uint32_t> ids = this->AddPushed(mesh);
   const auto count = static_cast<std::uint32_t>(this->Mesh.Leaves().Tetrahedra.size());
   std::vector<std::uint8_t> best(count);
   ForEachIndex(parallelFor, count, LeastRange,
@@ -298,6 +408,11 @@ TetrahedronMesh MovedVertices::Cut(const ParallelFor& parallelFor) const
   for (std::uint32_t i = 0; i < count; ++i)
   {
     this->AddPieces(i, best[i], mesh);
+  }
+  for (Corners& corners : mesh.Tetrahedra)
+  {
+    std::transform(corners.begin(), corners.end(), corners.begin(),
+      [&](std::uint32_t point) { return ids[point]; });
   }
   return mesh;
 }

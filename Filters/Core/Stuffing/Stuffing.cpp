@@ -130,7 +130,8 @@ struct BothMeshes
   TetrahedronMesh Plain; ///< if it is wanted
   TetrahedronMesh Stuffed;
 };
-BothMeshes CutLeaves(const Background& background, bool withPlain, const ParallelFor& parallelFor)
+BothMeshes CutLeaves(
+  const Background& background, bool withPlain, double mostPush, const ParallelFor& parallelFor)
 {
   MovedVertices vertices(background);
   BothMeshes meshes;
@@ -139,6 +140,7 @@ BothMeshes CutLeaves(const Background& background, bool withPlain, const Paralle
     meshes.Plain = vertices.CutAsMeasured();
   }
   vertices.MoveAll(parallelFor);
+  vertices.PushAll(mostPush);
   meshes.Stuffed = vertices.Cut(parallelFor);
   return meshes;
 }
@@ -207,7 +209,7 @@ std::vector<std::uint32_t> LeavesOfBad(const CutMesh& leaves, const TetrahedronM
 std::vector<std::uint32_t> FarLeaves(const StuffingInput& input, const ParallelFor& parallelFor)
 {
   CheckLeaves(input.Leaves, parallelFor);
-  const BothMeshes meshes = CutLeaves(BackgroundOf(input), true, parallelFor);
+  const BothMeshes meshes = CutLeaves(BackgroundOf(input), true, input.SurfaceMove, parallelFor);
   const std::vector<bool> canBeNearer = CanBeNearer(input, false);
   std::vector<std::uint32_t> leaves =
     FarLeaves(meshes.Stuffed, { meshes.Plain, input.Allowances, canBeNearer }, parallelFor);
@@ -223,7 +225,7 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   const Background background = BackgroundOf(input);
   const bool isMeasured = !input.Allowances.empty();
   const bool getsCoarser = isMeasured && input.GetsCoarser;
-  const BothMeshes meshes = CutLeaves(background, isMeasured, parallelFor);
+  const BothMeshes meshes = CutLeaves(background, isMeasured, input.SurfaceMove, parallelFor);
   ImprovementOptions options;
   options.WantedAngle = WantedAngle;
   options.SurfaceMove = input.SurfaceMove;
