@@ -10,6 +10,7 @@
 #include "Stuffing/Detours.h"
 #include "Stuffing/Improvement.h"
 #include "Stuffing/LocalMesh.h"
+#include "Stuffing/ReturnedPoints.h"
 #include "Stuffing/RingFilling.h"
 #include "Stuffing/SurfaceChanges.h"
 #include "Stuffing/SurfaceLinks.h"
@@ -505,6 +506,32 @@ TEST(Improvement, ShiftsPointsOfSurfacesIfNothingElseHelps)
   EXPECT_GT(DihedralAngles(aside)[0], DihedralAngles(flat)[0]);
   options.CutEdges.clear();
   EXPECT_EQ(Improve(flat, options, SerialFor).Positions.size(), 4U);
+}
+
+TEST(ReturnedPoints, AreThoseOfSurfacesThatFoldNothingAndLeaveGoodTetrahedra)
+{
+  const std::vector<Vector> base = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 } };
+  const auto doesReturn = [&](const Vector& source, std::int8_t surface, double wanted)
+  {
+    std::vector<Vector> points = base;
+    points.push_back(source);
+    points.push_back({ 0.3, 0.3, 1.0 }); // where it is now
+    TetrahedronMesh mesh = MeshOf(points, { { 0, 1, 2, 4 } });
+    mesh.Surfaces[3] = surface;
+    mesh.Surfaces[4] = surface;
+    mesh.Blended.push_back({ 4, { { 3, 1.0 } } });
+    return Has(ReturnPoints(mesh, wanted).Tetrahedra.at(0), 3);
+  };
+  const Vector below = { 0.3, 0.3, 0.5 };
+  const double sine = WorstSine({ base[0], base[1], base[2], below }, { { 0, 1, 2, 3 } });
+  for (const std::int8_t surface : { -1, 1 })
+  {
+    EXPECT_TRUE(doesReturn(below, surface, 0.999 * sine));
+    EXPECT_FALSE(doesReturn(below, surface, 1.001 * sine));
+    EXPECT_TRUE(doesReturn({ 0.5, 0.5, 0.6 }, surface, 0.0));
+    EXPECT_FALSE(doesReturn({ 2.0, 2.0, 0.3 }, surface, 0.0)); // folds one triangle
+  }
+  EXPECT_FALSE(doesReturn(below, 0, 0.999 * sine));
 }
 
 TEST(LocalMesh, FindsRings)

@@ -31,12 +31,10 @@ bool CanReturn(const LocalMesh& mesh, std::uint32_t point, std::uint32_t source,
 
 TetrahedronMesh ReturnPoints(TetrahedronMesh mesh, double wanted)
 {
-  const auto isMoved = [&](const BlendedPoint& blended)
-  { return mesh.Surfaces[blended.Point] != 0; };
   std::vector<std::uint32_t> moved;
   for (const BlendedPoint& blended : mesh.Blended)
   {
-    if (isMoved(blended))
+    if (mesh.Surfaces[blended.Point] != 0)
     {
       moved.push_back(blended.Point);
     }
