@@ -180,7 +180,7 @@ std::vector<isodiamond::Place> Leaves::Diamonds(std::size_t step) const
   return places;
 }
 
-TetrahedronMesh Leaves::Moved() const
+TetrahedronMesh Leaves::Moved(double mostPush, const std::vector<double>& mostMoves) const
 {
   const std::vector<Vector> vertices = VerticesInWorld(this->Mesh, AffineMap());
   std::vector<Walls::Type> walls;
@@ -188,9 +188,10 @@ TetrahedronMesh Leaves::Moved() const
   {
     walls.push_back(Walls::At(vertex, this->SampleGrid));
   }
-  const Background background(this->Mesh, vertices, walls, this->Points, false);
+  const Background background(this->Mesh, vertices, walls, this->Points, false, mostMoves);
   MovedVertices moved(background);
   moved.MoveAll(SerialFor);
+  moved.PushAll(mostPush);
   return moved.Cut(SerialFor);
 }
 

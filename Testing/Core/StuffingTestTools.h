@@ -67,8 +67,10 @@ struct Leaves
   /** The diamonds that some leaves lie in: one in so many. */
   std::vector<isodiamond::Place> Diamonds(std::size_t step) const;
 
-  /** As tetrahedra, with vertices moved onto the surfaces, and not improved. */
-  isodiamond::TetrahedronMesh Moved() const;
+  /** As tetrahedra, with vertices moved onto the surfaces, and not improved.
+   *  @param mostPush how far isovertices may be pushed @param mostMoves by vertex, or none */
+  isodiamond::TetrahedronMesh Moved(
+    double mostPush = 0.0, const std::vector<double>& mostMoves = {}) const;
 
   const isodiamond::Grid& SampleGrid;
   std::vector<isodiamond::Vector> Points;
