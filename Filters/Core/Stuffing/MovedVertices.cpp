@@ -87,8 +87,8 @@ void MovedVertices::PushAll(double most)
     }
     for (const std::uint32_t point : this->Mesh.CrossingsAt(vertex))
     {
-      const int surface = this->Mesh.AllCrossings()[point].Surface;
-      if (this->IsCut(vertex, this->OtherEnd(point, vertex), surface) &&
+      const Crossing& crossing = this->Mesh.AllCrossings()[point];
+      if (this->IsCut(vertex, this->OtherEnd(point, vertex), crossing.Surface) &&
         this->PartOfEdge(point, vertex) < PushedPart)
       {
         this->Push(point, vertex, most);
