@@ -118,15 +118,16 @@ private:
   std::vector<Node> Nodes;
 };
 
-/** Around all triangles of a mesh. */
-inline BoundsTree TreeOf(
-  const std::vector<Vector>& positions, const std::vector<Triangle>& triangles)
+/** Around all triangles of a mesh.
+ *  @param reaches by triangle: how far beyond it its bounds reach; 0 if there are none */
+inline BoundsTree TreeOf(const std::vector<Vector>& positions,
+  const std::vector<Triangle>& triangles, const std::vector<double>& reaches = {})
 {
   std::vector<Bounds> bounds;
   bounds.reserve(triangles.size());
-  for (const Triangle& triangle : triangles)
+  for (std::size_t i = 0; i < triangles.size(); ++i)
   {
-    bounds.push_back(BoundsOf(positions, triangle));
+    bounds.push_back(BoundsOf(positions, triangles[i]).Grown(reaches.empty() ? 0.0 : reaches[i]));
   }
   return BoundsTree(std::move(bounds));
 }

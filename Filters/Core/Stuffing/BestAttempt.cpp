@@ -96,7 +96,10 @@ BestAttempt::Attempt BestAttempt::Try()
       attempt.Bad = this->CountBad(attempt.Mesh);
     }
   }
-  attempt.Mesh = ReturnPoints(std::move(attempt.Mesh), WantedSine(this->Options));
+  if (attempt.FarLeaves.empty()) // else there will be another mesh
+  {
+    attempt.Mesh = ReturnPoints(std::move(attempt.Mesh), WantedSine(this->Options));
+  }
   return attempt;
 }
 

@@ -255,11 +255,11 @@ bool MovedVertices::ArePiecesPositive(std::uint32_t tetrahedron) const
 bool MovedVertices::TryToMove(const Goal& goal)
 {
   const std::uint32_t vertex = goal.Vertex;
+  const std::uint8_t state = this->States[vertex];
   const Vector position = this->Positions[vertex];
-  this->Positions[vertex] = this->Mesh.PointAt(goal.Point);
-  const std::uint8_t state =
-    std::exchange(this->States[vertex], static_cast<std::uint8_t>(StateOn(goal.Surface)));
+  this->States[vertex] = static_cast<std::uint8_t>(StateOn(goal.Surface));
   this->Goals[vertex] = goal.Point;
+  this->Positions[vertex] = this->Mesh.PointAt(goal.Point);
   if (this->AreAllRound(vertex) &&
     this->Links.CanBeOn(vertex, goal.Surface, state == BetweenSurfaces))
   {

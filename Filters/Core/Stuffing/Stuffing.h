@@ -46,13 +46,14 @@ struct StuffingInput
 /**
  * An interval volume, as tetrahedra without very small or large dihedral angles.
  *
- * Vertices that are near to a surface move onto it before the leaves are cut (MovedVertices.h);
- * then the few tetrahedra that are still bad are improved one by one (Improvement.h). Points are
- * some of those that the volume's mesh would otherwise have; a few inside are moved or added, and
- * fewer still move off their surface, by a quarter of their edge at most. Tetrahedra are positive
- * and conforming; surfaces keep their topology, and do not intersect unless there is no room for
- * the wanted angles otherwise (BestAttempt.h). The wanted angles, 15 to 165 degrees, are no
- * promise: where so much is bad that the search gives up, some that are worse are left.
+ * Vertices that are near to a surface move onto it before the leaves are cut, or it is pushed away
+ * from those that must stay (MovedVertices.h, ReturnedPoints.h); then the few tetrahedra that are
+ * still bad are improved one by one (Improvement.h). Points are some of those that the volume's
+ * mesh would otherwise have; a few inside are moved or added, and fewer still move off their
+ * surface, by a quarter of their edge at most. Tetrahedra are positive and conforming; surfaces
+ * keep their topology, and do not intersect unless there is no room for the wanted angles otherwise
+ * (BestAttempt.h). The wanted angles, 15 to 165 degrees, are no promise: where so much is bad that
+ * the search gives up, some that are worse are left.
  *
  * If there are allowances, the surfaces are measured; where they are too far away, the caller has
  * to refine, or, where leaves cannot be finer, to pin their vertices: then surfaces move less

@@ -37,7 +37,7 @@ public:
   TrianglesAround(
     const std::vector<Vector>& positions, const LinkedTriangles& mesh, std::vector<double> reaches)
     : Reaches(std::move(reaches))
-    , Tree(BoundsOfReaches(positions, mesh.Triangles))
+    , Tree(TreeOf(positions, mesh.Triangles, this->Reaches))
     , Cover(positions, mesh)
   {
   }
@@ -64,18 +64,6 @@ public:
   }
 
 private:
-  std::vector<Bounds> BoundsOfReaches(
-    const std::vector<Vector>& positions, const std::vector<Triangle>& triangles) const
-  {
-    std::vector<Bounds> bounds;
-    bounds.reserve(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-    {
-      bounds.push_back(BoundsOf(positions, triangles[i]).Grown(this->Reaches[i]));
-    }
-    return bounds;
-  }
-
   std::vector<double> Reaches;
   BoundsTree Tree;
   Covering Cover;
