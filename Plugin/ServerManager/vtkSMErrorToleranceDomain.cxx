@@ -46,6 +46,12 @@ void vtkSMErrorToleranceDomain::Update(vtkSMProperty*)
 }
 
 //------------------------------------------------------------------------------
+int vtkSMErrorToleranceDomain::SetDefaultValues(vtkSMProperty*, bool)
+{
+  return 0;
+}
+
+//------------------------------------------------------------------------------
 double vtkSMErrorToleranceDomain::FindLargest()
 {
   vtkPVDataInformation* input = this->GetInputDataInformation("Input");

@@ -28,6 +28,9 @@ public:
   /** Looks at the required properties again. */
   void Update(vtkSMProperty* changed) override;
 
+  /** Leaves the default to the property: full resolution, not the middle of the range. */
+  int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
+
 protected:
   vtkSMErrorToleranceDomain();
   ~vtkSMErrorToleranceDomain() override;

@@ -38,6 +38,10 @@ extent = high - low
 contour = IsodiamondContour(wavelet)
 assert list(contour.ContourBy) == ["POINTS", "RTData"], contour.ContourBy
 assert list(contour.Isosurfaces) == [160], contour.Isosurfaces  # the array: 37.4 to 276.8
+
+# What the panel's button for default values does.
+contour.SMProxy.GetProperty("ErrorTolerance").ResetToDefault()
+assert contour.ErrorTolerance == 0, contour.ErrorTolerance
 assert contour.ErrorTolerance == 0 and contour.ToleranceUnit == "World Units"
 assert contour.TargetNumberOfTriangles == 0 and contour.ComputeScalars == 1
 assert contour.ErrorMetric == "Distance" and contour.ExactIsovertices and contour.PreserveFeatures
