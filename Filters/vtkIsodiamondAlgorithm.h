@@ -50,10 +50,11 @@ public:
   ///@{
   /**
    * If not 0, this replaces ErrorTolerance with the smallest tolerance that gives no more triangles
-   * (tetrahedra for an interval volume) than this, over all isovalues together; if even the
-   * coarsest mesh has more, you get that mesh and a warning. With composite inputs it applies to
-   * each block. With a region of interest or a viewpoint, and for an HD, the tolerance is found by
-   * 14 queries; with SimulationQuality, by making several meshes. Default: 0.
+   * (tetrahedra for an interval volume) than this, over all isovalues together; if none does, you
+   * get the mesh with the fewest and a warning. With composite inputs it applies to each block.
+   * With a region of interest or a viewpoint, and for an HD, the tolerance is found by 14 queries;
+   * with Simplify or SimulationQuality, where coarser meshes can have more cells, by making some
+   * ten meshes. Default: 0.
    */
   vtkSetClampMacro(TargetNumberOfTriangles, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(TargetNumberOfTriangles, vtkIdType);
@@ -102,8 +103,8 @@ public:
    *  bound, but hardly more than it is. Mostly 0; more in noise, where good angles leave no choice,
    *  and at a tolerance of 0, where vertices have to move as well. NaN where it is not measured:
    *  with the field metric unless the tolerance is 0, and where an edge has more than two
-   * triangles. Else each mesh has its own in its field data, under this name. 0 if there is no such
-   * mesh. */
+   * triangles. Each of the two surfaces counts for itself. Else each mesh has its own in its field
+   * data, under this name. 0 if there is no such mesh. */
   vtkGetMacro(ToleranceExcess, double);
 
   ///@{

@@ -279,14 +279,18 @@ int vtkIsodiamondExtractor::RequestData(
                                     "poly data are for isosurfaces.");
       }
       std::optional<vtkIsodiamond::CountedTolerance> aimed;
+      double refiningBegins = 0.2;
       if (this->TargetNumberOfTriangles > 0)
       {
-        task.Begin("Finding the tolerance", 0.2, 0.3);
-        aimed = this->Aim(*execution->State, query, task);
+        refiningBegins = vtkIsodiamond::IsCountedByTrial(query) ? 0.8 : 0.3;
+        vtkIsodiamond::Task aiming = task.Part(0.2, refiningBegins);
+        aiming.Begin("Finding the tolerance", 0.0, 1.0);
+        aimed = this->Aim(*execution->State, query, aiming);
         query.SetFound(aimed->Tolerance);
       }
-      task.Begin("Refining", 0.3, 0.5);
-      vtkIsodiamond::Task writing = task.Part(0.5, 1.0);
+      const double writingBegins = refiningBegins + 0.3 * (1.0 - refiningBegins);
+      task.Begin("Refining", refiningBegins, writingBegins);
+      vtkIsodiamond::Task writing = task.Part(writingBegins, 1.0);
       execution->Query = this->GetExtracted(*execution->State, query);
       vtkIsodiamond::RefineState(*execution->State, execution->Query, this->NumberOfThreads,
         task.For(),
@@ -332,7 +336,7 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
   const isodiamond::ParallelFor parallelFor = task.For();
   vtkIsodiamond::CountedTolerance found;
   const bool isUniform = !query.Region && !query.View;
-  const bool getsCoarser = vtkIsodiamond::GetsCoarser(query, state.Metric);
+  const bool isByTrial = vtkIsodiamond::IsCountedByTrial(query);
   if (state.Isodiamonds && isUniform)
   {
     vtkIsodiamond::RunThreaded(this->NumberOfThreads,
@@ -343,35 +347,36 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondExtractor::Aim(const vtkIsodiamond:
         found = vtkIsodiamond::LeastTolerance({ &counts }, this->TargetNumberOfTriangles);
       });
   }
-  if (state.Isodiamonds && isUniform && !getsCoarser)
+  if (state.Isodiamonds && isUniform && !isByTrial)
   {
     return found;
   }
   const isodiamond::ErrorCode& codes =
     state.Isodiamonds ? state.Isodiamonds->Codes() : state.Scalars->Codes();
   vtkIsodiamond::WorldQuery tried = query;
-  vtkIsodiamond::Task counting = task.Part(1.0, 1.0);
+  vtkIsodiamond::Rounds rounds(task, 0.0, vtkIsodiamond::PartOfTrial);
   const auto cellsAt = [&](double tolerance)
   {
+    vtkIsodiamond::Task counting = rounds.Next();
     tried.SetFound(tolerance);
     std::int64_t cells = 0;
     vtkIsodiamond::RefineState(state, this->GetExtracted(state, tried), this->NumberOfThreads,
       parallelFor,
       [&](const isodiamond::RefinedSet& refined)
       {
-        cells = getsCoarser
+        cells = isByTrial
           ? this->MakeMesh(state, tried, refined, {}, counting).Cells->GetNumberOfCells()
           : isodiamond::CountCells(refined, parallelFor);
       });
     return cells;
   };
-  if (!getsCoarser)
+  if (!isByTrial)
   {
     return vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles, cellsAt);
   }
   const double guess = isUniform ? found.Tolerance : 0.01 * codes.Scale();
   return vtkIsodiamond::LeastToleranceBelow(guess,
-    vtkIsodiamond::CoarsestTolerance(query, codes.Scale(), state.World),
+    vtkIsodiamond::CoarsestTolerance(query, state.Metric, codes.Scale(), state.World),
     this->TargetNumberOfTriangles, cellsAt);
 }
 

@@ -46,7 +46,8 @@ bool AreVolumes(const std::vector<isodiamond::Isoregion>& regions)
 /** Which hierarchy a query needs. */
 vtkIsodiamond::Cache::Need NeedOf(const vtkIsodiamond::WorldQuery& query)
 {
-  vtkIsodiamond::Cache::Need need{ !query.IsFull(), query.RefinesInterior };
+  vtkIsodiamond::Cache::Need need{ !query.IsFull(), query.RefinesInterior,
+    query.SimulationQuality };
   // Tetrahedra for simulations are refined once more where they are too far away.
   if (need.AllErrors && query.OneTolerance && !query.HasTarget && !query.SimulationQuality &&
     !query.RefinesInterior)
@@ -340,19 +341,19 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
   const vtkIsodiamond::Cache::Need need = NeedOf(query);
   std::vector<const isodiamond::IsodiamondHierarchy*> hierarchies;
   std::vector<const isodiamond::CellCounts*> counts;
+  const bool isByTrial = vtkIsodiamond::IsCountedByTrial(query);
+  const double buildPart = isByTrial ? 0.4 : 1.0;
   for (std::size_t i = 0; i < regions.size(); ++i)
   {
-    const auto count = static_cast<double>(regions.size());
-    vtkIsodiamond::Task part = task.Part(i / count, (i + 1) / count);
+    const double share = buildPart / static_cast<double>(regions.size());
+    vtkIsodiamond::Task part = task.Part(i * share, (i + 1) * share);
     hierarchies.push_back(&this->Hierarchies->Get(volume, regions[i], need, part));
     counts.push_back(
       &this->Hierarchies->Count(volume, regions[i], need, query.InteriorTolerance, part));
   }
   // Counts are those of uniform meshes of the whole grid.
   const bool isCounted = !query.Region && !query.View && !volume.Hidden.Any();
-  const bool getsCoarser =
-    !hierarchies.empty() && vtkIsodiamond::GetsCoarser(query, hierarchies.front()->Header().Metric);
-  if (hierarchies.empty() || (isCounted && !getsCoarser))
+  if (hierarchies.empty() || (isCounted && !isByTrial))
   {
     return vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles);
   }
@@ -361,9 +362,10 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
   options.PointsPrecision = this->OutputPointsPrecision;
   options.Hidden = &volume.Hidden;
   vtkIsodiamond::WorldQuery tried = query;
-  vtkIsodiamond::Task counting = task.Part(1.0, 1.0);
+  vtkIsodiamond::Rounds rounds(task, buildPart, vtkIsodiamond::PartOfTrial);
   const auto cellsAt = [&](double tolerance)
   {
+    vtkIsodiamond::Task counting = rounds.Next();
     tried.SetFound(tolerance);
     std::int64_t cells = 0;
     for (const isodiamond::IsodiamondHierarchy* hierarchy : hierarchies)
@@ -373,10 +375,11 @@ vtkIsodiamond::CountedTolerance vtkIsodiamondVolumeAlgorithm::Aim(
     return cells;
   };
   const isodiamond::ErrorCode& codes = hierarchies.front()->Codes();
-  return getsCoarser
+  return isByTrial
     ? vtkIsodiamond::LeastToleranceBelow(
         vtkIsodiamond::LeastTolerance(counts, this->TargetNumberOfTriangles).Tolerance,
-        vtkIsodiamond::CoarsestTolerance(query, codes.Scale(), volume.Placement.World),
+        vtkIsodiamond::CoarsestTolerance(
+          query, hierarchies.front()->Header().Metric, codes.Scale(), volume.Placement.World),
         this->TargetNumberOfTriangles, cellsAt)
     : vtkIsodiamond::LeastTolerance(codes, this->TargetNumberOfTriangles, cellsAt);
 }
@@ -399,7 +402,7 @@ void vtkIsodiamondVolumeAlgorithm::ExtractAtTolerance(const vtkIsodiamond::Volum
   this->Extract(volume, aimed, extracting, output);
   this->WriteTable(volume, query, unit, extracting, output);
   // AchievedTolerance, set as ErrorTolerance, has to give this mesh.
-  double achieved = aimed.ErrorTolerance / unit;
+  double achieved = found ? aimed.ErrorTolerance / unit : this->ErrorTolerance;
   while (achieved * unit < aimed.ErrorTolerance)
   {
     achieved = std::nextafter(achieved, HUGE_VAL);

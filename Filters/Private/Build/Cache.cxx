@@ -210,9 +210,11 @@ std::list<Cache::Entry>::iterator Cache::Find(const isodiamond::Isoregion& regio
     return std::find_if(this->Entries.begin(), this->Entries.end(),
       [&](const Entry& entry)
       {
-        // A hierarchy that can be refined inside need not be.
-        return entry.Region == region && (entry.RefineInterior || !need.RefinedInterior) &&
-          (entry.Staged ? mayBeStaged : mayBeDone) && entry.From == this->Current;
+        // A hierarchy that can be refined inside mostly need not be.
+        const bool fits = entry.RefineInterior == need.RefinedInterior ||
+          (entry.RefineInterior && !need.DependsOnInterior);
+        return entry.Region == region && fits && (entry.Staged ? mayBeStaged : mayBeDone) &&
+          entry.From == this->Current;
       });
   };
   // A lone mesh must not depend on whether other errors are known.

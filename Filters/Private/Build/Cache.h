@@ -41,6 +41,9 @@ public:
   {
     bool AllErrors = true; ///< else the query is for full resolution, or for one mesh only
     bool RefinedInterior = false;
+    /** Whether one that is refined inside gives another mesh, even where nothing asks for that: so
+     *  do tetrahedra for simulations, which are refined where that is possible. */
+    bool DependsOnInterior = false;
     /** With the distance metric, without all errors: the query for that one mesh. Not for an
      *  interval volume with hidden cells, which is refined inside. */
     std::optional<WorldQuery> Only = std::nullopt;

@@ -58,6 +58,32 @@ private:
   std::chrono::steady_clock::time_point Told;
 };
 
+/** Parts of a task for work that is repeated nobody knows how often: each time it gets the same
+ * part of what is left. */
+class Rounds
+{
+public:
+  /** @param whole must outlive it @param begin where the first one begins, 0 to 1 */
+  Rounds(const Task& whole, double begin, double part)
+    : Whole(whole)
+    , Done(begin)
+    , PartOfRest(part)
+  {
+  }
+
+  Task Next()
+  {
+    const double begin =
+      std::exchange(this->Done, this->Done + this->PartOfRest * (1.0 - this->Done));
+    return this->Whole.Part(begin, this->Done);
+  }
+
+private:
+  const Task& Whole;
+  double Done;
+  double PartOfRest;
+};
+
 /** To be called within a catch: tells a filter's user what went wrong, unless it was an abort. No
  *  exception leaves it. */
 void ReportException(vtkAlgorithm* filter) noexcept;

@@ -34,11 +34,12 @@ double PartForHierarchy(
                     : std::min(LargestPartOfSimplify, 0.4 * tolerance / world.SmallestStep());
 }
 
-double CoarsestTolerance(
-  const WorldQuery& query, double scale, const isodiamond::GridGeometry& world)
+double CoarsestTolerance(const WorldQuery& query, isodiamond::ErrorMetric metric, double scale,
+  const isodiamond::GridGeometry& world)
 {
   double tolerance = scale;
-  while (tolerance * PartForHierarchy(query, tolerance, world) < scale)
+  while (
+    GetsCoarser(query, metric) && tolerance * PartForHierarchy(query, tolerance, world) < scale)
   {
     tolerance *= 2.0;
   }

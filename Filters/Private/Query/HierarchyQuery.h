@@ -16,6 +16,13 @@ namespace vtkIsodiamond
  *  simulations. */
 bool GetsCoarser(const WorldQuery& query, isodiamond::ErrorMetric metric);
 
+/** Whether only a trial tells how many cells a mesh has: it is made coarser, or consists of
+ *  tetrahedra for simulations. */
+inline bool IsCountedByTrial(const WorldQuery& query)
+{
+  return query.Simplify || query.SimulationQuality;
+}
+
 /** The part of a tolerance that the hierarchy gets. The more is left, the fewer cells result, and
  *  the longer it takes. */
 double PartForHierarchy(
@@ -23,8 +30,8 @@ double PartForHierarchy(
 
 /** A tolerance that leaves the hierarchy one at which its mesh is the coarsest.
  *  @param scale of the hierarchy's errors */
-double CoarsestTolerance(
-  const WorldQuery& query, double scale, const isodiamond::GridGeometry& world);
+double CoarsestTolerance(const WorldQuery& query, isodiamond::ErrorMetric metric, double scale,
+  const isodiamond::GridGeometry& world);
 
 /** The query whose mesh is then made coarser; the given one if its mesh is not. */
 WorldQuery HierarchyQuery(

@@ -114,8 +114,9 @@ CountedTolerance LeastTolerance(const ErrorCode& codes, std::int64_t target,
 namespace
 {
 
-/** Tolerances that differ by a factor. */
+/** Tolerances that differ by a factor, and by less, where no other one has few enough cells. */
 constexpr double TargetStep = 4.0;
+constexpr double SmallTargetStep = 1.5;
 
 /** Tolerances that have been tried, of which the best one is kept. */
 class Trials
@@ -167,6 +168,17 @@ CountedTolerance FirstWithFew(double& many, const CountedTolerance& last, Trials
   return last;
 }
 
+/** Tries what is between two tolerances with too many cells, until one has few enough. */
+CountedTolerance BestBetween(double least, double most, Trials& trials)
+{
+  for (double tolerance = most / SmallTargetStep;
+       tolerance > least && !trials.HasFew(trials.Best()); tolerance /= SmallTargetStep)
+  {
+    trials.At(tolerance);
+  }
+  return trials.Best();
+}
+
 /** Goes down as long as there are few cells; down to 0, if need be: below some tolerance,
  *  triangles for simulations no longer increase. @param many afterwards a tolerance with too many
  *  cells, or one that is low enough; 0 if 0 has few */
@@ -200,14 +212,19 @@ CountedTolerance LeastToleranceBelow(double guess, double largest, std::int64_t 
   if (!trials.HasFew(few))
   {
     // A coarser mesh can have a few more cells: what is between is tried even if the last has many.
-    many = few.Tolerance > 0.0 ? few.Tolerance : leastPart * largest;
+    const double least = few.Tolerance > 0.0 ? few.Tolerance : leastPart * largest;
+    many = least;
     few = FirstWithFew(many, trials.At(largest), trials);
+    if (!trials.HasFew(few))
+    {
+      return BestBetween(least, largest, trials);
+    }
   }
   else if (few.Tolerance > 0.0)
   {
     few = LastWithFew(few, trials, many);
   }
-  for (int i = 0; i < bisections && many > 0.0 && trials.HasFew(few); ++i)
+  for (int i = 0; i < bisections && many > 0.0; ++i)
   {
     const CountedTolerance tried = trials.At(std::sqrt(many * few.Tolerance));
     if (trials.HasFew(tried))
@@ -227,9 +244,10 @@ void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64
   if (found.Cells > target)
   {
     vtkWarningWithObjectMacro(filter,
-      "The coarsest mesh has " << found.Cells << " cells, more than the target of " << target
-                               << ". PreserveTopology and PreserveFeatures keep what a coarser one "
-                               << "would lose; MinimumPieceSize removes specks.");
+      "The mesh has " << found.Cells
+                      << " cells, and no coarser one was found: more than the target of " << target
+                      << ". PreserveTopology and PreserveFeatures keep what a coarser one "
+                      << "would lose; MinimumPieceSize removes specks.");
   }
 }
 

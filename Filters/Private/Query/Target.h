@@ -39,8 +39,9 @@ CountedTolerance LeastTolerance(const isodiamond::ErrorCode& codes, std::int64_t
   const std::function<std::int64_t(double tolerance)>& cellsAt);
 
 /**
- * The same for meshes that are simplified, whose number of cells only trials reveal: to about 2 %
- * of the tolerance.
+ * The same for meshes that are simplified, or made for simulations, whose number of cells only
+ * trials reveal: to about 2 % of the tolerance. A coarser mesh can have more cells: a tolerance
+ * with few enough, between those that are tried, may be missed.
  *
  * @param guess the tolerance that would be found without simplification; most likely more than the
  *        result
@@ -49,7 +50,10 @@ CountedTolerance LeastTolerance(const isodiamond::ErrorCode& codes, std::int64_t
 CountedTolerance LeastToleranceBelow(double guess, double largest, std::int64_t target,
   const std::function<std::int64_t(double tolerance)>& cellsAt);
 
-/** Warns if even the coarsest mesh has more cells than the target. */
+/** Of progress: one trial, of what is left. */
+constexpr double PartOfTrial = 0.15;
+
+/** Warns if the mesh has more cells than the target. */
 void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64_t target);
 
 /**
