@@ -944,6 +944,43 @@ TEST(MeasuredSurfaces, IsNotMuchMoreOnSteepSurfaces)
   }
 }
 
+// What was the lower surface is gone, but the upper one is where it was.
+TEST(MeasuredSurfaces, IsThatOfTheSameSurface)
+{
+  constexpr double lower = 0.0;
+  constexpr double upper = 0.25;
+  constexpr double moved = 3.0;
+  TetrahedronMesh plain;
+  TetrahedronMesh stuffed;
+  const auto addTetrahedron = [](TetrahedronMesh& mesh, const std::array<double, 2>& heights)
+  {
+    const auto first = static_cast<std::uint32_t>(mesh.Positions.size());
+    const std::int8_t surface = heights[0] < heights[1] ? -1 : 1;
+    for (const Vector& corner : { Vector{ 0.0, 0.0, heights[0] }, Vector{ 4.0, 0.0, heights[0] },
+           Vector{ 0.0, 4.0, heights[0] }, Vector{ 1.0, 1.0, heights[1] } })
+    {
+      mesh.Positions.push_back(corner);
+      mesh.Surfaces.push_back(corner[2] == heights[0] ? surface : std::int8_t{ 0 });
+      mesh.OnWalls.push_back(0);
+    }
+    return first;
+  };
+  // Both meshes on the same points: below, above, and below where it is moved to.
+  const std::uint32_t first = addTetrahedron(plain, { lower, 9.0 });
+  const std::uint32_t second = addTetrahedron(plain, { upper, -9.0 });
+  const std::uint32_t third = addTetrahedron(plain, { -moved, 9.0 });
+  stuffed = plain;
+  for (auto& [mesh, low] : { std::pair(&plain, first), std::pair(&stuffed, third) })
+  {
+    mesh->Tetrahedra = { { low, low + 1, low + 2, low + 3 },
+      { second, second + 1, second + 2, second + 3 } };
+    mesh->Origins = { 0, 0 };
+  }
+  constexpr double allowance = 0.5;
+  EXPECT_NEAR(allowance + ToleranceExcess(plain, stuffed, { allowance }, 0.25, SerialFor), moved,
+    moved / 8.0);
+}
+
 TEST(LocalMesh, CollapsesOnlyWhatKeepsTheTopology)
 {
   // All collapses that are allowed, each on a mesh of its own; others are refused.

@@ -11,8 +11,9 @@
  * @file Parallel.h
  * The core starts no threads of its own: it is given its parallel-for.
  *
- * Every use in the core is a loop over independent ranges that write to places of their own
- * (count -> prefix sum -> write), so results do not depend on how the ranges are cut or run.
+ * Its uses in the core are loops over independent ranges that write to places of their own
+ * (count -> prefix sum -> write), so results do not depend on how the ranges are cut or run; or
+ * serial work in steps, which can report progress and be aborted.
  */
 namespace isodiamond
 {

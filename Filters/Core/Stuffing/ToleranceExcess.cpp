@@ -18,8 +18,9 @@ namespace isodiamond
 namespace
 {
 
-/** How often a length is doubled until it suffices. */
-constexpr int MostDoublings = 8;
+/** The first length that is tried where the grid has no smallest step, as a part of the bounds'
+ *  diagonal. It is doubled until it suffices. */
+constexpr double LeastPart = 1.0 / 1024.0;
 
 /** How often what is between a length that suffices and one that does not is halved. */
 constexpr int Halvings = 4;
@@ -32,21 +33,26 @@ constexpr int MostCuts = 5;
 class TrianglesAround
 {
 public:
-  /** @param reaches by triangle: how far away something may be that is near to it, besides what is
+  /** @param surfaces by point: which of the two it is on
+   *  @param reaches by triangle: how far away something may be that is near to it, besides what is
    *         added when it is asked for */
-  TrianglesAround(
-    const std::vector<Vector>& positions, const LinkedTriangles& mesh, std::vector<double> reaches)
-    : Reaches(std::move(reaches))
+  TrianglesAround(const std::vector<Vector>& positions, const std::vector<std::int8_t>& surfaces,
+    const LinkedTriangles& mesh, std::vector<double> reaches)
+    : Mesh(mesh)
+    , Surfaces(surfaces)
+    , Reaches(std::move(reaches))
     , Tree(TreeOf(positions, mesh.Triangles, this->Reaches))
     , Cover(positions, mesh)
   {
   }
 
-  /** Whether each place of another triangle is near to one of them.
+  /** Whether each place of another triangle is near to one of them on the same surface.
+   *  @param surface that it is on
    *  @param more what is added to their reaches
    *  @param allowanceOf (triangle) -> how far away from it a place may be, if it is in reach */
   template <typename AllowanceOf>
-  bool AreNear(const std::array<Vector, 3>& corners, double more, const AllowanceOf& allowanceOf)
+  bool AreNear(const std::array<Vector, 3>& corners, std::int8_t surface, double more,
+    const AllowanceOf& allowanceOf)
   {
     Bounds bounds;
     for (const Vector& corner : corners)
@@ -54,8 +60,14 @@ public:
       bounds.Add(corner);
     }
     std::vector<std::uint32_t> around;
-    this->Tree.ForEachAt(
-      bounds.Grown(more), [&](std::uint32_t triangle) { around.push_back(triangle); });
+    this->Tree.ForEachAt(bounds.Grown(more),
+      [&](std::uint32_t triangle)
+      {
+        if (this->Surfaces[this->Mesh.Triangles[triangle][0]] == surface)
+        {
+          around.push_back(triangle);
+        }
+      });
     return this->Cover.IsNearAround(
       corners, around, [&](std::uint32_t triangle) { return this->Reaches[triangle] + more; },
       MostCuts,
@@ -64,6 +76,8 @@ public:
   }
 
 private:
+  const LinkedTriangles& Mesh;
+  const std::vector<std::int8_t>& Surfaces;
   std::vector<double> Reaches;
   BoundsTree Tree;
   Covering Cover;
@@ -74,8 +88,11 @@ private:
 class LongerAllowances
 {
 public:
-  LongerAllowances(MeasuredSurfaces& surfaces, const ParallelFor& parallelFor)
+  /** @param onSurfaces by point */
+  LongerAllowances(MeasuredSurfaces& surfaces, const std::vector<std::int8_t>& onSurfaces,
+    const ParallelFor& parallelFor)
     : Part(surfaces.Part)
+    , Surfaces(onSurfaces)
     , Allowed(surfaces.Part.Allowances)
     , Homes(surfaces.Homes())
     , ForAll(parallelFor)
@@ -122,7 +139,8 @@ private:
       const double allowance = this->Part.Allowances[i];
       far.IsAny = far.Near[i].empty() &&
         !this->AroundSimple().AreNear(this->Part.Original.Corners(this->Part.Positions, i),
-          allowance, [&](std::uint32_t) { return allowance; });
+          this->SurfaceOf(this->Part.Original, i), allowance,
+          [&](std::uint32_t) { return allowance; });
     }
   }
 
@@ -131,10 +149,16 @@ private:
     for (const std::uint32_t i : triangles)
     {
       far.Triangles[i] = far.Triangles[i] ||
-        !this->AroundOriginals().AreNear(this->Part.Simple.Corners(this->Part.Positions, i), length,
+        !this->AroundOriginals().AreNear(this->Part.Simple.Corners(this->Part.Positions, i),
+          this->SurfaceOf(this->Part.Simple, i), length,
           [&](std::uint32_t original) { return this->Part.Allowances[original]; });
       far.IsAny = far.IsAny || far.Triangles[i];
     }
+  }
+
+  std::int8_t SurfaceOf(const LinkedTriangles& mesh, std::uint32_t triangle) const
+  {
+    return this->Surfaces[mesh.Triangles[triangle][0]];
   }
 
   ///@{
@@ -144,7 +168,8 @@ private:
     if (!this->Simples)
     {
       const LinkedTriangles& mesh = this->Part.Simple;
-      this->Simples.emplace(this->Part.Positions, mesh, std::vector<double>(mesh.Triangles.size()));
+      this->Simples.emplace(
+        this->Part.Positions, this->Surfaces, mesh, std::vector<double>(mesh.Triangles.size()));
     }
     return *this->Simples;
   }
@@ -162,13 +187,15 @@ private:
       std::replace_if(
         reaches.begin(), reaches.end(), [](double reach) { return !std::isfinite(reach); },
         longest);
-      this->Originals.emplace(this->Part.Positions, this->Part.Original, std::move(reaches));
+      this->Originals.emplace(
+        this->Part.Positions, this->Surfaces, this->Part.Original, std::move(reaches));
     }
     return *this->Originals;
   }
   ///@}
 
   MeshPart& Part;
+  const std::vector<std::int8_t>& Surfaces; ///< by point
   const std::vector<double> Allowed;
   const std::vector<std::uint32_t> Homes;
   const ParallelFor& ForAll;
@@ -176,6 +203,22 @@ private:
   std::optional<TrianglesAround> Simples;
   std::optional<TrianglesAround> Originals;
 };
+
+/** Nothing is farther away. */
+double DiagonalOf(const std::vector<Vector>& positions)
+{
+  Vector least = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
+  Vector most = -1.0 * least;
+  for (const Vector& position : positions)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      least[axis] = std::min(least[axis], position[axis]);
+      most[axis] = std::max(most[axis], position[axis]);
+    }
+  }
+  return std::sqrt(Dot(most - least, most - least));
+}
 
 }
 
@@ -187,7 +230,7 @@ double ToleranceExcess(const TetrahedronMesh& plain, const TetrahedronMesh& stuf
   {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  LongerAllowances measure(surfaces, parallelFor);
+  LongerAllowances measure(surfaces, stuffed.Surfaces, parallelFor);
   double tooLittle = 0.0;
   LongerAllowances::Far far = measure.All();
   // If nothing is allowed, hardly anything is near.
@@ -212,10 +255,11 @@ double ToleranceExcess(const TetrahedronMesh& plain, const TetrahedronMesh& stuf
     far = std::move(left);
     return false;
   };
-  double enough = step;
-  for (int doubling = 0; !suffices(enough); ++doubling)
+  const double longest = DiagonalOf(stuffed.Positions);
+  double enough = step > 0.0 ? step : LeastPart * longest;
+  while (!suffices(enough))
   {
-    if (doubling == MostDoublings)
+    if (!(enough < longest && std::isfinite(longest)))
     {
       return HUGE_VAL;
     }
