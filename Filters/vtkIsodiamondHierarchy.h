@@ -6,7 +6,8 @@
  * What vtkIsodiamondBuilder makes and vtkIsodiamondExtractor reads. The geometry is the outline of
  * the volume; all content is in field-data arrays, so any pipeline passes it on, any standard
  * writer (.vtp) saves it, and the plain vtkPolyData that a reader returns is just as good: filters
- * accept both, and FromPolyData() restores the type.
+ * accept both, and FromPolyData() restores the type. Not in ASCII, though: there VTK does not read
+ * infinite numbers, which hierarchies of diamonds and of open ranges have.
  *
  * Contents are read and checked on first use, and then kept; copies share them.
  *

@@ -87,6 +87,16 @@ TEST(BadInput, ImagesThatHaveNoSurface)
     "1 x 9 x 9");
 }
 
+TEST(BadInput, ImagesThatAreNowhere)
+{
+  for (const double wrong : { HUGE_VAL, std::nan("") })
+  {
+    const auto image = test::BallImage({ 9, 9, 9 });
+    image->SetOrigin(0.0, wrong, 0.0);
+    ExpectRefusal([&](vtkAlgorithm* filter) { filter->SetInputDataObject(0, image); }, "finite");
+  }
+}
+
 TEST(BadInput, ArraysThatCannotBeContoured)
 {
   ExpectRefusal(

@@ -544,6 +544,20 @@ TEST(Distance, OfOneToleranceHoldsWhereItIsAskedFor)
   EXPECT_EQ(one->GetNumberOfBuilds(), 1);
 }
 
+TEST(Distance, OfOneToleranceMayBeInfinite)
+{
+  vtkNew<vtkIsodiamondContour> contour;
+  contour->SetInputData(test::PhantomImage({ 20, 20, 20 }, 5.0));
+  contour->SetValue(0, 50.0);
+  contour->SimplifyOn();
+  contour->SetErrorTolerance(HUGE_VAL);
+  contour->Update();
+  const vtkIdType simple = contour->GetOutput()->GetNumberOfCells();
+  contour->OneToleranceOn();
+  contour->Update();
+  EXPECT_LE(contour->GetOutput()->GetNumberOfCells(), 1.1 * static_cast<double>(simple));
+}
+
 TEST(Distance, OfOneToleranceIsThatOfAllWhereAllAreNeeded)
 {
   const auto image = test::PhantomImage({ 30, 30, 30 }, 5.0);

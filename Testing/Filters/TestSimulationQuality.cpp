@@ -34,6 +34,7 @@
 #include <random>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace
 {
@@ -414,6 +415,64 @@ TEST(SimulationQuality, MeetsATarget)
   EXPECT_EQ(volume->GetOutput()->GetNumberOfCells(), most);
 }
 
+// Errors of the field: nothing gets coarser, but there are other tetrahedra than without.
+TEST(SimulationQuality, MeetsATargetOfFieldErrors)
+{
+  const auto volume = Ball(test::BallImage({ 25, 25, 25 }), 0.0);
+  volume->SetErrorMetricToField();
+  const auto messages = test::Watch(volume);
+  std::vector<vtkIdType> counts;
+  for (const double tolerance : { 0.0, 0.5, 2.0 })
+  {
+    volume->SetErrorTolerance(tolerance);
+    volume->Update();
+    counts.push_back(volume->GetOutput()->GetNumberOfCells());
+  }
+  for (const vtkIdType target : counts)
+  {
+    volume->SetTargetNumberOfTriangles(target);
+    volume->Update();
+    EXPECT_LE(volume->GetOutput()->GetNumberOfCells(), target);
+    EXPECT_GE(volume->GetOutput()->GetNumberOfCells(), 0.9 * static_cast<double>(target));
+  }
+  EXPECT_EQ(messages->WarningCount, 0);
+}
+
+// A hierarchy that can be refined inside would lead to other tetrahedra.
+TEST(SimulationQuality, DoesNotDependOnAnInteriorToleranceBefore)
+{
+  const auto image = test::PhantomImage({ 25, 25, 25 }, 5.0);
+  const auto make = [&]
+  {
+    auto volume = Ball(image, 0.5);
+    volume->SetIsorange(50.0, Infinity);
+    return volume;
+  };
+  const auto fresh = make();
+  fresh->Update();
+  const auto used = make();
+  used->SetInteriorTolerance(10.0);
+  used->Update();
+  EXPECT_NE(test::Difference(used->GetOutput(), fresh->GetOutput()), "");
+  used->SetInteriorTolerance(Infinity);
+  used->Update();
+  EXPECT_EQ(test::Difference(used->GetOutput(), fresh->GetOutput()), "");
+}
+
+// Far from the origin single precision moves points: the angles told are those of the output.
+TEST(SimulationQuality, TellsTheAnglesOfPointsAsTheyAreStored)
+{
+  const auto image = test::BallImage({ 9, 9, 9 });
+  image->SetOrigin(1e6, 1e6, 1e6);
+  const auto volume = Ball(image, 0.0);
+  volume->Update();
+  const double exact = volume->GetSmallestDihedralAngle();
+  volume->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
+  volume->Update();
+  EXPECT_NEAR(volume->GetSmallestDihedralAngle(), SmallestAngle(volume->GetOutput()), 1e-6);
+  EXPECT_GT(std::fabs(volume->GetSmallestDihedralAngle() - exact), 0.1);
+}
+
 TEST(SimulationQuality, HasValuesLevelsAndOtherArrays)
 {
   const auto image = test::MakeImage(
@@ -729,7 +788,17 @@ TEST(SimulationQuality, NeedsAWorldWithVolumes)
   }
   image->SetOrigin(0.0, HUGE_VAL, 0.0);
   volume->Update();
-  EXPECT_EQ(messages->ErrorCount, refused + 1);
+  EXPECT_EQ(messages->ErrorCount, ++refused);
+  // With errors of the field, for which other meshes do without lengths.
+  volume->SetErrorMetricToField();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double wrong : { 3.0, nan, HUGE_VAL }) // the coordinate before is 3
+  {
+    volume->SetInputData(test::Rectilinear(test::BallImage({ 9, 9, 9 }),
+      [&](int axis, int i) { return axis == 1 && i == 4 ? wrong : 1.0 * i; }));
+    volume->Update();
+    EXPECT_EQ(messages->ErrorCount, ++refused) << wrong;
+  }
 }
 
 TEST(SimulationQuality, HasTheSameAnglesOnStructuredGrids)

@@ -97,6 +97,10 @@ void SimplifyMesh(const WorldQuery& query, const isodiamond::IsodiamondHierarchy
   const auto allowed = [&](vtkIdType triangle, double tolerance)
   {
     const double used = std::max(tolerance, least);
+    if (!std::isfinite(used))
+    {
+      return used;
+    }
     const double error = codes[triangle] == 0 ? 0.0
       : options.AreErrorsKnown                ? hierarchy.Codes().Decode(codes[triangle])
                                               : PartForHierarchy(query, used, world) * used;

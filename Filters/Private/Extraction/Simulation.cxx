@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -31,8 +30,8 @@ constexpr int LastRefinement = 10;
 constexpr int LastPinning = 20;
 ///@}
 
-/** How often one pin of each vertex around bad angles goes before all do. */
-constexpr int LocalReleases = 2;
+/** How often pins of the vertices around bad angles go before all do. */
+constexpr int LocalReleases = 4;
 
 ///@{
 /** Of progress: of the mesh that is not for simulations, and of each round, of what is left. */
@@ -63,8 +62,8 @@ double PlainVolume(const isodiamond::IsodiamondHierarchy& hierarchy, const isodi
 }
 
 /** Takes pins away.
- *  @param all or only one of each vertex that is near a bad tetrahedron
- *  @param near such vertices, sorted; without any nothing has to go @param pinned sorted
+ *  @param all or only those of vertices that are near a bad tetrahedron
+ *  @param near such vertices, sorted; without any nothing has to go
  *  @return whether there were any */
 bool Release(bool all, const std::vector<std::uint64_t>& near, std::vector<std::uint64_t>& pinned)
 {
@@ -72,29 +71,44 @@ bool Release(bool all, const std::vector<std::uint64_t>& near, std::vector<std::
   {
     return false;
   }
-  std::vector<std::uint64_t> left;
-  if (!all)
-  {
-    std::set_difference(
-      pinned.begin(), pinned.end(), near.begin(), near.end(), std::back_inserter(left));
-  }
-  const bool isAny = left.size() < pinned.size();
-  pinned = std::move(left);
+  const auto left = std::remove_if(pinned.begin(), pinned.end(),
+    [&](std::uint64_t vertex)
+    { return all || std::binary_search(near.begin(), near.end(), vertex); });
+  const bool isAny = left != pinned.end();
+  pinned.erase(left, pinned.end());
   return isAny;
+}
+
+/** Whether all cells have a volume, as far as one can tell without looking at each. */
+bool HasVolumes(const isodiamond::GridGeometry& world)
+{
+  if (const isodiamond::AffineMap* map = world.Affine())
+  {
+    return std::isnormal(map->Determinant()) &&
+      std::isfinite(map->At(0, 0, 0, 0) + map->At(1, 0, 0, 0) + map->At(2, 0, 0, 0));
+  }
+  if (const isodiamond::AxisCoordinates* axes = world.Axes())
+  {
+    return std::all_of(axes->begin(), axes->end(),
+      [](const std::vector<double>& places)
+      {
+        const double way = places.back() - places.front();
+        return std::isfinite(way) &&
+          std::adjacent_find(places.begin(), places.end(),
+            [&](double from, double to) { return !((to - from) * way > 0.0); }) == places.end();
+      });
+  }
+  return world.SmallestStep() > 0.0;
 }
 
 /** Where tetrahedra have no volume or are nowhere, improving them would take long, for nothing.
  *  @throws std::invalid_argument */
 void CheckVolumes(const isodiamond::GridGeometry& world)
 {
-  const isodiamond::AffineMap* map = world.Affine();
-  const bool isFine = map == nullptr ||
-    (std::isnormal(map->Determinant()) &&
-      std::isfinite(map->At(0, 0, 0, 0) + map->At(1, 0, 0, 0) + map->At(2, 0, 0, 0)));
-  if (!isFine)
+  if (!HasVolumes(world))
   {
-    throw std::invalid_argument(
-      "SimulationQuality needs a finite origin, and a finite spacing other than 0.");
+    throw std::invalid_argument("SimulationQuality needs cells with volumes: a spacing other than "
+                                "0, coordinates that rise or fall, positions that are finite.");
   }
 }
 
@@ -131,24 +145,29 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
     PlainVolume(hierarchy, CoreQuery(query, hierarchy, options.World), options, plain);
   const isodiamond::RefinedSet* leaves = &refined;
   std::optional<isodiamond::RefinedSet> finer;
+  bool isSearched = false; // in the leaves that there are now
   const auto refine = [&](const std::vector<isodiamond::Place>& diamonds, Task& part)
   {
     core.Also.insert(core.Also.end(), diamonds.begin(), diamonds.end());
     leaves = &finer.emplace(hierarchy, core, part.For());
+    isSearched = false;
   };
   FarDiamondSearch search;
   isodiamond::KnownChanges known;
   asked.Known = &known;
   int releases = 0;
-  double done = PlainPart;
+  Rounds rounds(task, PlainPart, PartOfRound);
   for (int round = 1;; ++round)
   {
-    const double begin = std::exchange(done, done + PartOfRound * (1.0 - done));
-    Task part = task.Part(begin, done);
-    for (std::vector<isodiamond::Place> far;
-         far = search.Find(*leaves, asked, part.For()), !far.empty();)
+    Task part = rounds.Next();
+    while (asked.MayRefine && !isSearched)
     {
-      refine(far, part);
+      const std::vector<isodiamond::Place> far = search.Find(*leaves, asked, part.For());
+      isSearched = far.empty();
+      if (!isSearched)
+      {
+        refine(far, part);
+      }
     }
     asked.MayRefine = round < LastRefinement;
     asked.MayPin = releases == 0 && round < LastPinning;
@@ -159,8 +178,7 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
     }
     else if (mesh.TightVertices.empty())
     {
-      // Angles come first: where some are bad, pins there go one by one; if that does not help,
-      // all.
+      // Angles come first: where some are bad, pins there go; if that does not help, all.
       if (!Release(releases == LocalReleases, mesh.BadVertices, asked.Pinned))
       {
         return mesh;

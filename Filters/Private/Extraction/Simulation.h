@@ -15,7 +15,7 @@ namespace vtkIsodiamond
 /**
  * Extracts a refined set's interval volume, stuffed. Where its surfaces are farther from those of
  * the volume's mesh than the diamonds' errors leave of the tolerance, it refines and begins again;
- * cells at full resolution stay as they are.
+ * or, where cells are at full resolution, it pins their vertices.
  *
  * @param query whose refined set it is
  */

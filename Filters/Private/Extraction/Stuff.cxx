@@ -140,6 +140,26 @@ void Blend(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used, vtkP
   }
 }
 
+/** The smallest and the largest dihedral angle. @param rounded as points are stored */
+std::array<double, 2> AnglesOf(const isodiamond::TetrahedronMesh& mesh, bool rounded)
+{
+  if (!rounded)
+  {
+    return isodiamond::DihedralAngles(mesh);
+  }
+  isodiamond::TetrahedronMesh stored;
+  stored.Tetrahedra = mesh.Tetrahedra;
+  stored.Positions = mesh.Positions;
+  for (isodiamond::Vector& position : stored.Positions)
+  {
+    for (double& coordinate : position)
+    {
+      coordinate = static_cast<float>(coordinate);
+    }
+  }
+  return isodiamond::DihedralAngles(stored);
+}
+
 /** Writes the positions of moved and added points, and which surfaces they are on. */
 void WritePlaces(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used, Mesh& output)
 {
@@ -215,7 +235,7 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   mesh.CellData->AddArray(levels);
   if (count > 0)
   {
-    mesh.DihedralAngles = isodiamond::DihedralAngles(stuffed);
+    mesh.DihedralAngles = AnglesOf(stuffed, mesh.Points->GetDataType() == VTK_FLOAT);
     mesh.ToleranceExcess = result.ToleranceExcess;
   }
 }

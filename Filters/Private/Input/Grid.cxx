@@ -25,6 +25,7 @@ namespace vtkIsodiamond
 namespace
 {
 
+/** @throws std::invalid_argument if a position would be nowhere */
 isodiamond::AffineMap IndexToWorld(vtkImageData* image, int padding)
 {
   isodiamond::AffineMap map;
@@ -41,6 +42,11 @@ isodiamond::AffineMap IndexToWorld(vtkImageData* image, int padding)
     {
       map.Rows[i][j] = image->GetDirectionMatrix()->GetElement(i, j) * spacing[j];
       map.Rows[i][3] += map.Rows[i][j] * (extent[2 * j] - padding);
+    }
+    if (!std::all_of(map.Rows[i].begin(), map.Rows[i].end(),
+          [](double number) { return std::isfinite(number); }))
+    {
+      throw std::invalid_argument("The image's origin, spacing and direction have to be finite.");
     }
   }
   return map;
