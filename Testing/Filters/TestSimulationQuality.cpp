@@ -822,6 +822,23 @@ TEST(SimulationQuality, HasTheSameAnglesOnStructuredGrids)
 
 // Values that stand for missing ones are so far from all others that both surfaces lie on each
 // other wherever the field meets them: no angle can be good there, and trying takes ever longer.
+// Where cells are many times larger than the smallest ones, surfaces have to move farther, too.
+TEST(SimulationQuality, HasTheSameAnglesWhereCellsGrow)
+{
+  const auto image = test::MakeImage({ 13, 13, 13 },
+    [](double x, double y, double z)
+    { return std::sin(2.1 * x + 1) * std::cos(1.7 * y) + std::sin(1.9 * z) * std::cos(1.3 * x); });
+  for (const double growth : { 1.1, 1.15, 1.0 / 1.1 })
+  {
+    const auto volume = Ball(image, 0.0);
+    volume->SetInputData(test::Rectilinear(
+      image, [&](int /*axis*/, int i) { return (std::pow(growth, i) - 1.0) / (growth - 1.0); }));
+    volume->Update();
+    EXPECT_GE(volume->GetSmallestDihedralAngle(), 15.0) << growth;
+    EXPECT_LE(volume->GetLargestDihedralAngle(), 165.0) << growth;
+  }
+}
+
 TEST(SimulationQuality, DoesNotTryForeverBesideMissingValues)
 {
   constexpr int n = 12;

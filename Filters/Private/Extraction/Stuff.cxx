@@ -18,8 +18,8 @@ namespace vtkIsodiamond
 namespace
 {
 
-/** In one change, a surface may move by this part of the grid's smallest step, or of the edge that
- *  it cuts on a curvilinear grid; or of the tolerance if that is more. */
+/** In one change, a surface may move by this part of an image's smallest step, or of the tolerance
+ *  if that is more; where steps differ along an axis, by this part of the edge that it cuts. */
 constexpr double MovePartOfStep = 0.25;
 constexpr double MovePartOfTolerance = 0.5;
 
@@ -30,7 +30,7 @@ isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
 {
   isodiamond::StuffingInput input{ leaves, vertices, points, options.World,
     hierarchy.SampleGrid() };
-  if (options.World.Positions() == nullptr)
+  if (options.World.Affine() != nullptr)
   {
     input.SurfaceMove = std::max(MovePartOfStep * options.World.SmallestStep(),
       MovePartOfTolerance * options.DistanceTolerance);
