@@ -294,6 +294,7 @@ TEST(BadInput, TolerancesAndIsovalues)
     contour->Update();
     EXPECT_EQ(messages->ErrorCount, 1);
     EXPECT_NE(messages->Errors.find("tolerance"), std::string::npos);
+    EXPECT_EQ(messages->Errors.find("1.0"), std::string::npos); // as a person would write it
     EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
 
     vtkNew<vtkIsodiamondBuilder> builder;

@@ -19,7 +19,8 @@ namespace vtkIsodiamond
  * the mesh. Known changes are those of this mesh before it was last refined; they are updated, and
  * may be null.
  *
- * @param mesh with all data, nothing left out; afterwards without what is hidden
+ * @param mesh with all data, nothing left out; afterwards without what is hidden. If diamonds have
+ *        to be refined, or vertices pinned, first, it stays as it is, and says which.
  */
 void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,

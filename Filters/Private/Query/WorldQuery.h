@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -89,8 +90,9 @@ inline void CheckTolerance(double tolerance, const std::string& name = "error")
 {
   if (!(tolerance >= 0.0))
   {
-    throw std::invalid_argument(
-      "The " + name + " tolerance must be 0 or greater; it is " + std::to_string(tolerance) + ".");
+    std::ostringstream message;
+    message << "The " << name << " tolerance must be 0 or greater; it is " << tolerance << ".";
+    throw std::invalid_argument(message.str());
   }
 }
 
