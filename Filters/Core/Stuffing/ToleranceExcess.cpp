@@ -207,17 +207,13 @@ private:
 /** Nothing is farther away. */
 double DiagonalOf(const std::vector<Vector>& positions)
 {
-  Vector least = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  Vector most = -1.0 * least;
+  Bounds bounds;
   for (const Vector& position : positions)
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      least[axis] = std::min(least[axis], position[axis]);
-      most[axis] = std::max(most[axis], position[axis]);
-    }
+    bounds.Add(position);
   }
-  return std::sqrt(Dot(most - least, most - least));
+  const Vector diagonal = bounds.High - bounds.Low;
+  return std::sqrt(Dot(diagonal, diagonal));
 }
 
 }

@@ -97,7 +97,7 @@ void SimplifyMesh(const WorldQuery& query, const isodiamond::IsodiamondHierarchy
   const auto allowed = [&](vtkIdType triangle, double tolerance)
   {
     const double used = std::max(tolerance, least);
-    if (std::isinf(used))
+    if (std::isinf(used)) // a part of it would leave nothing that is a number
     {
       return used;
     }

@@ -79,7 +79,8 @@ bool Release(bool all, const std::vector<std::uint64_t>& near, std::vector<std::
   return isAny;
 }
 
-/** Whether all cells have a volume, as far as one can tell without looking at each. */
+/** Whether all cells have a volume, as far as one can tell without looking at each. Steps may be as
+ *  short or long as numbers are; those that are measured (WorldLengths.h) may not. */
 bool HasVolumes(const isodiamond::GridGeometry& world)
 {
   if (const isodiamond::AffineMap* map = world.Affine())

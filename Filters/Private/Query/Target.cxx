@@ -245,7 +245,7 @@ void WarnIfAbove(vtkAlgorithm* filter, const CountedTolerance& found, std::int64
   {
     vtkWarningWithObjectMacro(filter,
       "The mesh has " << found.Cells
-                      << " cells, and no coarser one was found: more than the target of " << target
+                      << " cells, and none with fewer was found: more than the target of " << target
                       << ". PreserveTopology and PreserveFeatures keep what a coarser one "
                       << "would lose; MinimumPieceSize removes specks.");
   }
