@@ -8,7 +8,6 @@
 #include "Private/Common/Tuples.h"
 #include "Private/Extraction/Ghosts.h"
 #include "Private/Extraction/Share.h"
-#include "Private/Extraction/Stuff.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -60,17 +59,17 @@ vtkSmartPointer<vtkPoints> WritePoints(
   return points;
 }
 
-/** Whether cells change after they have been written: then only all of them tell what a share
+/** Whether cells are left out after they have been written: then only all of them tell what a share
  *  is. */
-bool AreCellsChanged(const MeshOptions& options)
+bool AreSomeHidden(const MeshOptions& options)
 {
-  return options.ForSimulation || (options.Hidden != nullptr && options.Hidden->Any());
+  return options.Hidden != nullptr && options.Hidden->Any();
 }
 
 /** What of a mesh is extracted. */
 Share ExtractedShare(const MeshOptions& options)
 {
-  return AreCellsChanged(options) ? Share{} : options.Wanted;
+  return AreSomeHidden(options) ? Share{} : options.Wanted;
 }
 
 /** Adds the wanted cells of an extraction, whose points are limited to theirs.
@@ -158,9 +157,8 @@ const char* NameOfValues(const MeshOptions& options)
   return options.ArrayName.empty() ? "Scalars" : options.ArrayName.c_str();
 }
 
-/** Field values: floats unless the samples need more. */
 template <typename Array>
-void AddValues(
+void AddValuesAs(
   const isodiamond::IntervalExtraction& extraction, const MeshOptions& options, Mesh& mesh)
 {
   const auto values = NewArray<Array>(NameOfValues(options), extraction.PointCount());
@@ -174,6 +172,20 @@ bool NeedDouble(const isodiamond::AnySamples& samples)
 {
   return isodiamond::BytesOfSample(samples) > 2 &&
     !std::holds_alternative<isodiamond::SampleView<float>>(samples);
+}
+
+/** Field values: floats unless the samples need more. */
+void AddValues(const isodiamond::IntervalExtraction& extraction,
+  const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options, Mesh& mesh)
+{
+  if (NeedDouble(hierarchy.InsideValues()))
+  {
+    AddValuesAs<vtkDoubleArray>(extraction, options, mesh);
+  }
+  else
+  {
+    AddValuesAs<vtkFloatArray>(extraction, options, mesh);
+  }
 }
 
 /** The cell of the grid that holds the middle of a mesh's cell. */
@@ -244,7 +256,7 @@ template <typename Extraction>
 void Complete(const Extraction& extraction, const MeshOptions& options, Mesh& mesh)
 {
   AddMorePointData(extraction, options, mesh);
-  if (options.Hidden != nullptr && options.Hidden->Any())
+  if (AreSomeHidden(options))
   {
     LeaveOutHidden(extraction, *options.Hidden, mesh);
   }
@@ -258,20 +270,7 @@ void ExtractVolume(const isodiamond::RefinedSet& refined, const MeshOptions& opt
     [&](const isodiamond::CellRange& cells, auto* connectivity, std::int16_t* levels)
     { extraction.WriteTetrahedra(cells, options.World.Mirrors(), connectivity, levels); });
   AddPoints(extraction, refined.Hierarchy(), options, mesh);
-  if (NeedDouble(refined.Hierarchy().InsideValues()))
-  {
-    AddValues<vtkDoubleArray>(extraction, options, mesh);
-  }
-  else
-  {
-    AddValues<vtkFloatArray>(extraction, options, mesh);
-  }
-  if (options.ForSimulation)
-  {
-    AddMorePointData(extraction, options, mesh);
-    StuffMesh(extraction, refined.Hierarchy(), options, parallelFor, mesh);
-    return;
-  }
+  AddValues(extraction, refined.Hierarchy(), options, mesh);
   Complete(extraction, options, mesh);
 }
 
@@ -323,7 +322,7 @@ void Mesh::Give(vtkUnstructuredGrid* output, bool isVolume) const
 
 Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& options, Task& task)
 {
-  task.Begin(options.ForSimulation ? "Improving tetrahedra" : "Extracting the mesh", 0.0, 1.0);
+  task.Begin("Extracting the mesh", 0.0, 1.0);
   Mesh mesh;
   if (refined.Hierarchy().Region().IsVolume())
   {
@@ -333,10 +332,20 @@ Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& optio
   {
     ExtractSurface(refined, options, task.For(), mesh);
   }
-  if (AreCellsChanged(options))
+  if (AreSomeHidden(options))
   {
     KeepShare(options.Wanted, mesh);
   }
+  return mesh;
+}
+
+Mesh ExtractPoints(const isodiamond::IntervalExtraction& extraction,
+  const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options)
+{
+  Mesh mesh;
+  AddPoints(extraction, hierarchy, options, mesh);
+  AddValues(extraction, hierarchy, options, mesh);
+  AddMorePointData(extraction, options, mesh);
   return mesh;
 }
 

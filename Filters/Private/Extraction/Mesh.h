@@ -13,7 +13,6 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +24,7 @@ class vtkUnstructuredGrid;
 
 namespace isodiamond
 {
-class KnownChanges;
+class IntervalExtraction;
 }
 
 namespace vtkIsodiamond
@@ -46,14 +45,6 @@ struct Mesh
   /** By how much more than tolerated surfaces of such tetrahedra are away (ToleranceExcess.h), if
    *  that is measured. */
   std::optional<double> ToleranceExcess;
-  /** Of such tetrahedra: diamonds that have to be refined because surfaces are too far away. If
-   *  there are any, the mesh is not done. */
-  std::vector<isodiamond::Place> FarDiamonds;
-  /** The same where nothing can be refined: the vertices that have to be pinned, each once, as
-   *  PackedPoint(). */
-  std::vector<std::uint64_t> TightVertices;
-  /** Vertices around bad tetrahedra, if any vertices are pinned. */
-  std::vector<std::uint64_t> BadVertices;
 
   /** Hands the mesh to a data set. */
   void Give(vtkPolyData* triangles) const;
@@ -74,20 +65,6 @@ struct MeshOptions
   PointDataMaker MorePointData = nullptr;
   const isodiamond::HiddenCells* Hidden = nullptr; ///< what lies in them is left out
   Share Wanted = {};                               ///< what is wanted of the mesh
-  bool ForSimulation = false;                      ///< see Stuff.h; interval volumes only
-  double DistanceTolerance = 0.0; ///< the least tolerated distance from full resolution
-  /** The same in a triangle or tetrahedron, given its corners in the world; empty to not
-   *  measure. */
-  std::function<double(const isodiamond::Vector* corners, int count)> ToleranceIn = nullptr;
-  isodiamond::KnownChanges* Known = nullptr; ///< see StuffMesh()
-  bool GetsCoarser = true;                   ///< whether tolerances are used, or only measured
-  bool MayRefine = true;                     ///< whether FarDiamonds are looked for
-  bool MayPin = true;                        ///< whether TightVertices are looked for
-  std::vector<std::uint64_t> Pinned = {};    ///< see isodiamond::Pin()
-  bool KeepsInside = false;                  ///< whether points on no surface stay
-  /** The volume that a mesh not for simulations has at the whole tolerance; none if the mesh does
-   *  not get coarser. */
-  std::optional<double> VolumeAtTolerance = {};
   bool WithThresholds = false; ///< whether triangles get ThresholdsArray; all must be wanted
   /** Whether thresholds give errors: else all that is known of a mesh's is that they are
    *  tolerated. */
@@ -100,6 +77,11 @@ inline constexpr const char* ThresholdsArray = "IsodiamondThresholds";
 /** Extracts a mesh, or a share of it: then no more than the share is written, unless cells have to
  *  be left out or moved first. Runs in the calling thread's vtkSMPTools scope. */
 Mesh ExtractMesh(const isodiamond::RefinedSet& refined, const MeshOptions& options, Task& task);
+
+/** The points of an extraction's mesh with all their data, and no cells: what other cells may be
+ *  made of. */
+Mesh ExtractPoints(const isodiamond::IntervalExtraction& extraction,
+  const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options);
 
 }
 

@@ -2,7 +2,7 @@
 #include "Private/Extraction/Simulation.h"
 
 #include "Private/Common/UsedPoints.h"
-#include "Private/Extraction/Stuff.h"
+#include "Private/Extraction/StuffedVolume.h"
 #include "Private/Query/HierarchyQuery.h"
 #include "Private/Query/PlacedTolerance.h"
 #include "Stuffing/KnownChanges.h"
@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -29,6 +30,8 @@ namespace
 constexpr int LastRefinement = 10;
 constexpr int LastPinning = 20;
 ///@}
+
+constexpr const char* Improving = "Improving tetrahedra";
 
 /** How often pins of the vertices around bad angles go before all do. */
 constexpr int LocalReleases = 4;
@@ -61,12 +64,16 @@ double PlainVolume(const isodiamond::IsodiamondHierarchy& hierarchy, const isodi
   return VolumeOf(tetrahedra);
 }
 
-/** Takes pins away.
- *  @param all or only those of vertices that are near a bad tetrahedron
- *  @param near such vertices, sorted; without any nothing has to go
+/** Takes pins away, if there are bad tetrahedra.
+ *  @param all or only those of vertices that are near these
  *  @return whether there were any */
-bool Release(bool all, const std::vector<std::uint64_t>& near, std::vector<std::uint64_t>& pinned)
+bool Release(bool all, const StuffedVolume& volume, std::vector<std::uint64_t>& pinned)
 {
+  if (pinned.empty())
+  {
+    return false;
+  }
+  const std::vector<std::uint64_t> near = volume.VerticesNearBad();
   if (near.empty())
   {
     return false;
@@ -113,82 +120,146 @@ void CheckVolumes(const isodiamond::GridGeometry& world)
   }
 }
 
+/** Where nothing gets coarser: one mesh, which is measured if that is of use. */
+Mesh ExtractOnce(const isodiamond::RefinedSet& refined, const WorldQuery& query,
+  const MeshOptions& options, Task& task)
+{
+  SimulationOptions asked;
+  asked.GetsCoarser = false;
+  if (query.IsFull())
+  {
+    asked.ToleranceIn = [](const isodiamond::Vector*, int) { return 0.0; };
+  }
+  task.Begin(Improving, 0.0, 1.0);
+  return StuffedVolume(refined, options, asked, task.For(), nullptr).Write(options, task.For());
+}
+
+/** What a query tolerates, as asked of tetrahedra. @param tolerance must outlive the result */
+SimulationOptions AskedBy(const WorldQuery& query, const Measure& measure,
+  const isodiamond::GridGeometry& world, const PlacedTolerance& tolerance)
+{
+  SimulationOptions asked;
+  asked.DistanceTolerance = query.Region
+    ? std::min(query.ErrorTolerance, OutsideOf(query, measure, world))
+    : query.ErrorTolerance;
+  asked.ToleranceIn = [&tolerance](const isodiamond::Vector* corners, int count)
+  { return tolerance.In(corners, count); };
+  asked.KeepsInside = std::isfinite(query.InteriorTolerance);
+  return asked;
+}
+
+/** Stuffs a refined set, again and again: refined, or with vertices pinned, wherever surfaces are
+ * too far away. */
+class StuffingRounds
+{
+public:
+  StuffingRounds(const isodiamond::RefinedSet& refined, const WorldQuery& query,
+    const MeshOptions& options, Task& task)
+    : Hierarchy(refined.Hierarchy())
+    , Options(options)
+    , Tolerance(query, Measure(this->Hierarchy), options.World)
+    , Asked(AskedBy(query, Measure(this->Hierarchy), options.World, this->Tolerance))
+    , Query(CoreQuery(HierarchyQuery(query, Measure(this->Hierarchy), options.World),
+        this->Hierarchy, options.World))
+    , Leaves(&refined)
+    , Parts(task, PlainPart, PartOfRound)
+  {
+    Task plain = task.Part(0.0, PlainPart);
+    this->Asked.VolumeAtTolerance = PlainVolume(
+      this->Hierarchy, CoreQuery(query, this->Hierarchy, options.World), options, plain);
+  }
+
+  Mesh Run()
+  {
+    for (int round = 1;; ++round)
+    {
+      Task part = this->Parts.Next();
+      this->RefineBefore(part);
+      this->Asked.MayRefine = round < LastRefinement;
+      this->Asked.MayPin = this->Releases == 0 && round < LastPinning;
+      std::vector<isodiamond::Place> far;
+      if (std::optional<Mesh> mesh = this->Stuff(part, far))
+      {
+        return *std::move(mesh);
+      }
+      if (!far.empty())
+      {
+        this->Refine(far, part);
+      }
+    }
+  }
+
+private:
+  /** Before tetrahedra are improved, which takes longer. */
+  void RefineBefore(Task& part)
+  {
+    while (this->Asked.MayRefine && !this->IsSearched)
+    {
+      const std::vector<isodiamond::Place> far =
+        this->Search.Find(*this->Leaves, this->Options, this->Asked, part.For());
+      this->IsSearched = far.empty();
+      if (!this->IsSearched)
+      {
+        this->Refine(far, part);
+      }
+    }
+  }
+
+  void Refine(const std::vector<isodiamond::Place>& diamonds, Task& part)
+  {
+    this->Query.Also.insert(this->Query.Also.end(), diamonds.begin(), diamonds.end());
+    this->Leaves = &this->Finer.emplace(this->Hierarchy, this->Query, part.For());
+    this->IsSearched = false;
+  }
+
+  /** @param far receives the diamonds to be refined before the next round
+   *  @return the mesh; none if another round has to follow */
+  std::optional<Mesh> Stuff(Task& part, std::vector<isodiamond::Place>& far)
+  {
+    part.Begin(Improving, 0.0, 1.0);
+    const StuffedVolume volume(*this->Leaves, this->Options, this->Asked, part.For(), &this->Known);
+    far = volume.FarDiamonds();
+    const std::vector<std::uint64_t> tight = volume.TightVertices();
+    if (far.empty() && tight.empty())
+    {
+      // Angles come first: where some are bad, pins there go; if that does not help, all.
+      if (!Release(this->Releases == LocalReleases, volume, this->Asked.Pinned))
+      {
+        return volume.Write(this->Options, part.For());
+      }
+      ++this->Releases;
+    }
+    std::vector<std::uint64_t>& pinned = this->Asked.Pinned;
+    pinned.insert(pinned.end(), tight.begin(), tight.end());
+    std::sort(pinned.begin(), pinned.end());
+    return std::nullopt;
+  }
+
+  const isodiamond::IsodiamondHierarchy& Hierarchy;
+  const MeshOptions& Options;
+  PlacedTolerance Tolerance;
+  SimulationOptions Asked;
+  isodiamond::Query Query;
+  const isodiamond::RefinedSet* Leaves; ///< the given ones, or Finer
+  std::optional<isodiamond::RefinedSet> Finer;
+  bool IsSearched = false; ///< whether Search finds no more in the leaves that there are now
+  FarDiamondSearch Search;
+  isodiamond::KnownChanges Known;
+  int Releases = 0; ///< of pins
+  Rounds Parts;     ///< of the task
+};
+
 }
 
 Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuery& query,
   const MeshOptions& options, Task& task)
 {
   CheckVolumes(options.World);
-  const isodiamond::IsodiamondHierarchy& hierarchy = refined.Hierarchy();
-  const Measure measure(hierarchy);
-  MeshOptions asked = options;
-  asked.ForSimulation = true;
-  if (!GetsCoarser(query, measure.Metric))
-  {
-    if (query.IsFull())
-    {
-      asked.ToleranceIn = [](const isodiamond::Vector*, int) { return 0.0; };
-      asked.GetsCoarser = false;
-    }
-    return ExtractMesh(refined, asked, task);
-  }
-  const PlacedTolerance tolerance(query, measure, options.World);
-  asked.DistanceTolerance = query.Region
-    ? std::min(query.ErrorTolerance, OutsideOf(query, measure, options.World))
-    : query.ErrorTolerance;
-  asked.ToleranceIn = [&](const isodiamond::Vector* corners, int count)
-  { return tolerance.In(corners, count); };
-  asked.KeepsInside = std::isfinite(query.InteriorTolerance);
-  isodiamond::Query core =
-    CoreQuery(HierarchyQuery(query, measure, options.World), hierarchy, options.World);
-  Task plain = task.Part(0.0, PlainPart);
-  asked.VolumeAtTolerance =
-    PlainVolume(hierarchy, CoreQuery(query, hierarchy, options.World), options, plain);
-  const isodiamond::RefinedSet* leaves = &refined;
-  std::optional<isodiamond::RefinedSet> finer;
-  bool isSearched = false; // in the leaves that there are now
-  const auto refine = [&](const std::vector<isodiamond::Place>& diamonds, Task& part)
-  {
-    core.Also.insert(core.Also.end(), diamonds.begin(), diamonds.end());
-    leaves = &finer.emplace(hierarchy, core, part.For());
-    isSearched = false;
-  };
-  FarDiamondSearch search;
-  isodiamond::KnownChanges known;
-  asked.Known = &known;
-  int releases = 0;
-  Rounds rounds(task, PlainPart, PartOfRound);
-  for (int round = 1;; ++round)
-  {
-    Task part = rounds.Next();
-    while (asked.MayRefine && !isSearched)
-    {
-      const std::vector<isodiamond::Place> far = search.Find(*leaves, asked, part.For());
-      isSearched = far.empty();
-      if (!isSearched)
-      {
-        refine(far, part);
-      }
-    }
-    asked.MayRefine = round < LastRefinement;
-    asked.MayPin = releases == 0 && round < LastPinning;
-    Mesh mesh = ExtractMesh(*leaves, asked, part);
-    if (!mesh.FarDiamonds.empty())
-    {
-      refine(mesh.FarDiamonds, part);
-    }
-    else if (mesh.TightVertices.empty())
-    {
-      // Angles come first: where some are bad, pins there go; if that does not help, all.
-      if (!Release(releases == LocalReleases, mesh.BadVertices, asked.Pinned))
-      {
-        return mesh;
-      }
-      ++releases;
-    }
-    asked.Pinned.insert(asked.Pinned.end(), mesh.TightVertices.begin(), mesh.TightVertices.end());
-    std::sort(asked.Pinned.begin(), asked.Pinned.end());
-  }
+  Mesh mesh = GetsCoarser(query, Measure(refined.Hierarchy()).Metric)
+    ? StuffingRounds(refined, query, options, task).Run()
+    : ExtractOnce(refined, query, options, task);
+  KeepShare(options.Wanted, mesh);
+  return mesh;
 }
 
 }

@@ -49,7 +49,7 @@ struct WorldQuery
   std::optional<std::array<double, 2>> Isorange;
   bool PreserveTopology = false;   ///< of an HD
   bool Simplify = false;           ///< see Extraction.h
-  bool SimulationQuality = false;  ///< of tetrahedra, see Stuff.h
+  bool SimulationQuality = false;  ///< of tetrahedra, see StuffedVolume.h
   bool AreTrianglesShaped = false; ///< whether Simplify cares for triangles' shapes
 
   /** Whether it is for full resolution, whatever the errors are. */

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/Extraction/Stuff.h"
+#include "Private/Extraction/StuffedVolume.h"
 
 #include "Private/Common/Arrays.h"
 #include "Private/Common/Tuples.h"
 #include "Private/Common/UsedPoints.h"
-#include "Stuffing/Stuffing.h"
 
 #include "vtkCellArray.h"
 #include "vtkPoints.h"
@@ -23,17 +22,33 @@ namespace
 constexpr double MovePartOfStep = 0.25;
 constexpr double MovePartOfTolerance = 0.5;
 
-/** @param vertices,points positions in the world; these and the leaves must outlive the result */
-isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
-  const std::vector<isodiamond::Vector>& vertices, const std::vector<isodiamond::Vector>& points,
-  const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options)
+/** Where the vertices of leaves, and the points that they are cut at, are in the world. */
+struct Places
 {
-  isodiamond::StuffingInput input{ leaves, vertices, points, options.World,
+  std::vector<isodiamond::Vector> Vertices;
+  std::vector<isodiamond::Vector> Points;
+};
+Places PlacesOf(const isodiamond::IntervalExtraction& extraction, const isodiamond::CutMesh& leaves,
+  const isodiamond::GridGeometry& world)
+{
+  Places places{ VerticesInWorld(leaves, world), {} };
+  places.Points.resize(extraction.PointCount());
+  extraction.ForEachPoint(
+    [&](const isodiamond::MeshPoint& point) { places.Points[point.Id] = world(point.Index); });
+  return places;
+}
+
+/** @param leaves,places,world must outlive the result */
+isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves, const Places& places,
+  const isodiamond::GridGeometry& world, const isodiamond::IsodiamondHierarchy& hierarchy,
+  const SimulationOptions& options)
+{
+  isodiamond::StuffingInput input{ leaves, places.Vertices, places.Points, world,
     hierarchy.SampleGrid() };
-  if (options.World.Affine() != nullptr)
+  if (world.Affine() != nullptr)
   {
-    input.SurfaceMove = std::max(MovePartOfStep * options.World.SmallestStep(),
-      MovePartOfTolerance * options.DistanceTolerance);
+    input.SurfaceMove = std::max(
+      MovePartOfStep * world.SmallestStep(), MovePartOfTolerance * options.DistanceTolerance);
   }
   else
   {
@@ -52,8 +67,8 @@ isodiamond::StuffingInput InputOf(const isodiamond::CutMesh& leaves,
     const std::int64_t rank = place ? hierarchy.Diamonds().Rank(*place) : -1;
     std::array<isodiamond::Vector, 4> corners{};
     const auto& ids = input.Leaves.Tetrahedra[i].Vertices;
-    std::transform(
-      ids.begin(), ids.end(), corners.begin(), [&](std::uint32_t id) { return vertices[id]; });
+    std::transform(ids.begin(), ids.end(), corners.begin(),
+      [&](std::uint32_t id) { return places.Vertices[id]; });
     const double error = rank < 0 ? 0.0 : hierarchy.Codes().Decode(hierarchy.Threshold(rank));
     const double tolerance = options.ToleranceIn(corners.data(), 4);
     input.Allowances.push_back(std::max(0.0, tolerance - error));
@@ -177,46 +192,42 @@ void WritePlaces(const isodiamond::TetrahedronMesh& mesh, const UsedPoints& used
 
 }
 
-std::vector<isodiamond::Place> FarDiamondSearch::Find(const isodiamond::RefinedSet& refined,
-  const MeshOptions& options, const isodiamond::ParallelFor& parallelFor)
+StuffedVolume::StuffedVolume(const isodiamond::RefinedSet& refined, const MeshOptions& options,
+  const SimulationOptions& simulation, const isodiamond::ParallelFor& parallelFor,
+  isodiamond::KnownChanges* known)
+  : Hierarchy(refined.Hierarchy())
+  , Extraction(refined, parallelFor)
+  , Leaves(this->Extraction.Leaves(options.Hidden))
 {
-  const isodiamond::IsodiamondHierarchy& hierarchy = refined.Hierarchy();
-  const isodiamond::IntervalExtraction extraction(refined, parallelFor);
-  std::vector<isodiamond::Vector> points(extraction.PointCount());
-  extraction.ForEachPoint(
-    [&](const isodiamond::MeshPoint& point) { points[point.Id] = options.World(point.Index); });
-  isodiamond::CutMesh leaves = this->News.Find(extraction.Leaves(options.Hidden));
-  Pin(leaves, options.Pinned);
-  const std::vector<isodiamond::Vector> vertices = VerticesInWorld(leaves, options.World);
-  return DiamondsOf(leaves,
-    isodiamond::FarLeaves(InputOf(leaves, vertices, points, hierarchy, options), parallelFor),
-    hierarchy.SampleGrid());
+  Pin(this->Leaves, simulation.Pinned);
+  const Places places = PlacesOf(this->Extraction, this->Leaves, options.World);
+  this->Stuffed = isodiamond::Stuff(
+    InputOf(this->Leaves, places, options.World, this->Hierarchy, simulation), parallelFor, known);
 }
 
-void StuffMesh(const isodiamond::IntervalExtraction& extraction,
-  const isodiamond::IsodiamondHierarchy& hierarchy, const MeshOptions& options,
-  const isodiamond::ParallelFor& parallelFor, Mesh& mesh)
+std::vector<isodiamond::Place> StuffedVolume::FarDiamonds() const
 {
-  isodiamond::CutMesh leaves = extraction.Leaves(options.Hidden);
-  Pin(leaves, options.Pinned);
-  const std::vector<isodiamond::Vector> vertices = VerticesInWorld(leaves, options.World);
-  const std::vector<isodiamond::Vector> positions = PositionsOf(mesh.Points);
-  const isodiamond::StuffedMesh result = isodiamond::Stuff(
-    InputOf(leaves, vertices, positions, hierarchy, options), parallelFor, options.Known);
-  const isodiamond::TetrahedronMesh& stuffed = result.Mesh;
-  if (!result.FarLeaves.empty() || !result.TightLeaves.empty())
-  {
-    mesh.FarDiamonds = DiamondsOf(leaves, result.FarLeaves, hierarchy.SampleGrid());
-    mesh.TightVertices = VerticesOf(leaves, result.TightLeaves);
-    return;
-  }
+  return DiamondsOf(this->Leaves, this->Stuffed.FarLeaves, this->Hierarchy.SampleGrid());
+}
 
-  if (!options.Pinned.empty())
-  {
-    mesh.BadVertices = VerticesOf(leaves, LeavesOfBad(leaves, stuffed));
-  }
+std::vector<std::uint64_t> StuffedVolume::TightVertices() const
+{
+  return VerticesOf(this->Leaves, this->Stuffed.TightLeaves);
+}
+
+std::vector<std::uint64_t> StuffedVolume::VerticesNearBad() const
+{
+  return VerticesOf(this->Leaves, LeavesOfBad(this->Leaves, this->Stuffed.Mesh));
+}
+
+Mesh StuffedVolume::Write(
+  const MeshOptions& options, const isodiamond::ParallelFor& parallelFor) const
+{
+  Mesh mesh = ExtractPoints(this->Extraction, this->Hierarchy, options);
+  const isodiamond::TetrahedronMesh& stuffed = this->Stuffed.Mesh;
   const UsedPoints used(stuffed.Tetrahedra, stuffed.Positions.size(), parallelFor);
-  const std::vector<vtkIdType> sources = SourcesOf(stuffed, used.Ids(), positions.size());
+  const std::vector<vtkIdType> sources =
+    SourcesOf(stuffed, used.Ids(), static_cast<std::size_t>(this->Extraction.PointCount()));
   vtkNew<vtkPointData> before;
   before->ShallowCopy(mesh.PointData);
   mesh.Points = PointsOf(mesh.Points, sources);
@@ -229,15 +240,30 @@ void StuffMesh(const isodiamond::IntervalExtraction& extraction,
   const auto levels = NewArray<vtkShortArray>("Level", count);
   for (std::int64_t i = 0; i < count; ++i)
   {
-    levels->SetValue(i, leaves.Tetrahedra[stuffed.Origins[i]].Level);
+    levels->SetValue(i, this->Leaves.Tetrahedra[stuffed.Origins[i]].Level);
   }
-  mesh.CellData->Initialize();
   mesh.CellData->AddArray(levels);
   if (count > 0)
   {
     mesh.DihedralAngles = AnglesOf(stuffed, mesh.Points->GetDataType() == VTK_FLOAT);
-    mesh.ToleranceExcess = result.ToleranceExcess;
+    mesh.ToleranceExcess = this->Stuffed.ToleranceExcess;
   }
+  return mesh;
+}
+
+std::vector<isodiamond::Place> FarDiamondSearch::Find(const isodiamond::RefinedSet& refined,
+  const MeshOptions& options, const SimulationOptions& simulation,
+  const isodiamond::ParallelFor& parallelFor)
+{
+  const isodiamond::IsodiamondHierarchy& hierarchy = refined.Hierarchy();
+  const isodiamond::IntervalExtraction extraction(refined, parallelFor);
+  isodiamond::CutMesh leaves = this->News.Find(extraction.Leaves(options.Hidden));
+  Pin(leaves, simulation.Pinned);
+  const Places places = PlacesOf(extraction, leaves, options.World);
+  return DiamondsOf(leaves,
+    isodiamond::FarLeaves(
+      InputOf(leaves, places, options.World, hierarchy, simulation), parallelFor),
+    hierarchy.SampleGrid());
 }
 
 }
