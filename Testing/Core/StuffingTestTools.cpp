@@ -191,7 +191,7 @@ TetrahedronMesh Leaves::Moved(double mostPush, const std::vector<double>& mostMo
   const Background background(this->Mesh, vertices, walls, this->Points, false, mostMoves);
   MovedVertices moved(background);
   moved.MoveAll(SerialFor);
-  moved.PushAll(mostPush);
+  moved.PushAll(mostPush, SerialFor);
   return moved.Cut(SerialFor);
 }
 

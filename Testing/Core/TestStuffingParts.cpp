@@ -602,11 +602,12 @@ TEST(SurfaceLinks, WantOneRunOfVerticesInsideAroundOppositeEdges)
   constexpr std::uint8_t inside = OnLower + 1;
   for (const bool isTwice : { false, true })
   {
-    std::vector<std::uint8_t> states(mesh.Vertices.size(), 0);
+    VertexPlaces places(mesh);
+    std::vector<std::uint8_t>& states = places.States;
     states[vertex] = states[a] = states[b] = OnLower;
     states[behindA] = states[behindB] = states[ring[0]] = inside;
     states[ring[2]] = isTwice ? inside : 0;
-    const SurfaceLinks links(background, states);
+    const SurfaceLinks links(background, places);
     EXPECT_TRUE(links.CanBeOn(vertex, 0, false));
     EXPECT_EQ(links.CanBeOn(vertex, 0, true), !isTwice);
   }

@@ -73,7 +73,7 @@ void StuffLeaves(const IntervalExtraction& extraction, const Grid& grid)
   }
   const Background background(leaves, vertices, std::move(walls), points, false);
   MovedVertices moved(background);
-  const TetrahedronMesh plain = moved.CutAsMeasured();
+  const TetrahedronMesh plain = CutAsMeasured(background, SerialFor);
   moved.MoveAll(SerialFor);
   ImprovementOptions options;
   options.SurfaceMove = 0.5;

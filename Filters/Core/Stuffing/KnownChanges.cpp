@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stuffing/KnownChanges.h"
 
+#include "Stuffing/ChangeNotes.h"
+#include "Stuffing/SearchAhead.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -9,8 +12,16 @@ namespace isodiamond
 namespace
 {
 
-/** Changes between two looks at whether to go on. */
-constexpr std::size_t ChangesOfStep = 1024;
+/** Changes that are looked at at the same time: few of them touch each other. */
+constexpr std::size_t LooksAtOnce = 64;
+
+/** A known change, as it is in a mesh. */
+struct FoundChange
+{
+  std::uint32_t BestFor = LocalMesh::None; ///< the tetrahedron; None if not all of it is there
+  Change What;
+  bool MayBeDone = false;
+};
 
 }
 
@@ -82,30 +93,44 @@ void KnownChanges::DoAgain(LocalMesh& mesh, const Check& mayDo, const ParallelFo
     return areThere ? TetrahedronOf(mesh, corners) : LocalMesh::None;
   };
   const std::vector<Known> known = std::exchange(this->Changes, {});
-  std::vector<std::uint32_t> changed;
-  InSteps(parallelFor, known.size(), ChangesOfStep,
-    [&](std::size_t i)
-    {
-      const auto& [what, bestFor, newPoint] = known[i];
-      const std::uint32_t tetrahedron = numberOf(bestFor);
-      if (tetrahedron == LocalMesh::None ||
-        std::any_of(what.Old.begin(), what.Old.end(),
+  const auto find = [&](std::size_t i)
+  {
+    const auto& [what, bestFor, newPoint] = known[i];
+    FoundChange found;
+    if (std::none_of(what.Old.begin(), what.Old.end(),
           [&](const Corners& old) { return numberOf(old) == LocalMesh::None; }))
+    {
+      found.BestFor = numberOf(bestFor);
+    }
+    if (found.BestFor != LocalMesh::None)
+    {
+      found.What = what.In(mesh, idOf);
+      found.MayBeDone = mayDo(found.What, found.BestFor);
+    }
+    return found;
+  };
+  ChangeNotes notes;
+  std::vector<std::uint32_t> changed;
+  SearchAhead(
+    parallelFor, known.size(), LooksAtOnce, notes.Touched(), find,
+    [&](std::size_t /*i*/, const FoundChange& found, int changes)
+    {
+      return found.BestFor == LocalMesh::None || // may be there by now
+        notes.IsTouchedAround(mesh, found.BestFor, changes);
+    },
+    [&](std::size_t i, const FoundChange& found)
+    {
+      if (!found.MayBeDone)
       {
         return;
       }
-      const Change change = what.In(mesh, idOf);
-      if (mayDo(change, tetrahedron))
+      if (const std::uint32_t newPoint = known[i].NewPoint; newPoint != LocalMesh::None)
       {
-        if (newPoint != LocalMesh::None)
-        {
-          ids.resize(
-            std::max<std::size_t>(ids.size(), newPoint + std::size_t{ 1 }), LocalMesh::None);
-          ids[newPoint] = static_cast<std::uint32_t>(mesh.Mesh().Positions.size());
-        }
-        this->Note(change, tetrahedron, mesh);
-        Do(change, mesh, changed);
+        ids.resize(std::max<std::size_t>(ids.size(), newPoint + std::size_t{ 1 }), LocalMesh::None);
+        ids[newPoint] = static_cast<std::uint32_t>(mesh.Mesh().Positions.size());
       }
+      this->Note(found.What, found.BestFor, mesh);
+      notes.Do(found.What, mesh, changed);
     });
 }
 

@@ -23,12 +23,11 @@ namespace isodiamond
 class KnownChanges
 {
 public:
-  /** Whether a change may be made for a tetrahedron. */
+  /** Whether a change may be made for a tetrahedron; reads no more than BestChange() does. */
   using Check = std::function<bool(const Change& change, std::uint32_t tetrahedron)>;
 
   /** Does again what may be done, in a mesh that has not been changed yet. From then on this knows
-   *  of changes of that mesh only.
-   *  @param parallelFor is given the work in successive steps */
+   *  of changes of that mesh only. */
   void DoAgain(LocalMesh& mesh, const Check& mayDo, const ParallelFor& parallelFor);
 
   /** Notes a change that is about to be made in the mesh last given to DoAgain().

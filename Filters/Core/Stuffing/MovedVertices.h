@@ -3,9 +3,9 @@
 #define isodiamond_MovedVertices_h
 
 #include "Field/Parallel.h"
-#include "Patches/IntervalPatches.h"
-#include "Stuffing/Background.h"
-#include "Stuffing/SurfaceLinks.h"
+#include "Stuffing/LeafPieces.h"
+#include "Stuffing/TouchedPoints.h"
+#include "Stuffing/VertexPlaces.h"
 
 namespace isodiamond
 {
@@ -31,61 +31,44 @@ public:
 
   /** Pushes isovertices away from vertices that must not move: those that are pinned, or where the
    *  topology would change. @param most how far, in the world */
-  void PushAll(double most);
+  void PushAll(double most, const ParallelFor& parallelFor);
 
-  /** What is in range, as tetrahedra of points. Of several ways to cut a leaf, the one whose worst
-   *  piece is best. What was pushed is a new point, blended from the old one: that tells where the
-   *  surface was. */
-  TetrahedronMesh Cut(const ParallelFor& parallelFor) const;
-
-  /** The interval volume's mesh: each leaf cut in the way that the errors of diamonds are those of.
-   *  @pre no vertex has been moved */
-  TetrahedronMesh CutAsMeasured() const;
+  /** What is in range, cut in the best way. */
+  TetrahedronMesh Cut(const ParallelFor& parallelFor) const
+  {
+    return CutInBestWay(this->Mesh, this->Vertices, this->Points, parallelFor);
+  }
 
 private:
   /** An isovertex that a vertex could move to. */
   struct Goal
   {
-    double Distance = 0.0; ///< as a part of the edge
+    double Distance = HUGE_VAL; ///< as a part of the edge
     std::uint32_t Vertex = 0;
     std::uint32_t Point = CutMesh::None;
     int Surface = 0;
   };
 
-  TetrahedronMesh PlacedPoints() const;
-  std::vector<std::uint32_t> AddPushed(TetrahedronMesh& mesh) const;
-  double SineOf(std::uint32_t tetrahedron, const PatchTetrahedron& piece) const;
-  std::uint8_t BestPatch(std::uint32_t tetrahedron) const;
-  void AddPieces(std::uint32_t tetrahedron, std::uint8_t patch, TetrahedronMesh& mesh) const;
   Goal NearestTo(std::uint32_t vertex, double most) const;
   Goal NearestToMove(std::uint32_t vertex) const
   {
     return this->NearestTo(vertex, this->Mesh.MostMoveOf(vertex));
   }
-  bool TryToMove(const Goal& goal);
-  bool HasToStay(std::uint32_t vertex);
+  Goal GoalOf(std::uint32_t vertex) const;
+  void MoveTo(const Goal& goal);
+  PlacesView Tried(const Goal& goal) const;
+  bool CanBeOn(const Goal& goal) const;
+  bool IsRoundAround(const Goal& goal) const;
+  bool IsBent(const PlacesView& tried, std::uint32_t leaf) const;
+  bool HasToStay(std::uint32_t vertex) const;
   void Push(std::uint32_t point, std::uint32_t from, double most);
-  bool AreAllRound(std::uint32_t vertex) const;
-  bool IsBent(std::uint32_t tetrahedron) const;
-  bool IsPinned(std::uint32_t tetrahedron) const
-  {
-    return PinsOf(this->Mesh.Leaves(), tetrahedron) > 0;
-  }
-  bool ArePiecesPositive(std::uint32_t tetrahedron) const;
-  std::uint32_t PointOf(std::uint32_t tetrahedron, const PatchPoint& point) const;
-  std::uint32_t PointAt(std::uint32_t vertex) const;
-  Corners CornersOf(std::uint32_t tetrahedron, const PatchTetrahedron& piece) const;
-  const std::vector<std::vector<PatchTetrahedron>>& PatchesOf(std::uint32_t tetrahedron) const;
-  bool IsCut(std::uint32_t first, std::uint32_t second, int surface) const;
   std::uint32_t OtherEnd(std::uint32_t point, std::uint32_t vertex) const;
   double PartOfEdge(std::uint32_t point, std::uint32_t vertex) const;
 
   const Background& Mesh;
-  std::vector<std::uint8_t> States; ///< by vertex, see VertexState
-  std::vector<std::uint32_t> Goals; ///< by vertex: the point that it was moved to, or None
-  std::vector<Vector> Positions;
-  std::vector<Vector> Places; ///< by point
-  SurfaceLinks Links;
+  VertexPlaces Vertices;
+  std::vector<Vector> Points; ///< where they are
+  TouchedPoints Touched;      ///< vertices around those that have moved
 };
 
 }

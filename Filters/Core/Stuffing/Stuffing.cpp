@@ -137,10 +137,10 @@ BothMeshes CutLeaves(
   BothMeshes meshes;
   if (withPlain)
   {
-    meshes.Plain = vertices.CutAsMeasured();
+    meshes.Plain = CutAsMeasured(background, parallelFor);
   }
   vertices.MoveAll(parallelFor);
-  vertices.PushAll(mostPush);
+  vertices.PushAll(mostPush, parallelFor);
   meshes.Stuffed = vertices.Cut(parallelFor);
   return meshes;
 }

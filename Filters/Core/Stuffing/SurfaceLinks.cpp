@@ -44,7 +44,8 @@ int Walk(const std::vector<std::array<Edge, 2>>& triangles, int side)
 
 bool SurfaceLinks::IsInside(std::uint32_t vertex, int surface) const
 {
-  return surface == 0 ? this->States[vertex] > StateOn(0) : this->States[vertex] < StateOn(1);
+  return surface == 0 ? this->Vertices.StateOf(vertex) > StateOn(0)
+                      : this->Vertices.StateOf(vertex) < StateOn(1);
 }
 
 /** Whether sides change in the link of a vertex along one cycle, or on a wall along one path. */
@@ -103,7 +104,7 @@ bool SurfaceLinks::HasOneRun(std::uint32_t vertex, std::uint32_t other, int surf
     changes += inside[0] != inside[1] ? 1 : 0;
     for (int i = 0; i < 2; ++i)
     {
-      if (inside[i] && this->States[ends[1 - i]] == StateOn(surface))
+      if (inside[i] && this->Vertices.StateOf(ends[1 - i]) == StateOn(surface))
       {
         const std::uint32_t third = ends[1 - i];
         const bool isTwice = std::find(seen.begin(), seen.end(), third) != seen.end();
@@ -125,8 +126,8 @@ bool SurfaceLinks::HaveOneRunEach(std::uint32_t vertex, int surface) const
     {
       const std::uint32_t a = others[i];
       const std::uint32_t b = others[(i + 1) % 3];
-      if (this->States[a] == StateOn(surface) && this->States[b] == StateOn(surface) &&
-        !this->HasOneRun(a, b, surface))
+      if (this->Vertices.StateOf(a) == StateOn(surface) &&
+        this->Vertices.StateOf(b) == StateOn(surface) && !this->HasOneRun(a, b, surface))
       {
         return false;
       }
@@ -146,7 +147,7 @@ bool SurfaceLinks::CanBeOn(std::uint32_t vertex, int surface, bool wasInside) co
   {
     for (const std::uint32_t corner : this->Mesh.CornersOf(tetrahedron))
     {
-      if (corner != vertex && this->States[corner] == StateOn(surface) &&
+      if (corner != vertex && this->Vertices.StateOf(corner) == StateOn(surface) &&
         std::find(others.begin(), others.end(), corner) == others.end())
       {
         others.push_back(corner);

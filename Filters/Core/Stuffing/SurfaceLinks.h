@@ -2,7 +2,7 @@
 #ifndef isodiamond_SurfaceLinks_h
 #define isodiamond_SurfaceLinks_h
 
-#include "Stuffing/Background.h"
+#include "Stuffing/VertexPlaces.h"
 
 namespace isodiamond
 {
@@ -27,14 +27,14 @@ namespace isodiamond
 class SurfaceLinks
 {
 public:
-  /** @param background,states must outlive it; states may change */
-  SurfaceLinks(const Background& background, const std::vector<std::uint8_t>& states)
+  /** @param background must outlive it, like the places that vertices are seen at */
+  SurfaceLinks(const Background& background, const PlacesView& vertices)
     : Mesh(background)
-    , States(states)
+    , Vertices(vertices)
   {
   }
 
-  /** Whether a vertex that is now on a surface can be there.
+  /** Whether a vertex that is seen on a surface can be there.
    *  @param wasInside whether it was inside before */
   bool CanBeOn(std::uint32_t vertex, int surface, bool wasInside) const;
 
@@ -45,7 +45,7 @@ private:
   bool HaveOneRunEach(std::uint32_t vertex, int surface) const;
 
   const Background& Mesh;
-  const std::vector<std::uint8_t>& States;
+  PlacesView Vertices;
 };
 
 }
