@@ -52,7 +52,8 @@ public:
    * If not 0, this replaces ErrorTolerance with the smallest tolerance that gives no more triangles
    * (tetrahedra for an interval volume) than this, over all isovalues together; if none does, you
    * get the mesh with the fewest and a warning. With composite inputs it applies to each block.
-   * With a region of interest or a viewpoint, and for an HD, the tolerance is found by 14 queries;
+   * With a region of interest, a viewpoint or hidden cells, and for an HD, the tolerance is found by
+   * up to 16 queries;
    * with Simplify or SimulationQuality, where coarser meshes can have more cells, by making some
    * ten meshes. Default: 0.
    */

@@ -58,7 +58,8 @@ public:
 
   ///@{
   /**
-   * How many stored diamonds the last execution subdivided, and the size of its active front: the
+   * How many stored diamonds the last execution subdivided (but for those that SimulationQuality
+   * refines afterwards), and the size of its active front: the
    * diamonds that were not subdivided but have a subdivided parent, or the root alone. For HD and
    * RI all diamonds of the domain count; for MI, stored ones with a stored parent. 0 before the
    * first execution and after an error. Both are counted on demand, since counting the front takes
@@ -95,9 +96,9 @@ public:
 
   ///@{
   /**
-   * The tolerated error inside an interval volume, where no surface is, in field units. In
-   * tetrahedra with all vertices inside, the error is at most the greater of this and
-   * ErrorTolerance; the latter holds where their diamond carries a surface. When off, the inside is
+   * The tolerated error inside an interval volume, where no surface is, in field units. It
+   * holds in tetrahedra whose diamond has all vertices inside; in others ErrorTolerance does, in its
+   * own metric. When off, the inside is
    * as coarse as the surfaces let it be. SetInteriorTolerance turns UseInteriorTolerance on. Needs
    * an HD or vtkIsodiamondBuilder's RefineInterior. Default: off.
    */

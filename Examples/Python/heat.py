@@ -8,6 +8,7 @@ the surfaces are kept at 0 degrees, and nothing passes through the walls of the 
 many steps the method of conjugate gradients needs, and writes the temperature. Needs getfem, meshio
 and SciPy (Debian: python3-getfem python3-meshio python3-scipy), but neither ParaView nor VTK.
 """
+import inspect
 import os
 import sys
 import tempfile
@@ -58,7 +59,8 @@ def count(_):
     steps += 1
 
 
-solution, info = cg(matrix[free][:, free].tocsr(), load[free], tol=1e-8, callback=count)
+relative = "rtol" if "rtol" in inspect.signature(cg).parameters else "tol"  # until SciPy 1.12
+solution, info = cg(matrix[free][:, free].tocsr(), load[free], callback=count, **{relative: 1e-8})
 if info != 0:
     sys.exit("heat.py: no solution was found")
 temperature = numpy.zeros(len(volume.points))

@@ -27,7 +27,7 @@ namespace vtkIsodiamond
  *
  * Volumes count as the same when the values of their arrays, their dimensions, padding and hidden
  * cells are the same; with the distance metric their lengths in the world must be, too. All other
- * geometry is applied on extraction. The least recently used is forgotten first.
+ * geometry is applied on extraction. The most recently used that fit are kept.
  */
 class Cache
 {

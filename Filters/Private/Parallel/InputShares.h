@@ -17,7 +17,7 @@ namespace vtkIsodiamond
 /**
  * Which share of a mesh a process makes of each of its inputs.
  *
- * In parallel every process has the whole input, and makes its share of the mesh. But blocks of a
+ * In parallel every process makes its share of the mesh of the whole input. But blocks of a
  * composite input may be distributed, as those of a simulation are, whatever is asked for: then the
  * processes that have a block, mostly one alone, deal its mesh out among themselves.
  */

@@ -31,8 +31,8 @@ CountedTolerance LeastTolerance(
   const std::vector<const isodiamond::CellCounts*>& counts, std::int64_t target);
 
 /**
- * The same by bisection, for queries with a region of interest or a viewpoint and those of an HD,
- * where every count takes a query. A coarser mesh can have a few more cells; then the result may
+ * The same by bisection, for queries with a region of interest or a viewpoint, where cells are hidden
+ * and for an HD: every count takes a query. A coarser mesh can have a few more cells; then the result may
  * not be the least.
  */
 CountedTolerance LeastTolerance(const isodiamond::ErrorCode& codes, std::int64_t target,
