@@ -8,7 +8,7 @@
 #include "Build/Classification.h"
 #include "Build/StagedBuild.h"
 #include "Field/PeerPortion.h"
-#include "ThreadPeers.h"
+#include "Tools/ThreadPeers.h"
 
 #include <algorithm>
 #include <array>

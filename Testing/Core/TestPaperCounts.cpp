@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The paper's Table 2, exactly, on its own volumes, padded with zeros to (2^N + 1)^3. The
 // environment variable ISODIAMONDS_DATA_DIR says where the files are.
-#include "IntervalTestTools.h"
+#include "Tools/IntervalTestTools.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What must hold for any samples, regions and queries, tested on random ones. The seed is printed:
 // with ISODIAMONDS_SEED the same cases come again; ISODIAMONDS_CASES says how many there are.
-#include "DistanceTestTools.h"
 #include "Refinement/ScalarQuery.h"
-#include "TopologyTestTools.h"
+#include "Tools/DistanceTestTools.h"
+#include "Tools/TopologyTestTools.h"
 
 #include <gtest/gtest.h>
 

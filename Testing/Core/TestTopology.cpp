@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The topology of full resolution at every tolerance: Betti numbers, counted on random meshes.
 #include "Refinement/ScalarQuery.h"
-#include "TopologyTestTools.h"
+#include "Tools/TopologyTestTools.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Regions of interest through the filters: geometry, properties, counts, bad input. The sets behind
-// them are compared with the reference in Testing/Core/TestRegion.cpp.
+// them are compared with the reference in Testing/Core/Refinement/TestRegion.cpp.
 #include "FilterTestTools.h"
 
 #include "vtkDiamondMesh.h"
