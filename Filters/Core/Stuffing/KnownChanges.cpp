@@ -12,8 +12,9 @@ namespace isodiamond
 namespace
 {
 
-/** Changes that are looked at at the same time: few of them touch each other. */
-constexpr std::size_t LooksAtOnce = 64;
+/** Changes that are looked at at the same time: not many, as those of one place follow each other.
+ */
+constexpr std::size_t LooksAtOnce = 32;
 
 /** A known change, as it is in a mesh. */
 struct FoundChange

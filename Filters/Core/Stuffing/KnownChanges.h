@@ -23,7 +23,8 @@ namespace isodiamond
 class KnownChanges
 {
 public:
-  /** Whether a change may be made for a tetrahedron; reads no more than BestChange() does. */
+  /** Whether a change may be made for a tetrahedron. It reads no more than BestChange() does; it is
+   *  called in several threads, and again for a change around which others have been made. */
   using Check = std::function<bool(const Change& change, std::uint32_t tetrahedron)>;
 
   /** Does again what may be done, in a mesh that has not been changed yet. From then on this knows

@@ -13,8 +13,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 #include <random>
+#include <tuple>
 
 using namespace isodiamond;
 
@@ -48,15 +50,22 @@ struct DoneAgain
   DoneAgain(KnownChanges known, const ImprovementOptions& options, TetrahedronMesh mesh)
     : Mesh(std::move(mesh))
   {
+    // One may be asked about more than once, if others have been done since: the last answer
+    // counts.
+    std::map<std::tuple<std::uint32_t, int, std::uint32_t, std::uint32_t, Vector>, bool> answers;
     known.DoAgain(
       this->Mesh,
       [&](const Change& change, std::uint32_t tetrahedron)
       {
         const bool helps = Helps(change, this->Mesh, options, tetrahedron);
-        ++(helps ? this->Done : this->Refused).at(change.Kind);
+        answers[{ tetrahedron, change.Kind, change.Point, change.Other, change.Place }] = helps;
         return helps;
       },
       SerialFor);
+    for (const auto& [change, helps] : answers)
+    {
+      ++(helps ? this->Done : this->Refused).at(std::get<1>(change));
+    }
     EXPECT_EQ(known.Count(), this->CountDone());
   }
 
