@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 #include <set>
 #include <thread>
 
@@ -146,6 +147,25 @@ TEST(Progress, OfSimulationQualityIsNotAtItsEndFromTheStart)
   ASSERT_EQ(listener->Begins.count("Improving tetrahedra"), 1U);
   EXPECT_LT(listener->Begins["Improving tetrahedra"], 0.9);
   EXPECT_GT(listener->Last, listener->Begins["Improving tetrahedra"]);
+}
+
+// Each mesh that is tried takes the same part of what is left.
+TEST(Progress, EndsEarlyWhereThereIsNoRoomForGoodAngles)
+{
+  std::mt19937 random(5);
+  vtkNew<vtkIsodiamondIntervalVolume> volume;
+  volume->SetInputData(test::MakeImage(
+    { 7, 7, 7 }, [&](double, double, double) { return (random() % 10000) / 10000.0; }));
+  volume->SetIsorange(0.5, 0.55);
+  volume->SetErrorTolerance(0.5);
+  volume->Update();
+  volume->SimulationQualityOn();
+  vtkNew<Listener> listener;
+  volume->AddObserver(vtkCommand::ProgressEvent, listener);
+  volume->Update();
+  EXPECT_LT(volume->GetSmallestDihedralAngle(), 10.0);
+  EXPECT_GT(listener->Last, 0.2);
+  EXPECT_LT(listener->Last, 0.95); // after the tenth mesh
 }
 
 TEST(Progress, FullResolutionWaitsForNoErrors)

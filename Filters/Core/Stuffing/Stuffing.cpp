@@ -239,12 +239,13 @@ StuffedMesh Stuff(const StuffingInput& input, const ParallelFor& parallelFor, Kn
   BestAttempt attempts(
     background, meshes.Stuffed, options, getsCoarser ? &coarsening : nullptr, parallelFor, known);
   BestAttempt::Attempt best = attempts.Find();
+  const bool isHopeless = best.IsHopeless();
   std::vector<std::uint32_t> far = std::move(best.FarLeaves);
   if (getsCoarser && far.empty())
   {
     far = Coarsen(best.Mesh, coarsening, parallelFor);
   }
-  StuffedMesh result{ std::move(best.Mesh), {}, {}, {} };
+  StuffedMesh result{ std::move(best.Mesh), {}, {}, isHopeless, {} };
   for (const std::uint32_t leaf : far)
   {
     (input.CanBeFiner[leaf] ? result.FarLeaves : result.TightLeaves).push_back(leaf);

@@ -71,6 +71,8 @@ struct StuffedMesh
   std::vector<std::uint32_t> FarLeaves;
   std::vector<std::uint32_t> TightLeaves;
   ///@}
+  /** Whether so much is bad that nothing that takes long has been tried (BestAttempt.h). */
+  bool IsHopeless = false;
   std::optional<double> ToleranceExcess; ///< of a finished mesh, if there are allowances
 };
 /** @param parallelFor is given the work in successive steps: it can report progress, and abort

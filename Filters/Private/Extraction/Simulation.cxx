@@ -64,6 +64,15 @@ double PlainVolume(const isodiamond::IsodiamondHierarchy& hierarchy, const isodi
   return VolumeOf(tetrahedra);
 }
 
+/** @param some,from sorted */
+void Remove(const std::vector<std::uint64_t>& some, std::vector<std::uint64_t>& from)
+{
+  from.erase(
+    std::remove_if(from.begin(), from.end(),
+      [&](std::uint64_t each) { return std::binary_search(some.begin(), some.end(), each); }),
+    from.end());
+}
+
 /** Takes pins away, if there are bad tetrahedra.
  *  @param all or only those of vertices that are near these
  *  @return whether there were any */
@@ -74,16 +83,13 @@ bool Release(bool all, const StuffedVolume& volume, std::vector<std::uint64_t>& 
     return false;
   }
   const std::vector<std::uint64_t> near = volume.VerticesNearBad();
-  if (near.empty())
+  const std::size_t before = pinned.size();
+  if (all && !near.empty())
   {
-    return false;
+    pinned.clear();
   }
-  const auto left = std::remove_if(pinned.begin(), pinned.end(),
-    [&](std::uint64_t vertex)
-    { return all || std::binary_search(near.begin(), near.end(), vertex); });
-  const bool isAny = left != pinned.end();
-  pinned.erase(left, pinned.end());
-  return isAny;
+  Remove(near, pinned);
+  return pinned.size() < before;
 }
 
 /** Whether all cells have a volume, as far as one can tell without looking at each. Steps may be as
@@ -176,7 +182,7 @@ public:
       Task part = this->Parts.Next();
       this->RefineBefore(part);
       this->Asked.MayRefine = round < LastRefinement;
-      this->Asked.MayPin = this->Releases == 0 && round < LastPinning;
+      this->Asked.MayPin = this->IsPinning && this->Releases == 0 && round < LastPinning;
       std::vector<isodiamond::Place> far;
       if (std::optional<Mesh> mesh = this->Stuff(part, far))
       {
@@ -219,8 +225,15 @@ private:
     part.Begin(Improving, 0.0, 1.0);
     const StuffedVolume volume(*this->Leaves, this->Options, this->Asked, part.For(), &this->Known);
     far = volume.FarDiamonds();
-    const std::vector<std::uint64_t> tight = volume.TightVertices();
-    if (far.empty() && tight.empty())
+    std::vector<std::uint64_t> tight = volume.TightVertices();
+    if (volume.IsHopeless() && !tight.empty())
+    {
+      // Pins near bad tetrahedra would have to go again; where most are, so would later ones.
+      const std::size_t before = tight.size();
+      Remove(volume.VerticesNearBad(), tight);
+      this->IsPinning = 2 * tight.size() > before;
+    }
+    else if (far.empty() && tight.empty())
     {
       // Angles come first: where some are bad, pins there go; if that does not help, all.
       if (!Release(this->Releases == LocalReleases, volume, this->Asked.Pinned))
@@ -245,6 +258,7 @@ private:
   bool IsSearched = false; ///< whether Search finds no more in the leaves that there are now
   FarDiamondSearch Search;
   isodiamond::KnownChanges Known;
+  bool IsPinning = true;
   int Releases = 0; ///< of pins
   Rounds Parts;     ///< of the task
 };

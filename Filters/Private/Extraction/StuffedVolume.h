@@ -58,6 +58,9 @@ public:
   std::vector<std::uint64_t> VerticesNearBad() const;
   ///@}
 
+  /** Whether there is no room for good angles nearly anywhere. */
+  bool IsHopeless() const { return this->Stuffed.IsHopeless; }
+
   /** Its points and cells, with their data: those of moved and added points are interpolated
    *  linearly in the interval volume's mesh. @pre there are no far diamonds or tight vertices */
   Mesh Write(const MeshOptions& options, const isodiamond::ParallelFor& parallelFor) const;
