@@ -4,10 +4,10 @@
  * @brief   the tetrahedra of the current diamond mesh of a query
  *
  * Input: a hierarchy; properties: those of vtkIsodiamondExtractor, but Simplify, SimulationQuality
- * and OutputType have no effect, and a target counts the extractor's cells. Output: the tetrahedra under the
- * front at the tolerance, with the cell arrays `Level` and `Class` of the diamond that each lies in
- * (the paper's figure 14). From HD and RI they tile the domain; from MI they are only those that
- * carry the surface. Tetrahedra that stick out of the image are left out.
+ * and OutputType have no effect, and a target counts the extractor's cells. Output: the tetrahedra
+ * under the front at the tolerance, with the cell arrays `Level` and `Class` of the diamond that
+ * each lies in (the paper's figure 14). From HD and RI they tile the domain; from MI they are only
+ * those that carry the surface. Tetrahedra that stick out of the image are left out.
  *
  * Weiss & De Floriani, "Isodiamond Hierarchies", IEEE TVCG 2010, section 6.
  */

@@ -52,10 +52,9 @@ public:
    * If not 0, this replaces ErrorTolerance with the smallest tolerance that gives no more triangles
    * (tetrahedra for an interval volume) than this, over all isovalues together; if none does, you
    * get the mesh with the fewest and a warning. With composite inputs it applies to each block.
-   * With a region of interest, a viewpoint or hidden cells, and for an HD, the tolerance is found by
-   * up to 16 queries;
-   * with Simplify or SimulationQuality, where coarser meshes can have more cells, by making some
-   * ten meshes. Default: 0.
+   * With a region of interest, a viewpoint or hidden cells, and for an HD, the tolerance is found
+   * by up to 16 queries; with Simplify or SimulationQuality, where coarser meshes can have more
+   * cells, by making some ten meshes. Default: 0.
    */
   vtkSetClampMacro(TargetNumberOfTriangles, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(TargetNumberOfTriangles, vtkIdType);

@@ -225,13 +225,13 @@ public:
 
   ///@{
   /**
-   * Into how many slabs, of 8 slices or more, an image is cut at most, so that no more than one is in
-   * memory: each is requested twice, once more if the hierarchy carries point arrays or normals, and
-   * with CloseBoundary once beforehand, to find the minimum. The hierarchy is the same however the
-   * image is cut. 0: one, in parallel one for each process, or as many as keep the image within the
-   * free memory. For relevant and minimal hierarchies of
-   * images without blanked cells, from sources that can give parts of an image; otherwise the image
-   * is read at once, with a warning if more than one was asked for. Default: 0.
+   * Into how many slabs, of 8 slices or more, an image is cut at most, so that no more than one is
+   * in memory: each is requested twice, once more if the hierarchy carries point arrays or normals,
+   * and with CloseBoundary once beforehand, to find the minimum. The hierarchy is the same however
+   * the image is cut. 0: one, in parallel one for each process, or as many as keep the image within
+   * the free memory. For relevant and minimal hierarchies of images without blanked cells, from
+   * sources that can give parts of an image; otherwise the image is read at once, with a warning if
+   * more than one was asked for. Default: 0.
    */
   vtkSetClampMacro(NumberOfBlocks, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfBlocks, int);

@@ -97,10 +97,10 @@ public:
   ///@{
   /**
    * The tolerated error inside an interval volume, where no surface is, in field units. It
-   * holds in tetrahedra whose diamond has all vertices inside; in others ErrorTolerance does, in its
-   * own metric. When off, the inside is
-   * as coarse as the surfaces let it be. SetInteriorTolerance turns UseInteriorTolerance on. Needs
-   * an HD or vtkIsodiamondBuilder's RefineInterior. Default: off.
+   * holds in tetrahedra whose diamond has all vertices inside; in others ErrorTolerance does, in
+   * its own metric. When off, the inside is as coarse as the surfaces let it be.
+   * SetInteriorTolerance turns UseInteriorTolerance on. Needs an HD or vtkIsodiamondBuilder's
+   * RefineInterior. Default: off.
    */
   void SetInteriorTolerance(double tolerance);
   /** The same, but leaves UseInteriorTolerance as it is: for user interfaces that set both. */

@@ -174,15 +174,13 @@ public:
 
   ///@{
   /**
-   * Into how many slabs, of 8 slices or more, the input is cut at most, so that no more than one is in
-   * memory: when a
-   * hierarchy is built, each is requested twice, once more for point data, and if the boundary is
-   * closed once beforehand, to find the minimum. The mesh is the same however the input is cut. 0:
-   * one, in parallel one for each process, or as many as keep the input within the free memory.
-   * Slabs are for
-   * images without blanked cells, from sources that can give parts of an image; otherwise the input
-   * is read at once, with a warning if more than one was asked for. With slabs, hierarchies are
-   * recognized by upstream's modification times, not by content. Default: 0.
+   * Into how many slabs, of 8 slices or more, the input is cut at most, so that no more than one is
+   * in memory: when a hierarchy is built, each is requested twice, once more for point data, and if
+   * the boundary is closed once beforehand, to find the minimum. The mesh is the same however the
+   * input is cut. 0: one, in parallel one for each process, or as many as keep the input within the
+   * free memory. Slabs are for images without blanked cells, from sources that can give parts of an
+   * image; otherwise the input is read at once, with a warning if more than one was asked for. With
+   * slabs, hierarchies are recognized by upstream's modification times, not by content. Default: 0.
    */
   vtkSetClampMacro(NumberOfBlocks, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfBlocks, int);

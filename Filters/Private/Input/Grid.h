@@ -29,8 +29,8 @@ std::vector<vtkDataSet*> LeavesOf(vtkDataObject* data);
 /** Samples on each axis; all 0 if the data set is none of these. */
 std::array<int, 3> DimensionsOf(vtkDataSet* grid);
 
-/** The length of a grid's diagonal in the world: of an image between its first and last sample, else
- *  that of its bounds. */
+/** The length of a grid's diagonal in the world: of an image between its first and last sample,
+ * else that of its bounds. */
 double DiagonalOf(vtkDataSet* grid);
 
 /** The smallest spacing of an image or rectilinear grid, and about the mean one of a structured

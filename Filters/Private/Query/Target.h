@@ -31,9 +31,9 @@ CountedTolerance LeastTolerance(
   const std::vector<const isodiamond::CellCounts*>& counts, std::int64_t target);
 
 /**
- * The same by bisection, for queries with a region of interest or a viewpoint, where cells are hidden
- * and for an HD: every count takes a query. A coarser mesh can have a few more cells; then the result may
- * not be the least.
+ * The same by bisection, for queries with a region of interest or a viewpoint, where cells are
+ * hidden and for an HD: every count takes a query. A coarser mesh can have a few more cells; then
+ * the result may not be the least.
  */
 CountedTolerance LeastTolerance(const isodiamond::ErrorCode& codes, std::int64_t target,
   const std::function<std::int64_t(double tolerance)>& cellsAt);

@@ -416,6 +416,19 @@ TEST(Improvement, DoesNotDependOnThreads)
   EXPECT_TRUE(one.Mesh.Tetrahedra == three.Mesh.Tetrahedra);
   EXPECT_TRUE(one.Mesh.Positions == three.Mesh.Positions);
   EXPECT_FALSE(one.Mesh.Blended.empty());
+
+  // Nor do changes that are done again.
+  TetrahedronMesh mesh = one.Mesh;
+  mesh.Blended.clear(); // it is a mesh of its own here
+  const ImprovementOptions options = test::OptionsFor(mesh, 20.0);
+  KnownChanges known;
+  Improve(mesh, options, SerialFor, &known);
+  EXPECT_GT(known.Count(), 300U);
+  KnownChanges same = known;
+  const TetrahedronMesh serial = Improve(mesh, options, SerialFor, &known);
+  const TetrahedronMesh threaded = Improve(mesh, options, test::ThreadedFor(4), &same);
+  EXPECT_TRUE(serial.Tetrahedra == threaded.Tetrahedra);
+  EXPECT_TRUE(serial.Positions == threaded.Positions);
 }
 
 TEST(Improvement, LeavesAThirdOfTheBadInAPlainMeshOfNoise)
