@@ -14,7 +14,7 @@ namespace
 
 /** Changes that are looked at at the same time: not many, as those of one place follow each other.
  */
-constexpr std::size_t LooksAtOnce = 32;
+constexpr std::size_t ChangesAtOnce = 32;
 
 /** A known change, as it is in a mesh. */
 struct FoundChange
@@ -113,7 +113,7 @@ void KnownChanges::DoAgain(LocalMesh& mesh, const Check& mayDo, const ParallelFo
   ChangeNotes notes;
   std::vector<std::uint32_t> changed;
   SearchAhead(
-    parallelFor, known.size(), LooksAtOnce, notes.Touched(), find,
+    parallelFor, known.size(), ChangesAtOnce, notes.Touched(), find,
     [&](std::size_t /*i*/, const FoundChange& found, int changes)
     {
       return found.BestFor == LocalMesh::None || // may be there by now
