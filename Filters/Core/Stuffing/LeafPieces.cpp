@@ -11,7 +11,7 @@ namespace
 {
 
 /** This many leaves are worth a thread. */
-constexpr std::int64_t LeavesOfThread = 2048;
+constexpr std::int64_t LeastLeaves = 2048;
 
 /** All points of a background, and the surfaces and walls that they are on. */
 TetrahedronMesh PointsOf(const Background& background)
@@ -74,7 +74,7 @@ void AddPieces(const LeafPieces& pieces, const std::vector<std::uint8_t>& ways, 
   }
   mesh.Tetrahedra.resize(first.back());
   mesh.Origins.resize(first.back());
-  ForEachIndex(parallelFor, leaves, LeavesOfThread,
+  ForEachIndex(parallelFor, leaves, LeastLeaves,
     [&](std::int64_t i)
     {
       const auto leaf = static_cast<std::uint32_t>(i);
@@ -167,7 +167,7 @@ TetrahedronMesh CutInBestWay(const Background& background, const VertexPlaces& v
 {
   const LeafPieces pieces(background, vertices, places);
   std::vector<std::uint8_t> ways(background.Leaves().Tetrahedra.size());
-  ForEachIndex(parallelFor, ways.size(), LeavesOfThread,
+  ForEachIndex(parallelFor, ways.size(), LeastLeaves,
     [&](std::int64_t leaf) { ways[leaf] = pieces.BestWay(static_cast<std::uint32_t>(leaf)); });
   TetrahedronMesh mesh = PointsOf(background);
   const std::vector<std::uint32_t> ids = AddPushed(places, mesh);
