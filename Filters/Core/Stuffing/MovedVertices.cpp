@@ -22,7 +22,7 @@ constexpr double NearPart = 1.0 / 3.0;
 constexpr double PushedPart = 0.2;
 
 /** Moves that are tried at the same time: few of them are near to each other. */
-constexpr std::size_t TriesAtOnce = 64;
+constexpr std::size_t MovesAtOnce = 64;
 
 /** This many vertices are worth a thread. */
 constexpr std::int64_t LeastRange = 2048;
@@ -52,7 +52,7 @@ void MovedVertices::MoveAll(const ParallelFor& parallelFor)
     [](const Goal& a, const Goal& b)
     { return a.Distance != b.Distance ? a.Distance < b.Distance : a.Vertex < b.Vertex; });
   SearchAhead(
-    parallelFor, goals.size(), TriesAtOnce, this->Touched,
+    parallelFor, goals.size(), MovesAtOnce, this->Touched,
     [&](std::size_t i) { return this->GoalOf(goals[i].Vertex); },
     [&](std::size_t i, const Goal& /*found*/, int changes)
     {
