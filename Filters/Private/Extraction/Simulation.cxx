@@ -159,14 +159,15 @@ SimulationOptions AskedBy(const WorldQuery& query, const Measure& measure,
 class StuffingRounds
 {
 public:
+  /** @param measure of the hierarchy that is refined */
   StuffingRounds(const isodiamond::RefinedSet& refined, const WorldQuery& query,
-    const MeshOptions& options, Task& task)
+    const Measure& measure, const MeshOptions& options, Task& task)
     : Hierarchy(refined.Hierarchy())
     , Options(options)
-    , Tolerance(query, Measure(this->Hierarchy), options.World)
-    , Asked(AskedBy(query, Measure(this->Hierarchy), options.World, this->Tolerance))
-    , Query(CoreQuery(HierarchyQuery(query, Measure(this->Hierarchy), options.World),
-        this->Hierarchy, options.World))
+    , Tolerance(query, measure, options.World)
+    , Asked(AskedBy(query, measure, options.World, this->Tolerance))
+    , Query(
+        CoreQuery(HierarchyQuery(query, measure, options.World), this->Hierarchy, options.World))
     , Leaves(&refined)
     , Parts(task, PlainPart, PartOfRound)
   {
@@ -258,9 +259,9 @@ private:
   bool IsSearched = false; ///< whether Search finds no more in the leaves that there are now
   FarDiamondSearch Search;
   isodiamond::KnownChanges Known;
-  bool IsPinning = true;
-  int Releases = 0; ///< of pins
-  Rounds Parts;     ///< of the task
+  bool IsPinning = true; ///< not where pins would have to go again
+  int Releases = 0;      ///< of pins
+  Rounds Parts;          ///< of the task
 };
 
 }
@@ -269,8 +270,9 @@ Mesh ExtractForSimulation(const isodiamond::RefinedSet& refined, const WorldQuer
   const MeshOptions& options, Task& task)
 {
   CheckVolumes(options.World);
-  Mesh mesh = GetsCoarser(query, Measure(refined.Hierarchy()).Metric)
-    ? StuffingRounds(refined, query, options, task).Run()
+  const Measure measure(refined.Hierarchy());
+  Mesh mesh = GetsCoarser(query, measure.Metric)
+    ? StuffingRounds(refined, query, measure, options, task).Run()
     : ExtractOnce(refined, query, options, task);
   KeepShare(options.Wanted, mesh);
   return mesh;
